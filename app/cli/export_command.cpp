@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/export_report.hpp"
 #include "app/cli/html_report.hpp"
+#include "app/cli/memory_room.hpp"
 #include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
@@ -163,6 +164,7 @@ Result<void> complete_request(ExportCommand& command) {
   options.walls = command.walls.demand();
   options.name = std::filesystem::path(command.pot).stem().stem().string();
   options.source = command.pot;
+  options.expect_memory = [](std::uint64_t bytes) { return expect_room("writing meshes", bytes); };
   return check_options(command);
 }
 
@@ -174,6 +176,8 @@ Result<std::vector<PotCopy>> add_copies(const Pot& pot, ExportCommand& command) 
   for (FileRequest& file : command.request.files) {
     const auto encoding = pot_encoding_of(file.path);
     if (!encoding) continue;
+    if (auto room = expect_room_to_write(copied->stack.size(), *encoding, file.path); !room)
+      return tl::make_unexpected(room.error());
     file.bytes = write_pot(*copied, *encoding);
     copies.push_back(describe_copy(*copied, *encoding, file.bytes.size()));
   }

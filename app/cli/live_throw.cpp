@@ -4,6 +4,7 @@
 #include "app/cli/device_choice.hpp"
 #include "app/cli/live_keys.hpp"
 #include "app/cli/live_report.hpp"
+#include "app/cli/pot_copy.hpp"
 #include "app/cli/replay.hpp"
 #include "app/cli/rescue.hpp"
 #include "app/servo/scene_hand.hpp"
@@ -73,9 +74,12 @@ Result<void> take_up_stroke(const LiveJob& job, LiveOptions& options, Stage& sta
   return {};
 }
 
+PotEncoding encoding_of(const LiveJob& job) {
+  return job.pot_path.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
+}
+
 std::string written_pot(const LiveJob& job, const Pot& pot) {
-  const bool cbor = job.pot_path.ends_with(".cbor");
-  return write_pot(pot, cbor ? PotEncoding::cbor : PotEncoding::json);
+  return write_pot(pot, encoding_of(job));
 }
 
 /// Only writing detects a full disk: tries to write the current pot, if that changes no existing
@@ -93,6 +97,8 @@ Result<AtomicFile> open_pot_file(const LiveJob& job, const Pot& pot) {
 /// Before throwing: an unwritable output found later would lose the pot.
 Result<void> open_pot(const LiveJob& job, Stage& stage) {
   if (job.pot_path.empty()) return {};
+  const std::size_t rings = stage.wheel->stack().size();
+  if (auto room = expect_room_to_write(rings, encoding_of(job), job.pot_path); !room) return room;
   auto file = open_pot_file(job, stage.wheel->pot());
   if (!file) return tl::make_unexpected(file.error());
   stage.pot_file.emplace(std::move(*file));

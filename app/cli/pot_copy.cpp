@@ -1,5 +1,7 @@
 #include "app/cli/pot_copy.hpp"
 
+#include "app/cli/memory_room.hpp"
+
 #include "claystack/engine/clay.hpp"
 
 #include <fmt/format.h>
@@ -16,6 +18,13 @@ Result<void> check_pot_name(const std::string& path) {
   if (path.empty() || path == "-" || pot_encoding_of(path)) return {};
   return failure(ErrorKind::bad_input,
                  path + ": expected a name that ends in .pot.json or .pot.cbor");
+}
+
+Result<void> expect_room_to_write(std::size_t rings, PotEncoding encoding,
+                                  const std::string& path) {
+  // Measured: a copy of the rings, the document and the text.
+  const std::uint64_t per_ring = encoding == PotEncoding::json ? 180 : 110;
+  return expect_room(path + ": writing the pot", per_ring * rings);
 }
 
 PotCopy describe_copy(const Pot& pot, PotEncoding encoding, std::size_t bytes) {

@@ -16,6 +16,11 @@ namespace clay::cli {
 /// Refuses names of outputs that hold no pot; none and - are allowed.
 [[nodiscard]] Result<void> check_pot_name(const std::string& path);
 
+/// An error of kind `io` if a pot of this many rings cannot be encoded in the memory that is left:
+/// "PATH: writing the pot needs about ...".
+[[nodiscard]] Result<void> expect_room_to_write(std::size_t rings, PotEncoding encoding,
+                                                const std::string& path);
+
 /// The written copy, for the report.
 struct PotCopy {
   PotEncoding encoding = PotEncoding::json;

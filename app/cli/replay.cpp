@@ -5,6 +5,7 @@
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -92,6 +93,12 @@ Result<Wheel> build_wheel(const SceneSpec& scene, const std::string& scene_path,
     if (!pot_path.empty()) files.append(" on ").append(pot_path);
     return failure(error.kind, files + ": " + error.message);
   };
+  constexpr std::uint64_t kBytesPerRing = 50;  // measured; space for all rings is reserved
+  if (auto room = expect_room(
+          fmt::format("{}: a wheel for up to {} rings", scene_path, max_rings_of(scene.lump)),
+          kBytesPerRing * max_rings_of(scene.lump));
+      !room)
+    return tl::make_unexpected(room.error());
   if (pot_path.empty()) {
     auto wheel = Wheel::build(scene);
     if (!wheel) return named(wheel.error());

@@ -218,6 +218,12 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
     scene->model = options.model == "paper" ? Model::paper : Model::conserving;
   auto wheel = build_wheel(*scene, options.scene, options.from);
   if (!wheel) return tl::make_unexpected(wheel.error());
+  const PotEncoding encoding =
+      options.pot.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
+  // Before playing; the pot may grow by some rings.
+  if (!options.pot.empty())
+    if (auto room = expect_room_to_write(wheel->stack().size(), encoding, options.pot); !room)
+      return room;
   auto outputs = open_outputs(options);
   if (!outputs) return tl::make_unexpected(outputs.error());
 
@@ -229,8 +235,6 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   if (stats.ring_limit) console.warn("there is clay above the top ring: increase lump.max_rings");
 
   const Pot pot = wheel->pot();
-  const PotEncoding encoding =
-      options.pot.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
   if (auto written = write_outputs(*outputs, pot, encoding, trace, *scene, *session); !written)
     return written;
 

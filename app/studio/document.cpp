@@ -1,5 +1,6 @@
 #include "app/studio/document.hpp"
 
+#include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
 #include "app/render/pot_view.hpp"
 #include "app/studio/new_scene.hpp"
@@ -119,7 +120,9 @@ Result<void> Document::save(const std::filesystem::path& path) {
         ErrorKind::bad_input,
         fmt::format("{}: expected a name that ends in .work, .pot.json or .pot.cbor", name));
   const auto encoding = name.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
-  return publish(path, write_pot(*pot_, encoding));
+  return cli::expect_room_to_write(pot_->stack.size(), encoding, name).and_then([&] {
+    return publish(path, write_pot(*pot_, encoding));
+  });
 }
 
 void Document::keep_file(const std::filesystem::path& path) {

@@ -1,5 +1,6 @@
 #include "app/studio/exporter.hpp"
 
+#include "app/cli/memory_room.hpp"
 #include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
 
@@ -25,6 +26,8 @@ Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot&
   solid::ExportRequest request;
   for (const std::string& path : paths_of(choices)) {
     if (const auto encoding = cli::pot_encoding_of(path)) {
+      if (auto room = cli::expect_room_to_write(pot.stack.size(), *encoding, path); !room)
+        return tl::make_unexpected(room.error());
       request.files.push_back(
           {.path = path, .kind = solid::FileKind::given, .bytes = write_pot(pot, *encoding)});
       continue;
@@ -151,6 +154,9 @@ Exporter::Outcome Exporter::done(const Job& job) {
   pictured_ = job.pot;
   auto result = request_of(job.choices, *job.pot).and_then([&](solid::ExportRequest request) {
     request.options.cancelled = [token = job.stop.get_token()] { return token.stop_requested(); };
+    request.options.expect_memory = [](std::uint64_t bytes) {
+      return cli::expect_room("writing meshes", bytes);
+    };
     cli::pack_pot(*job.pot, request, thumbnail_);
     return job.kind == Kind::files ? solid::export_files(*job.pot, request, show)
                                    : solid::preview_export(*job.pot, request, show);

@@ -3,6 +3,7 @@
 #include "export/job/point_walls.hpp"
 #include "export/job/solid_contents.hpp"
 
+#include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
 #include "export/formats/draco_bits.hpp"
 #include "export/formats/shaded_obj.hpp"
@@ -27,7 +28,36 @@ Result<void> check_sound(const TriangleMesh& mesh, const std::string& name) {
   return failure(ErrorKind::unsound, name + ": found " + describe(report.problems.front()));
 }
 
+/// Mesh, encoder and text at their peak, for each triangle; measured on a vase of 2.3 and 4.6
+/// million triangles.
+std::uint64_t bytes_per_triangle(MeshFormat format, const ExportOptions& options) {
+  switch (format) {
+    case MeshFormat::stl_binary:
+      return 0;
+    case MeshFormat::stl_ascii:
+      return 460;
+    case MeshFormat::obj:
+      return options.normals ? 230 : 145;
+    case MeshFormat::ply:
+      return 100;
+    case MeshFormat::drc:
+      return 125;
+    case MeshFormat::glb:
+      return 150;
+    default:
+      return 210;
+  }
+}
+
 }  // namespace
+
+std::uint64_t mesh_memory(MeshFormat format, const ExportOptions& options, std::size_t triangles) {
+  const std::uint64_t whole = bytes_per_triangle(format, options) * triangles;
+  if (!options.full_verification) return whole;
+  constexpr std::uint64_t kMeshReadBack = 72;  // of a binary STL, which is not held otherwise
+  const bool streamed = format == MeshFormat::stl_binary;
+  return whole + check_memory(triangles) + (streamed ? kMeshReadBack * triangles : 0);
+}
 
 Result<FileReport> RevolveFiles::write(MeshFormat format, FileStore& store) {
   switch (format) {

@@ -7,10 +7,17 @@
 #include "export/job/stages.hpp"
 #include "export/solid/revolve_layout.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 
 namespace clay::solid::inline job {
+
+/// Estimated peak of the memory [bytes] for writing one file; 0 if it is streamed. The exact test
+/// of thin margins is not counted.
+[[nodiscard]] std::uint64_t mesh_memory(MeshFormat format, const ExportOptions& options,
+                                        std::size_t triangles);
 
 class RevolveFiles {
  public:

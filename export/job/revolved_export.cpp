@@ -150,6 +150,7 @@ class RevolvedExport {
     // As rounded in a binary STL, so that a pot has one wall before and after it is written.
     measure_walls(with_rounding(claims, rule, float_rounding_mm(rule)).wall_lower_mm);
     report_.maker = numbers();
+    if (auto room = expect_memory(); !room) return room;
     RevolveFiles files(rule, claims, options_, stages_);
     for (const Output& output : outputs_) {
       auto file = named(files.write(output.format, *output.store),
@@ -160,6 +161,15 @@ class RevolvedExport {
     report_.left_out =
         left_out(stack_, report_.section.no_smoothing, rule, files.made_mesh(), outputs_, options_);
     return {};
+  }
+
+  /// The files are made one after the other, and each is released.
+  Result<void> expect_memory() const {
+    std::uint64_t bytes = 0;
+    for (const Output& output : outputs_)
+      bytes = std::max(bytes, mesh_memory(output.format, options_, report_.size.triangles));
+    if (bytes == 0 || !options_.expect_memory) return {};
+    return named(options_.expect_memory(bytes), options_.source);
   }
 
   SolidSize measured(SolidSize size, const RevolveLayout& rule) const {

@@ -143,6 +143,44 @@ TEST(MemoryLimit, EndsWorkThatGrowsBeyondIt) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("tall.obj")));
 }
 
+TEST(MemoryLimit, RefusesAMeshThatDoesNotFitInAdvanceAndStreamsStl) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("bowl.pot.json");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  const auto fine = [&](const std::string& file, const std::string& memory) {
+    return claystack("export -q --segments 4000 --memory " + memory + " " + pot + " " +
+                     folder.file(file));
+  };
+  const Ran refused = fine("bowl.obj", "100MiB");
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find("writing meshes needs about"), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("bowl.obj")));
+  EXPECT_EQ(fine("bowl.stl", "100MiB").status, 0);
+  EXPECT_EQ(fine("bowl.obj", "1GiB").status, 0);
+}
+
+TEST(MemoryLimit, RefusesTheWheelAndThePotOfMoreRingsThanFit) {
+  const ScratchFolder folder;
+  const std::string scene = folder.file("tall.scene.json");
+  write_text(scene, R"({"schema":"claystack-scene-1","name":"tall","lump":{"rings":1000000,)"
+                    R"("ring_height_mm":0.001,"max_rings":1000000},"tool":{"shape":)"
+                    R"({"sphere":{"radius_mm":9}},"gap_mm":5}})");
+  const auto thrown = [&](const std::string& memory) {
+    return claystack("throw -q --memory " + memory + " " + scene + " -s " +
+                     sample("cylinder.session") + " -o " + folder.file("tall.pot.json"));
+  };
+  const Ran wheel = thrown("40MiB");
+  EXPECT_EQ(wheel.status, 3);
+  EXPECT_NE(wheel.err.find("tall.scene.json: a wheel for up to 1000000 rings needs about 0.05 GB"),
+            std::string::npos)
+      << wheel.err;
+  const Ran pot = thrown("150MiB");
+  EXPECT_EQ(pot.status, 3);
+  EXPECT_NE(pot.err.find("tall.pot.json: writing the pot needs about 0.18 GB"), std::string::npos)
+      << pot.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("tall.pot.json")));
+}
+
 TEST(MemoryLimit, IsAnOptionOfEveryCommand) {
   for (const std::string command :
        {"throw", "export", "check", "strokes", "plan", "batch", "doctor"})

@@ -100,6 +100,9 @@ struct ExportOptions {
   /// Called before each stage and every few milliseconds, also by several threads at once. If it
   /// returns true, the job ends with an error (io). Only a running Draco encoder finishes first.
   std::function<bool()> cancelled;
+  /// Called before meshes are held in memory, with the estimate [bytes]; an error ends the job. A
+  /// binary STL and drawings need none; a collapsed pot has too few triangles to matter.
+  std::function<Result<void>(std::uint64_t bytes)> expect_memory;
 };
 
 enum class FileKind {
