@@ -144,6 +144,9 @@ Result<LocatedJson> LocatedJson::from_json(std::string_view text, std::string_vi
   // The library treats a NUL as the end of the text and would ignore the rest.
   if (const auto nul = text.find('\0'); nul != std::string_view::npos)
     return input_failure(place(text.data() + nul + 1), "expected JSON, found a zero byte");
+  // The library's message for an empty text differs between its versions.
+  if (text.find_first_not_of(" \t\r\n") == text.npos)
+    return input_failure(place(text.data() + text.size()), "expected JSON, found no text");
   try {
     JsonBuilder builder(max_values);
     const char* reached = parse(text, builder);

@@ -40,8 +40,9 @@ bool add(zip_t* archive, const ZipEntry& entry) {
   zip_source_t* const source =
       zip_source_buffer(archive, entry.bytes.data(), entry.bytes.size(), 0);
   if (source == nullptr) return false;
+  // Paths are ASCII. With ZIP_FL_ENC_UTF_8, libzip 1.11 sets a flag that 1.7 does not.
   const zip_int64_t at =
-      zip_file_add(archive, std::string(entry.path).c_str(), source, ZIP_FL_ENC_UTF_8);
+      zip_file_add(archive, std::string(entry.path).c_str(), source, ZIP_FL_ENC_GUESS);
   if (at < 0) {
     zip_source_free(source);
     return false;

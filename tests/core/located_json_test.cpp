@@ -52,9 +52,8 @@ TEST(LocatedJson, KeepsIntegersExactly) {
 }
 
 TEST(LocatedJson, RefusesAnythingButOneValue) {
-  expect_refused("",
-                 "F:1: syntax error while parsing value - unexpected end of input; expected "
-                 "'[', '{', or a literal");
+  expect_refused("", "F:1: expected JSON, found no text");
+  expect_refused("\n\n ", "F:3: expected JSON, found no text");
   expect_refused("{\n\"a\": 1\n}\n1\n",
                  "F:4: syntax error while parsing value - unexpected number literal; expected end "
                  "of input");
