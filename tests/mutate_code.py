@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Mutation testing of the safety rules and of the certificate.
 
-    python3 tests/mutate_code.py [--subject NAME] [--mutants N] [--build FOLDER] [--seed N] [--list]
+    python3 tests/mutate_code.py [--subject NAME] [--mutants N] [--only TEXT] [--list]
 
 Copies the last commit to FOLDER/source (default build/mutants), builds the tests of a subject, and
 checks that they pass. Then it changes one place of the code at a time: flips a comparison, moves a
@@ -57,6 +57,14 @@ def without_clamp(line, at):
     return line[:at] + "(" + line[begin:comma] + ")" + line[end + 1:] if comma and end else None
 
 
+def moved(number):
+    """Another constant: a count by one, a quantity by half."""
+    digits = number.replace("'", "")
+    if digits.isdigit():
+        return str(int(digits) + 1)
+    return f"({number} * 1.5)" if float(digits) else "1.0"
+
+
 def mutants_of(path):
     """Pairs of a line number and its new text."""
     found = []
@@ -69,8 +77,7 @@ def mutants_of(path):
                 found.append((number, line[:match.start()] + new + line[match.end():]))
         for match in re.finditer(r"(?<![\w.])(\d[\d']*\.?\d*(?:e-?\d+)?)(?![\w.])", code):
             text = match.group(1)
-            moved = str(int(text.replace("'", "")) + 1) if text.replace("'", "").isdigit() else f"({text} * 1.5 + 1e-9)"
-            found.append((number, line[:match.start()] + moved + line[match.end():]))
+            found.append((number, line[:match.start()] + moved(text) + line[match.end():]))
         for match in re.finditer(r"std::clamp\(", code):
             if (changed := without_clamp(line, match.start())) is not None:
                 found.append((number, changed))
@@ -84,6 +91,10 @@ def run(command, seconds, **options):
         return subprocess.run(command, timeout=seconds, capture_output=True, text=True, **options)
     except subprocess.TimeoutExpired:
         return None
+
+
+def label_of(name, path, number, text):
+    return f"{name}:{number + 1}: {path.read_text().split(chr(10))[number].strip()}  ->  {text.strip()}"
 
 
 def unpack_commit(source):
@@ -104,6 +115,7 @@ def main():
     parser.add_argument("--mutants", type=int, default=40, help="for each subject, drawn at random")
     parser.add_argument("--build", type=Path, default=Path("build/mutants"))
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="", help="mutants whose line of output contains this text")
     parser.add_argument("--list", action="store_true", help="print the mutants and stop")
     options = parser.parse_args()
     os.chdir(Path(__file__).resolve().parent.parent)
@@ -117,7 +129,8 @@ def main():
     unknown = tried = 0
     for subject in options.subject or TESTS:
         folder, target, files, tests = TESTS[subject]
-        places = [(name, *mutant) for name in files for mutant in mutants_of(source / name)]
+        places = [(name, *mutant) for name in files for mutant in mutants_of(source / name)
+                  if options.only in label_of(name, source / name, *mutant)]
         random.Random(options.seed).shuffle(places)
         build_target = ["cmake", "--build", str(build), "--target", target]
         test = [str(build / "tests" / folder / target), f"--gtest_filter={tests}", "--gtest_brief=1",
@@ -130,7 +143,7 @@ def main():
             path = source / name
             before = path.read_text()
             lines = before.split("\n")
-            label = f"{name}:{number + 1}: {lines[number].strip()}  ->  {text.strip()}"
+            label = label_of(name, path, number, text)
             if options.list:
                 print(label)
                 continue

@@ -39,6 +39,16 @@ TEST(EnergyObserver, DropsCreditAfterTheContactAndKeepsDebt) {
   EXPECT_NEAR(observer.injected_mj(), 3.5, 1e-15);
 }
 
+TEST(EnergyObserver, CountsTheGainOfAContactBeforeItEnds) {
+  EnergyObserver observer({1000, 0.1, 0.0, 0}, 0.0, 0.1);
+  observer.observe(kTickS, along(0), along(0), along(1));
+  observer.observe(kTickS, along(1), along(-1.0), along(3));
+  EXPECT_EQ(observer.recent_mj(), 0.0);  // took 1 mJ
+  observer.observe(kTickS, along(3), along(1.0), along(3));
+  EXPECT_TRUE(observer.in_contact());
+  EXPECT_NEAR(observer.recent_mj(), 2.0, 1e-15);
+}
+
 TEST(EnergyObserver, DetectsLoopsDespiteTheCreditOfALongPress) {
   // 5 mm at 4 N are 20 mJ of credit; then loops of 1 mm that give 1 N mm each.
   EnergyObserver observer({1000, 0.1, 0.0, 0}, 0.0, 0.1);

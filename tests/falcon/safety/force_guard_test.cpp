@@ -189,6 +189,20 @@ TEST(ForceGuard, ReportsItsEvents) {
   EXPECT_EQ(trial.log().back().out.flags, kGuardOldClay);
 }
 
+TEST(ForceGuard, ReportsALimitedRise) {
+  Trial trial;
+  const glm::dvec3 push(1.0, 0.0, 0.0), jump(4.9, 0.0, 0.0);
+  trial.engage(push);
+  const auto slewed = [&] { return (trial.log().back().out.flags & kGuardSlewed) != 0; };
+  trial.tick({.wanted_n = push});
+  EXPECT_FALSE(slewed());
+  trial.tick({.wanted_n = jump});
+  EXPECT_TRUE(slewed());
+  EXPECT_LT(trial.log().back().sent_n.x, jump.x);
+  trial.run(0.2, {.wanted_n = jump});
+  EXPECT_FALSE(slewed());
+}
+
 TEST(ForceGuard, NamesTheCauseOfSafe) {
   const auto cause = [](const Tick& tick, int times) {
     Trial trial;

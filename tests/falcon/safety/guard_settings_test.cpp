@@ -46,6 +46,9 @@ TEST(GuardSettings, ErrorsNameTheInvalidSetting) {
       EXPECT_STREQ(guard.error().setting, invalid.setting) << value;
       EXPECT_TRUE(guard.error().found == value || std::isnan(value));
       EXPECT_FALSE(value >= guard.error().low && value <= guard.error().high);
+      // The bounds are near the values just outside.
+      EXPECT_LE(guard.error().low, 1.3 * invalid.low + 0.0011) << invalid.setting;
+      EXPECT_GE(guard.error().high, invalid.high / 1.3) << invalid.setting;
     }
   for (const int ticks : {0, -1, 1001}) EXPECT_FALSE(check({.small_force_ticks = ticks}));
   for (const int ticks : {0, -1, 11}) EXPECT_FALSE(check({.not_finite_ticks = ticks}));

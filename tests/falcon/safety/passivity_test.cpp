@@ -265,5 +265,37 @@ TEST(Passivity, ErrorsNameTheSetting) {
   EXPECT_EQ(refused([](PassivitySpec& s) { s.reversal_force_n = 0; }), "reversal_force_n");
 }
 
+TEST(Passivity, AcceptsSettingsUpToTheirLimitsAndNoOthers) {
+  struct Range {
+    double PassivitySpec::*setting;
+    double low, high;
+  };
+  const Range ranges[] = {
+      {&PassivitySpec::step_mm, 0.0, 10.0},
+      {&PassivitySpec::energy_limit_mj, 1e-6, 1e6},
+      {&PassivitySpec::energy_window_s, 1e-3, 10.0},
+      {&PassivitySpec::reversal_window_s, 1e-3, 10.0},
+      {&PassivitySpec::reversal_force_n, 1e-9, 1e3},
+  };
+  for (const Range& range : ranges) {
+    const auto accepts = [&](double value) {
+      PassivitySpec spec;
+      spec.*range.setting = value;
+      return PassivityController::build(spec).has_value();
+    };
+    EXPECT_TRUE(accepts(range.low)) << range.low;
+    EXPECT_TRUE(accepts(range.high)) << range.high;
+    EXPECT_FALSE(accepts(range.low - 1e-10)) << range.low;
+    EXPECT_FALSE(accepts(range.high * 1.001)) << range.high;
+  }
+  const auto accepts_reversals = [](int limit) {
+    PassivitySpec spec;
+    spec.reversal_limit = limit;
+    return PassivityController::build(spec).has_value();
+  };
+  EXPECT_TRUE(accepts_reversals(2) && accepts_reversals(16));
+  EXPECT_FALSE(accepts_reversals(1) || accepts_reversals(17));
+}
+
 }  // namespace
 }  // namespace clay::falcon
