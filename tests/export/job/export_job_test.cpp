@@ -262,7 +262,7 @@ RC_GTEST_PROP(RunExport, WhatIsWrittenIsSoundOrRefused, (const ClayStack& stack)
   }
 }
 
-TEST(ExportJob, FinishIsInTheLedgerOfEveryMesh) {
+TEST(RunExport, FinishIsInTheLedgerOfEveryMesh) {
   const Pot pot = shapes::pot_of(shapes::vase(200));
   ExportOptions plain;
   plain.full_verification = true;
@@ -285,7 +285,7 @@ TEST(ExportJob, FinishIsInTheLedgerOfEveryMesh) {
   EXPECT_NEAR(report.size.height_mm, 199.6, 1e-9);
   for (const FileReport& file : report.files) {
     EXPECT_TRUE(file.full_verification->sound()) << name_of(file.format);
-    EXPECT_NEAR(file.full_verification->volume_mm3 / report.prepared.counted_volume_mm3, 1.0, 1e-4);
+    EXPECT_NEAR(file.full_verification->volume_mm3 / report.prepared.counted_volume_mm3, 1.0, 5e-4);
   }
 }
 

@@ -171,7 +171,7 @@ RC_GTEST_PROP(GlazeAllowance, LeavesEveryFaceAtItsDistance, ()) {
   std::vector<shapes::Radii> radii;
   double outer = 40.0;
   for (int i = 0; i < 40; ++i) {
-    outer += lean + 1e-3 * *rc::gen::inRange(-1000, 1000);
+    outer = std::max(outer + lean + 1e-3 * *rc::gen::inRange(-1000, 1000), 20.0);
     radii.push_back({outer, i < 5 ? 0.0 : outer - 8.0});
   }
   const ClayStack stack = shapes::stack_of(2.0, radii);
