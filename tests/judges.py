@@ -125,7 +125,7 @@ def judged_by_occt(file):
 
 def by_occt(file, expected):
     valid, volume = judged_by_occt(file)
-    verdict("occt-draw", file, volume if valid else None, expected, bound=1e-5)
+    verdict("occt-draw", file, volume if valid else None, expected, bound=1e-6)
 
 
 def refuses_broken_step(file):

@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/export_report.hpp"
+#include "app/cli/finish_options.hpp"
 #include "app/cli/html_report.hpp"
 #include "app/cli/memory_room.hpp"
 #include "app/cli/packed_pot.hpp"
@@ -45,6 +46,7 @@ struct ExportCommand {
     return goal.holds_ml || goal.weighs_g || goal.height_mm || goal.diameter_mm;
   }
   WallOptions walls;
+  double glaze_mm = 0.0;  ///< of the fired pot
   std::optional<double> precision_mm;
   bool ascii = false;
 };
@@ -124,6 +126,11 @@ Result<void> check_options(const ExportCommand& command) {
         return need(command.request.options.shrinkage > 0.0, "--shrinkage", "a mesh or its section",
                     [](const FileRequest& file) { return file.kind != FileKind::given; });
       })
+      .and_then([&] {
+        return need(command.request.options.finish.asked(),
+                    "--foot, --floor-fillet and --glaze-allowance", "a mesh or its section",
+                    [](const FileRequest& file) { return file.kind != FileKind::given; });
+      })
       .and_then(
           [&] { return need(command.walls.asked(), "--min-wall and --process", "a solid", solid); })
       .and_then([&] { return need(command.step.has_value(), "--step", "a .step", step); })
@@ -161,6 +168,7 @@ Result<void> complete_request(ExportCommand& command) {
   options.smoothing = smoothing_of(command.smooth);
   if (command.step == "lines") options.step_walls = solid::StepWalls::lines;
   options.full_verification = command.verify == "full";
+  options.finish.glaze_mm = command.glaze_mm * solid::enlargement(options.shrinkage);
   options.walls = command.walls.demand();
   options.name = std::filesystem::path(command.pot).stem().stem().string();
   options.source = command.pot;
@@ -319,9 +327,7 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
                   "steps of the rings remain")
       ->check(CLI::IsMember({"fair", "exact", "none"}))
       ->capture_default_str();
-  sub->add_option("--lip-fillet", command->request.options.lip_fillet_mm,
-                  "Radius of the fillet at both edges of the lip [mm] (default: none)")
-      ->check(in_range(0.0, 1e3));
+  add_finish_options(*sub, command->request.options, command->glaze_mm);
   sub->add_option("--segments", command->request.options.segments,
                   "Facets around the axis (default: chosen from the tolerance)")
       ->check(CLI::Range(3, 1 << 20));
@@ -390,6 +396,7 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       "  claystack export bowl.pot.json bowl.step --process stoneware\n"
       "  claystack export bowl.pot.json bowl.3mf --holds 350ml --fired --shrinkage 12%\n"
       "  claystack export bowl.pot.json bowl.pdf bowl.dxf --shrinkage 12%\n"
+      "  claystack export bowl.pot.json bowl.3mf --foot 60x6x4 --floor-fillet 5\n"
       "  claystack export bowl.pot.json bowl.stl --tolerance 0.005 --process stoneware\n"
       "  claystack export bowl.pot.json bowl.stl --process porcelain --shrinkage 12%\n"
       "  claystack export bowl.pot.json bowl.drc --certificate --report bowl.report.json\n"

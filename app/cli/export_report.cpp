@@ -183,6 +183,24 @@ void print_solid(const Console& console, const ExportReport& report) {
     if (saved) console.print(fmt::format("skipped: {} ({}), saved {:.2g} s", what, why, *saved));
 }
 
+/// The clay that finishing moved: "trimmed 12 g".
+std::string clay_text(const ExportReport& report, double mm3) {
+  return fmt::format("{:.0f} g ({:.2f} cm3)", 1e-3 * mm3 * report.maker->clay.density_g_cm3,
+                     1e-3 * mm3);
+}
+
+Json finish_json(const ExportReport& report) {
+  const solid::FinishLedger& ledger = report.section.finish;
+  const double g_per_mm3 = 1e-3 * report.maker->clay.density_g_cm3;
+  Json json = {{"trimmed_mm3", ledger.trimmed_mm3()},
+               {"trimmed_g", g_per_mm3 * ledger.trimmed_mm3()},
+               {"added_mm3", ledger.floor_added_mm3},
+               {"added_g", g_per_mm3 * ledger.floor_added_mm3},
+               {"foot_trimmed_mm3", ledger.foot_trimmed_mm3},
+               {"glaze_trimmed_mm3", ledger.glaze_trimmed_mm3}};
+  return json;
+}
+
 Json shrinkage_json(const ExportReport& report) {
   const double fired = 1.0 - report.prepared.shrinkage;
   return {{"part", report.prepared.shrinkage},
@@ -234,6 +252,7 @@ Json solid_json(const ExportReport& report) {
   if (report.prepared.shrinkage > 0.0) json["shrinkage"] = shrinkage_json(report);
   if (report.collapsed) json["collapsed"] = collapsed_json(*report.collapsed);
   if (report.prepared.drilled_mm3 > 0.0) json["drilled_mm3"] = report.prepared.drilled_mm3;
+  if (report.section.finish.any()) json["finish"] = finish_json(report);
   if (report.section.smoothing == solid::Smoothing::exact)
     json["max_ring_error_relative"] = report.section.smoothed.max_ring_error_relative;
   if (report.walls.as_steps_mm) json["wall_as_steps_mm"] = *report.walls.as_steps_mm;
@@ -298,6 +317,18 @@ std::string wall_row(const ExportReport& report) {
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::string>> finish_rows(const ExportReport& report) {
+  const solid::FinishLedger& ledger = report.section.finish;
+  std::vector<std::pair<std::string, std::string>> rows;
+  const auto add = [&](const char* what, const char* how, double mm3) {
+    if (mm3 != 0.0) rows.emplace_back(what, how + clay_text(report, mm3));
+  };
+  add("foot ring", "trimmed ", ledger.foot_trimmed_mm3);
+  add("floor fillet", "added ", ledger.floor_added_mm3);
+  add("glaze allowance", "trimmed ", ledger.glaze_trimmed_mm3);
+  return rows;
+}
+
 Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies) {
   Json json = report.has_solid() ? solid_json(report) : Json::object();
   for (const char* list : {"files", "left_out", "stages"}) json[list] = Json::array();
@@ -343,6 +374,7 @@ void print_export(const Console& console, const ExportReport& report,
   if (report.prepared.drilled_mm3 > 0.0)
     console.print(fmt::format("drain hole: {:.3f} cm3 of clay removed",
                               report.prepared.drilled_mm3 / 1000.0));
+  for (const auto& [what, clay] : finish_rows(report)) console.print(what + ": " + clay);
   auto copy = copies.begin();
   for (const FileReport& file : report.files) {
     switch (file.kind) {

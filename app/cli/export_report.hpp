@@ -6,9 +6,16 @@
 #include "app/cli/pot_copy.hpp"
 #include "claystack/export/job.hpp"
 
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace clay::cli {
+
+/// What finishing trimmed and added, with the weight as thrown: "foot ring", "trimmed 12 g (6.30
+/// cm3)".
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> finish_rows(
+    const solid::ExportReport& report);
 
 /// `copies` describe those files of the report that are pots, in their order. Without a mesh there
 /// are no figures of a solid.

@@ -1,5 +1,6 @@
 #include "app/cli/html_report.hpp"
 
+#include "app/cli/export_report.hpp"
 #include "core/base64.hpp"
 #include "core/svg_writer.hpp"
 
@@ -226,6 +227,7 @@ class Page {
       if (const auto& limit = report_.walls.limit)
         row({"asked", fmt::format("{:.2f} mm ({})", limit->min_wall_mm, limit->asked_by())}, "td",
             false);
+      for (const auto& [what, clay] : finish_rows(report_)) row({what, clay}, "td", false);
       if (const auto& overhang = report_.process.overhang)
         row({"steepest overhang", fmt::format("{:.0f} degrees from the vertical at {:.1f} mm",
                                               overhang->angle_deg, overhang->from.y)},

@@ -183,23 +183,24 @@ class StepJudge {
     throw BadStep{ref + ": expected " + std::string(keyword)};
   }
 
-  /// The first row of control points; the others must make half a circle of each.
+  /// Each row of control points must make half a circle of its last one.
   Surface spline_surface(const std::string& ref, const StepValue& shape) const {
     const auto& rows = part(ref, shape, "B_SPLINE_SURFACE").items.at(2).items;
     const auto& weights = part(ref, shape, "RATIONAL_B_SPLINE_SURFACE").items.at(0).items;
-    constexpr std::array<double, 4> kAcross{1, 1, -1, -1}, kAside{0, 2, 2, 0}, kWeight{3, 1, 1, 3};
+    constexpr std::array<double, 4> kAcross{-1, -1, 1, 1}, kAside{0, 2, 2, 0}, kWeight{3, 1, 1, 3};
     Surface surface;
     surface.curve.emplace();
-    if (rows.size() != 4 || weights.size() != 4) throw BadStep{ref + ": expected four rows"};
-    for (const StepValue& knot : part(ref, shape, "B_SPLINE_SURFACE_WITH_KNOTS").items.at(3).items)
+    if (rows.size() != weights.size()) throw BadStep{ref + ": expected a weight for each point"};
+    for (const StepValue& knot : part(ref, shape, "B_SPLINE_SURFACE_WITH_KNOTS").items.at(2).items)
       surface.curve->knots.push_back(number(knot));
-    for (std::size_t i = 0; i < rows[0].items.size(); ++i) {
-      const Point first = point(rows[0].items[i].word);
-      surface.curve->control.push_back({std::abs(first.x), first.z});
-      for (std::size_t row = 0; row < rows.size(); ++row)
-        if (number(weights[row].items.at(i)) != kWeight[row] ||
-            !point(rows[row].items.at(i).word)
-                 .is({kAcross[row] * first.x, kAside[row] * first.x, first.z}))
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto& row = rows[i].items;
+      if (row.size() != 4) throw BadStep{ref + ": expected four points in each row"};
+      const Point last = point(row[3].word);
+      surface.curve->control.push_back({std::abs(last.x), last.z});
+      for (std::size_t k = 0; k < row.size(); ++k)
+        if (number(weights[i].items.at(k)) != kWeight[k] ||
+            !point(row[k].word).is({kAcross[k] * last.x, kAside[k] * last.x, last.z}))
           throw BadStep{ref + ": expected half a circle of every control point"};
     }
     if (surface.curve->control.size() != surface.curve->knots.size() + 2)

@@ -3,6 +3,7 @@
 #include "claystack/version.hpp"
 #include "core/svg_writer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -188,10 +189,17 @@ class ShellWriter {
     for (std::size_t i = 1; i + 1 < curve.knots.size(); ++i) text += ",1";
     return text + ",4)";
   }
+  /// Dyadic knots become the shortest whole numbers.
   static std::string knots(const WallCurve& curve) {
+    const auto whole = [&](double scale) {
+      return std::ranges::all_of(curve.knots,
+                                 [&](double k) { return k * scale == std::floor(k * scale); });
+    };
+    double scale = 1.0;
+    while (!whole(scale)) scale *= 2.0;
     std::string text = "(";
     for (const double knot : curve.knots)
-      text.append(text.size() > 1 ? "," : "").append(real(knot, 20));
+      text.append(text.size() > 1 ? "," : "").append(real(knot * scale, 1));
     return text + ")";
   }
 
@@ -204,24 +212,24 @@ class ShellWriter {
   }
 
   /// Half a circle is one rational cubic: the points (1, 0), (1, 2), (-1, 2), (-1, 0) with the
-  /// weights 3, 1, 1, 3.
+  /// weights 3, 1, 1, 3. The curve is the first parameter: Open CASCADE integrates a face along the
+  /// second one without regard to knots. The circle runs backwards, so that the normal points out.
   Ref spline_surface(const WallCurve& curve, std::size_t half) {
-    constexpr std::array<std::array<double, 2>, 4> kHalfCircle{{{1, 0}, {1, 2}, {-1, 2}, {-1, 0}}};
-    constexpr std::array<const char*, 4> kWeights{"3.", "1.", "1.", "3."};
-    std::vector<Ref> rows, weights;
-    for (std::size_t row = 0; row < kHalfCircle.size(); ++row) {
+    constexpr std::array<std::array<double, 2>, 4> kHalfCircle{{{-1, 0}, {-1, 2}, {1, 2}, {1, 0}}};
+    std::vector<Ref> rows;
+    for (const ProfilePoint& p : curve.control) {
       std::vector<Ref> points;
-      for (const ProfilePoint& p : curve.control)
-        points.push_back(data_.point(side(half) * kHalfCircle[row][0] * p.rho,
-                                     side(half) * kHalfCircle[row][1] * p.rho, p.y));
+      for (const auto& [across, aside] : kHalfCircle)
+        points.push_back(data_.point(side(half) * across * p.rho, side(half) * aside * p.rho, p.y));
       rows.push_back(listed(points));
-      weights.push_back(listed(std::vector<Ref>(points.size(), kWeights[row])));
     }
-    return data_.add("(BOUNDED_SURFACE()B_SPLINE_SURFACE(3,3,", listed(rows),
-                     ",.UNSPECIFIED.,.F.,.F.,.F.)B_SPLINE_SURFACE_WITH_KNOTS((4,4),",
-                     multiplicities(curve), ",(0.,1.),", knots(curve),
-                     ",.UNSPECIFIED.)GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(",
-                     listed(weights), ")REPRESENTATION_ITEM('')SURFACE())");
+    const std::vector<Ref> weights(rows.size(), "(3.,1.,1.,3.)");
+    return data_.add(
+        "(BOUNDED_SURFACE()B_SPLINE_SURFACE(3,3,", listed(rows),
+        ",.UNSPECIFIED.,.F.,.F.,.F.)B_SPLINE_SURFACE_WITH_KNOTS(", multiplicities(curve), ",(4,4),",
+        knots(curve),
+        ",(0.,1.),.UNSPECIFIED.)GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(",
+        listed(weights), ")REPRESENTATION_ITEM('')SURFACE())");
   }
 
   StepData& data_;

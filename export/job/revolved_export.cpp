@@ -104,6 +104,7 @@ class RevolvedExport {
     Design design;
     design.size.tolerance_mm = tolerance_mm;
     return smooth(design.section, tolerance_mm)
+        .and_then([&] { return finish(design.section, tolerance_mm); })
         .and_then([&] {
           return stages_.run("certificate", [&] { return certify(design.section.profile()); });
         })
@@ -119,16 +120,24 @@ class RevolvedExport {
         });
   }
 
+  /// As requested, or as the process requires.
+  double lip_fillet_mm() const {
+    const std::optional<ProcessLimits>& process = options_.walls.process;
+    const bool required = process && process->edges && options_.smoothing == Smoothing::fair;
+    return options_.lip_fillet_mm.value_or(required ? process->edges->min_radius_mm : 0.0);
+  }
+
   Result<void> smooth(ProvedSection& section, double tolerance_mm) {
-    if (options_.smoothing == Smoothing::none && options_.lip_fillet_mm == 0.0)
+    const double lip_mm = lip_fillet_mm();
+    if (options_.smoothing == Smoothing::none && lip_mm == 0.0)
       section.no_smoothing = "not requested";
-    else if (has_straight_walls(stack_) && options_.lip_fillet_mm == 0.0)
+    else if (has_straight_walls(stack_) && lip_mm == 0.0)
       section.no_smoothing = "the walls are straight";
     if (!section.no_smoothing.empty()) {
       section.smoothed.section = steps_;
       return {};
     }
-    SmoothingOptions how{options_.smoothing, tolerance_mm, {}, options_.lip_fillet_mm, {}};
+    SmoothingOptions how{options_.smoothing, tolerance_mm, {}, lip_mm, {}};
     if (prepared_.limit) how.min_wall_mm = prepared_.limit->min_wall_mm;
     return stages_.run("smooth", [&] { return smoothed_profile(stack_, steps_, how); })
         .map([&](SmoothedProfile smoothed) {
@@ -137,12 +146,32 @@ class RevolvedExport {
         });
   }
 
+  Result<void> finish(ProvedSection& section, double tolerance_mm) {
+    if (!options_.finish.asked()) return {};
+    std::optional<double> min_wall_mm;
+    if (prepared_.limit) min_wall_mm = prepared_.limit->min_wall_mm;
+    return stages_
+        .run(
+            "finish",
+            [&] { return finished(section.profile(), options_.finish, min_wall_mm, tolerance_mm); })
+        .map([&](FinishedProfile made) {
+          section.smoothed.section.profile = std::move(made.profile);
+          section.finish = made.ledger;
+        });
+  }
+
+  /// The clay of the stack, after finishing.
+  double counted_volume_mm3(const FinishLedger& finish) const {
+    return prepared_.done.counted_volume_mm3 - finish.trimmed_mm3() + finish.floor_added_mm3;
+  }
+
   Result<void> write_all(Design design) {
     const RevolveLayout rule(design.section.profile(), design.size.segments);
     SolidCertificate claims = stages_.run(
         "claims", [&] { return claims_of(design.section.profile(), design.size.segments, 0.0); });
-    claims.counted_volume_mm3 = prepared_.done.counted_volume_mm3;
+    claims.counted_volume_mm3 = counted_volume_mm3(design.section.finish);
     report_.prepared = prepared_.done;
+    report_.prepared.counted_volume_mm3 = claims.counted_volume_mm3;
     report_.section = std::move(design.section);
     report_.size = measured(design.size, rule);
     report_.volume = {claims.volume_mm3, std::abs(claims.volume_mm3 - claims.counted_volume_mm3) /
@@ -173,13 +202,17 @@ class RevolvedExport {
   }
 
   SolidSize measured(SolidSize size, const RevolveLayout& rule) const {
-    double widest = 0.0;
+    double widest = 0.0, lowest = stack_.height_mm(), highest = 0.0;
     for (const Shell& shell : rule.shells())
-      for (const ProfilePoint& p : shell.points) widest = std::max(widest, p.rho);
+      for (const ProfilePoint& p : shell.points) {
+        widest = std::max(widest, p.rho);
+        lowest = std::min(lowest, p.y);
+        highest = std::max(highest, p.y);
+      }
     size.shells = rule.shells().size();
     size.chordal_error_mm = chordal_error_mm(widest, size.segments);
     size.diameter_mm = 2.0 * widest * equal_area_factor(size.segments);
-    size.height_mm = stack_.height_mm();
+    size.height_mm = highest - lowest;
     return size;
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace clay::solid::inline smoothing {
 namespace {
@@ -62,12 +63,9 @@ class FilletSearch {
   Fillet best_;
 };
 
-Polygon mirrored(Polygon line) {
-  for (ProfilePoint& p : line) p.rho = -p.rho;
-  return line;
-}
+}  // namespace
 
-Polygon filleted(const Polygon& line, double radius_mm, double tolerance_mm) {
+RoundedEdge with_rounded_edge(const Polygon& line, double radius_mm, double tolerance_mm) {
   const Fillet fillet = FilletSearch(line, radius_mm).run();
   const double top = line.back().y, centre_y = top - radius_mm;
   Polygon result(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(fillet.below));
@@ -82,16 +80,17 @@ Polygon filleted(const Polygon& line, double radius_mm, double tolerance_mm) {
         {fillet.centre_rho + radius_mm * std::cos(angle), centre_y + radius_mm * std::sin(angle)});
   }
   result.push_back({fillet.centre_rho, top});
-  return result;
+  return {std::move(result), fillet.centre_rho};
 }
-
-}  // namespace
 
 FilletedLip with_lip_fillet(const WallLines& lines, double radius_mm, double tolerance_mm) {
   const bool bored = lines.bore.back().rho > 0.0;
   for (;; radius_mm *= kShrink) {
-    FilletedLip lip{{filleted(lines.outer, radius_mm, tolerance_mm), lines.bore}, radius_mm};
-    if (bored) lip.lines.bore = mirrored(filleted(mirrored(lines.bore), radius_mm, tolerance_mm));
+    FilletedLip lip{{with_rounded_edge(lines.outer, radius_mm, tolerance_mm).line, lines.bore},
+                    radius_mm};
+    if (bored)
+      lip.lines.bore =
+          mirrored(with_rounded_edge(mirrored(lines.bore), radius_mm, tolerance_mm).line);
     const double flat = lip.lines.outer.back().rho - lip.lines.bore.back().rho;
     if (flat > kLeastFlat * radius_mm) return lip;
   }

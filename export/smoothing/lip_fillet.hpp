@@ -13,6 +13,15 @@ struct FilletedLip {
 [[nodiscard]] FilletedLip with_lip_fillet(const WallLines& lines, double radius_mm,
                                           double tolerance_mm);
 
+/// `line` rises, with the clay at smaller radii, and ends at an edge. Replaces its upper end by an
+/// arc that touches the wall (or a bend of it) and the level of the end.
+struct RoundedEdge {
+  Polygon line;
+  double touch_rho = 0.0;  ///< distance from the axis at which the arc touches the level
+};
+[[nodiscard]] RoundedEdge with_rounded_edge(const Polygon& line, double radius_mm,
+                                            double tolerance_mm);
+
 /// Half the width of the lip (half its radius if there is no bore), or half the height of the last
 /// run below it, whichever is smaller.
 [[nodiscard]] double largest_fillet_mm(const PieceWalls& piece, const Cuts& cuts,

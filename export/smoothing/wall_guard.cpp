@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace clay::solid::inline smoothing {
 namespace {
@@ -108,6 +110,24 @@ Polygon outline_of(const WallLines& lines) {
   Polygon section = lines.outer;
   section.insert(section.end(), lines.bore.rbegin(), lines.bore.rend());
   return section;
+}
+
+WallLines lines_of(const Polygon& outline) {
+  const auto lower = [](const ProfilePoint& a, const ProfilePoint& b) {
+    return std::pair(a.y, -a.rho) < std::pair(b.y, -b.rho);
+  };
+  const auto higher = [](const ProfilePoint& a, const ProfilePoint& b) {
+    return std::pair(a.y, a.rho) < std::pair(b.y, b.rho);
+  };
+  Polygon turned = outline;
+  std::rotate(turned.begin(), std::ranges::min_element(turned, lower), turned.end());
+  const auto rim = std::ranges::max_element(turned, higher) + 1;
+  return {{turned.begin(), rim}, {turned.rbegin(), std::reverse_iterator(rim)}};
+}
+
+Polygon mirrored(Polygon line) {
+  for (ProfilePoint& p : line) p.rho = -p.rho;
+  return line;
 }
 
 WallLines stepped_lines(const PieceWalls& piece) {

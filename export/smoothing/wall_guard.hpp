@@ -17,6 +17,13 @@ struct WallLines {
 /// As one polygon, counterclockwise.
 [[nodiscard]] Polygon outline_of(const WallLines& lines);
 
+/// The reverse: the outer wall rises from the outermost of the lowest points to the outermost of
+/// the highest.
+[[nodiscard]] WallLines lines_of(const Polygon& outline);
+
+/// With the clay on the other side: a bore as if it were an outer wall.
+[[nodiscard]] Polygon mirrored(Polygon line);
+
 /// The unsmoothed steps of a piece.
 [[nodiscard]] WallLines stepped_lines(const PieceWalls& piece);
 

@@ -16,7 +16,9 @@ namespace {
 
 const double kSharpCosine = std::cos(std::numbers::pi / 6.0);
 
-double on_grid(double mm) { return std::round(mm / kBrepGridMm) * kBrepGridMm + 0.0; }
+double on_grid(double mm, double grid_mm = kBrepGridMm) {
+  return std::round(mm / grid_mm) * grid_mm + 0.0;
+}
 ProfilePoint on_grid(const ProfilePoint& p) { return {on_grid(p.rho), on_grid(p.y)}; }
 
 /// A part of a section that sweeps one shell.
@@ -70,7 +72,10 @@ std::vector<std::size_t> corners_of(Line& line) {
 
 BrepWall curved(const Polygon& points, double tolerance_mm) {
   BrepWall wall{points.front(), points.back(), fitted(points, tolerance_mm)};
-  for (ProfilePoint& p : wall.curve->control) p = on_grid(p);
+  auto& control = wall.curve->control;
+  control.front() = on_grid(control.front()), control.back() = on_grid(control.back());
+  for (std::size_t i = 1; i + 1 < control.size(); ++i)
+    control[i] = {on_grid(control[i].rho, kControlGridMm), on_grid(control[i].y, kControlGridMm)};
   return wall;
 }
 
@@ -107,12 +112,35 @@ double volume_of(const BrepBody& body) {
 /// The curve with its inner control points farther from the axis.
 WallCurve moved(WallCurve curve, double out_mm) {
   for (std::size_t i = 1; i + 1 < curve.control.size(); ++i)
-    curve.control[i].rho = on_grid(curve.control[i].rho + out_mm);
+    curve.control[i].rho = on_grid(curve.control[i].rho + out_mm, kControlGridMm);
   return curve;
 }
 
-/// Moves the largest curve so that the body holds this volume. The volume is a quadratic function
-/// of the move; three steps of Newton's method reach the grid.
+/// The curve with only its middle control point farther from the axis.
+WallCurve middle_moved(WallCurve curve, double out_mm) {
+  ProfilePoint& middle = curve.control[curve.control.size() / 2];
+  middle.rho = on_grid(middle.rho + out_mm);
+  return curve;
+}
+
+/// Moves a curve until it encloses this volume. The volume is a quadratic function of the move;
+/// three steps of Newton's method reach the grid.
+template <class Move>
+WallCurve enclosing(const WallCurve& curve, double volume_mm3, Move move) {
+  constexpr double kStepMm = 1e-3;
+  double out = 0.0;
+  for (int step = 0; step < 3; ++step) {
+    const double slope =
+        (swept_volume(move(curve, out + kStepMm)) - swept_volume(move(curve, out - kStepMm))) /
+        (2.0 * kStepMm);
+    if (slope == 0.0) break;
+    out += (volume_mm3 - swept_volume(move(curve, out))) / slope;
+  }
+  return move(curve, out);
+}
+
+/// Moves the largest curve so that the body holds this volume: all of it, and then one point for
+/// what the coarser grid leaves.
 void correct_volume(BrepBody& body, double target_mm3) {
   BrepWall* largest = nullptr;
   for (BrepShell& shell : body)
@@ -120,18 +148,9 @@ void correct_volume(BrepBody& body, double target_mm3) {
       if (wall.curve && (!largest || std::abs(volume_of(wall)) > std::abs(volume_of(*largest))))
         largest = &wall;
   if (!largest) return;
-  const WallCurve fit = *largest->curve;
-  const double rest = volume_of(body) - swept_volume(fit);
-  constexpr double kStepMm = 1e-3;
-  double out = 0.0;
-  for (int step = 0; step < 3; ++step) {
-    const double slope =
-        (swept_volume(moved(fit, out + kStepMm)) - swept_volume(moved(fit, out - kStepMm))) /
-        (2.0 * kStepMm);
-    if (slope == 0.0) return;
-    out += (target_mm3 - rest - swept_volume(moved(fit, out))) / slope;
-  }
-  largest->curve = moved(fit, out);
+  const double wanted = target_mm3 - (volume_of(body) - swept_volume(*largest->curve));
+  const WallCurve near = enclosing(*largest->curve, wanted, moved);
+  largest->curve = enclosing(near, wanted, middle_moved);
 }
 
 /// The points of a shell's line between two corners, for the distance.
@@ -175,7 +194,7 @@ Result<std::pair<BrepBody, double>> body_of(const Polygon& polygon, StepWalls wa
     return section::swept_volume(line.points, line.round) > 0.0;
   });
   const double target = volume_of(Profile{{polygon}});
-  for (const double part : {0.9, 0.6, 0.3}) {
+  for (const double part : {0.97, 0.9, 0.6, 0.3}) {
     BrepBody body;
     for (const Line& line : lines) body.push_back(shell_of(line, walls, part * tolerance_mm));
     correct_volume(body, target);

@@ -39,6 +39,9 @@ struct RevolvedBrep {
 
 /// Coordinates are multiples of this [mm], so that their decimals are exact enough.
 inline constexpr double kBrepGridMm = 1e-9;
+/// The inner control points of curves, whose places do not matter to that degree, are multiples of
+/// this, apart from the one that corrects the volume.
+inline constexpr double kControlGridMm = 1e-4;
 
 /// Requires a certified profile. With StepWalls::spline, walls between corners of more than 30
 /// degrees become one curve each, and the largest curve of a piece is moved so that the piece holds

@@ -223,6 +223,15 @@ WallCurve fitted(const Polygon& line, double tolerance_mm) {
     else
       ++i;
   }
+  // One knot in the middle may do for two.
+  for (std::size_t i = 1; i + 2 < curve.knots.size(); ++i) {
+    std::vector<double> knots = curve.knots;
+    knots[i] = 0.5 * (knots[i] + knots[i + 1]);
+    knots.erase(knots.begin() + std::ptrdiff_t(i) + 1);
+    WallCurve fewer = fit(knots);
+    if (std::ranges::max(bounds_by_span(fewer, by_length)) <= tolerance_mm)
+      curve = std::move(fewer);
+  }
   return curve;
 }
 

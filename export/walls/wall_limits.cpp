@@ -29,11 +29,10 @@ std::vector<ProcessLimits> with_names(std::vector<ProcessLimits> processes) {
 
 /// A clay that a printer lays in beads of the wall's width.
 ProcessLimits clay(const char* name, double bead_mm, double overhang_deg) {
-  return {name,
-          {{kAnySize, bead_mm, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset", {}}},
-          true,
-          OverhangLimit{overhang_deg, "CCL_Clay3DP, ClayPresets.cs: laboratory preset"},
-          {}};
+  return {
+      name, {{kAnySize, bead_mm, "CCL_Clay3DP, ClayPresets.cs: one bead, laboratory preset", {}}},
+      true, OverhangLimit{overhang_deg, "CCL_Clay3DP, ClayPresets.cs: laboratory preset"},
+      {},   EdgeLimit{2.0, "i.materialise, ceramics: edges rounded by at least 2 mm"}};
 }
 
 const std::vector<ProcessLimits>& built_in() {
@@ -45,12 +44,14 @@ const std::vector<ProcessLimits>& built_in() {
          {}}},
        false,
        OverhangLimit{45.0, "design guides of Hycubeworks, Layer-One and Neway"},
+       {},
        {}},
       {"sla",
        {{200.0, 1.0, "i.materialise, resin: up to 200 mm of width + depth + height", {}},
         {400.0, 2.0, "i.materialise, resin: 200 to 400 mm of width + depth + height", {}},
         {kAnySize, 3.0, "i.materialise, resin: above 400 mm of width + depth + height", {}}},
        false,
+       {},
        {},
        {}},
       clay("earthenware", 5.0, 25.0),
@@ -75,6 +76,12 @@ static void describe(auto& io, Is<OverhangLimit> auto& overhang) {
   io.text("source", overhang.source);
 }
 
+static void describe(auto& io, Is<EdgeLimit> auto& edges) {
+  io.require({"min_radius_mm", "source"});
+  io.number("min_radius_mm", edges.min_radius_mm, kWallMm);
+  io.text("source", edges.source);
+}
+
 static void describe(auto& io, Is<SizeLimit> auto& size) {
   io.require({"width_mm", "depth_mm", "height_mm", "source"});
   io.number("width_mm", size.width_mm, kSizeMm);
@@ -91,6 +98,7 @@ static void describe(auto& io, Is<ProcessLimits> auto& process) {
   io.choice("fired", process.fired, kNoYes);
   io.part("overhang", process.overhang);
   io.part("size", process.size);
+  io.part("edges", process.edges);
   io.check([&](auto& reader) {
     reader.expect(!process.walls.empty(), "walls", "at least one wall");
     for (std::size_t i = 1; i < process.walls.size(); ++i)

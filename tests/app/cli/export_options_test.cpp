@@ -151,6 +151,47 @@ TEST_F(ExportOptions, ReportsALipFilletAndExactWalls) {
   EXPECT_NE(both.err.find("fillet"), std::string::npos) << both.err;
 }
 
+TEST_F(ExportOptions, AClayProcessRoundsTheLip) {
+  // A lip that no finger has rounded.
+  ASSERT_EQ(claystack("throw -q " + sample("paper/bowl.scene.json") + " -o " + pot).status, 0);
+  // Half the lip allows less than the 2 mm of the process.
+  const double most = run("--json --lip-fillet 2").json().at("lip_fillet_mm");
+  EXPECT_GT(most, 1.4);
+  EXPECT_EQ(run("--json --process stoneware").json().at("lip_fillet_mm"), most);
+  EXPECT_EQ(run("--json --process stoneware --lip-fillet 1").json().at("lip_fillet_mm"), 1.0);
+  for (const char* without : {"--process stoneware --lip-fillet 0", "--process fdm",
+                              "--process stoneware --smooth exact"})
+    EXPECT_FALSE(run(std::string("--json ") + without).json().contains("lip_fillet_mm")) << without;
+}
+
+TEST_F(ExportOptions, ReportsTheClayThatFinishingTrims) {
+  const std::string page = folder.file("r.html"), step = folder.file("bowl.step");
+  const auto plain = run("--json").json();
+  const std::string options = "--foot 44x5x3 --floor-fillet 5 --glaze-allowance 0.5";
+  const auto json = run(step + " --json " + options).json();
+  const auto& finish = json.at("finish");
+  EXPECT_NEAR(json.at("volume_mm3").get<double>(),
+              plain.at("volume_mm3").get<double>() - finish.at("trimmed_mm3").get<double>() +
+                  finish.at("added_mm3").get<double>(),
+              1e-6 * plain.at("volume_mm3").get<double>());
+  EXPECT_NEAR(finish.at("trimmed_g").get<double>(), 1.9e-3 * finish.at("trimmed_mm3").get<double>(),
+              1e-9);
+  EXPECT_NEAR(json.at("maker").at("thrown").at("foot_diameter_mm"), 44.0, 1e-9);
+  EXPECT_FALSE(plain.contains("finish"));
+  const Ran shown = run("--report " + page + " " + options);
+  EXPECT_NE(shown.out.find("foot ring: trimmed "), std::string::npos) << shown.out;
+  EXPECT_NE(read_text(page).find("foot ring"), std::string::npos);
+  // Fired, the glaze is as thick as asked.
+  const auto fired = run("--json --shrinkage 50% --glaze-allowance 0.5").json();
+  EXPECT_NEAR(fired.at("height_mm").get<double>(), 2.0 * plain.at("height_mm").get<double>() - 1.0,
+              1e-6);
+  const Ran deep = run("--foot 44x5x3 --min-wall 6.5");
+  EXPECT_EQ(deep.status, 1) << deep.err;
+  EXPECT_NE(deep.err.find("foot ring: expected walls of at least"), std::string::npos) << deep.err;
+  for (const char* odd : {"44", "44x5x3x2", "44x5x", "x5x3", "44x-5x3", "44 x 5 x 3"})
+    EXPECT_EQ(run(std::string("--foot '") + odd + "'").status, 2) << odd;
+}
+
 TEST_F(ExportOptions, MeasuresSkippedStagesOnRequest) {
   const auto plain = run("--json").json(), measured = run("--json --measure-left-out").json();
   for (const auto& item : plain.at("left_out")) EXPECT_FALSE(item.contains("saved_s"));

@@ -262,5 +262,32 @@ RC_GTEST_PROP(RunExport, WhatIsWrittenIsSoundOrRefused, (const ClayStack& stack)
   }
 }
 
+TEST(RunExport, FinishIsInTheLedgerOfEveryMesh) {
+  const Pot pot = shapes::pot_of(shapes::vase(200));
+  ExportOptions plain;
+  plain.full_verification = true;
+  ExportOptions options = plain;
+  options.finish = {FootRing{5, 2, {}}, 4.0, 0.4};
+  options.walls.min_wall_mm = 0.5;
+  const auto before = samples::exported(pot, {}, plain);
+  const auto after = samples::exported(pot, samples::every_format(), options);
+  ASSERT_TRUE(before && after) << (after ? "" : after.error().message);
+  const ExportReport& report = after->report;
+  const FinishLedger& ledger = report.section.finish;
+  EXPECT_GT(ledger.foot_trimmed_mm3, 0.0);
+  EXPECT_GT(ledger.glaze_trimmed_mm3, 0.0);
+  EXPECT_GT(ledger.floor_added_mm3, 0.0);
+  EXPECT_NEAR(
+      report.prepared.counted_volume_mm3,
+      before->report.prepared.counted_volume_mm3 - ledger.trimmed_mm3() + ledger.floor_added_mm3,
+      1e-6);
+  EXPECT_LT(report.volume.error_relative, 1e-12);
+  EXPECT_NEAR(report.size.height_mm, 199.6, 1e-9);
+  for (const FileReport& file : report.files) {
+    EXPECT_TRUE(file.full_verification->sound()) << name_of(file.format);
+    EXPECT_NEAR(file.full_verification->volume_mm3 / report.prepared.counted_volume_mm3, 1.0, 5e-4);
+  }
+}
+
 }  // namespace
 }  // namespace clay::solid

@@ -1,6 +1,6 @@
 #pragma once
-// One path for a pot: scale and drain it, compute its section, smooth it, prove it, and write
-// meshes, the drawing, the wall table and certificates from the result. Each stage runs once.
+// One path for a pot: scale and drain it, compute its section, smooth, finish and prove it, and
+// write meshes, the drawing, the wall table and certificates from the result. Each stage runs once.
 
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
@@ -76,7 +76,9 @@ struct ExportOptions {
   /// The limit that smoothing respects (see `SmoothingOptions`) and with which the report compares
   /// the walls.
   WallDemand walls;
-  double lip_fillet_mm = 0.0;
+  /// Empty: the radius that the process requires, with smoothing `fair` of a standing pot; else 0.
+  std::optional<double> lip_fillet_mm;
+  Finish finish;                        ///< of a standing pot
   std::optional<std::size_t> segments;  ///< number of segments around the axis
   /// Limit of triangles; overrides the tolerance if necessary.
   std::optional<std::size_t> max_triangles;
@@ -166,7 +168,7 @@ struct ExportRequest {
 struct Preparation {
   double shrinkage = 0.0;           ///< as requested, 0 to below 1
   double drilled_mm3 = 0.0;         ///< clay removed for the drain
-  double counted_volume_mm3 = 0.0;  ///< volume of the stack, after drilling
+  double counted_volume_mm3 = 0.0;  ///< volume of the stack, after drilling and finishing
 };
 
 /// The section, smoothed and proved in the plane. For a collapsed pot: both parts before the fall.
@@ -174,6 +176,7 @@ struct ProvedSection {
   SmoothedProfile smoothed;               ///< the steps, if not smoothed
   Smoothing smoothing = Smoothing::none;  ///< as applied: straight walls need none
   std::string no_smoothing;               ///< the reason; empty if smoothed
+  FinishLedger finish;
   PlanarCertificate planar;
 
   [[nodiscard]] const Profile& profile() const noexcept { return smoothed.section.profile; }

@@ -109,4 +109,50 @@ struct SmoothedProfile {
 Result<SmoothedProfile> smooth_profile_of(const ClayStack& stack,
                                           const SmoothingOptions& options = {});
 
+// ---- finish --------------------------------------------------------------------------
+// What a maker does to the leather-hard pot: cut a foot, round the corner of the floor, leave room
+// for the glaze. All lengths are those of the solid as written.
+
+/// A ring on which the pot stands. Inside it the foot is cut away to the depth, and outside it too
+/// if it has a diameter of its own.
+struct FootRing {
+  double width_mm = 0.0;
+  double depth_mm = 0.0;
+  std::optional<double> diameter_mm;  ///< outside; empty: that of the pot's foot
+};
+
+struct Finish {
+  std::optional<FootRing> foot;
+  double floor_fillet_mm = 0.0;  ///< radius of the arc where the wall meets the floor inside
+  double glaze_mm = 0.0;  ///< every face but the foot is set back by the thickness of the glaze
+
+  [[nodiscard]] bool asked() const noexcept {
+    return foot || floor_fillet_mm > 0.0 || glaze_mm > 0.0;
+  }
+};
+
+/// The clay that each part of the finish removed or added [mm^3]: the differences of the volumes of
+/// the sections before and after it.
+struct FinishLedger {
+  double foot_trimmed_mm3 = 0.0;
+  double glaze_trimmed_mm3 = 0.0;
+  double floor_added_mm3 = 0.0;
+
+  [[nodiscard]] bool any() const noexcept { return trimmed_mm3() != 0.0 || floor_added_mm3 != 0.0; }
+  [[nodiscard]] double trimmed_mm3() const noexcept { return foot_trimmed_mm3 + glaze_trimmed_mm3; }
+};
+
+struct FinishedProfile {
+  Profile profile;
+  FinishLedger ledger;
+};
+
+/// Sets the faces back, fills the corner of the floor, and cuts the foot, in this order. Arcs are
+/// chords within `tolerance_mm`. Errors: `bad_input` for a profile of several pieces, a ring that
+/// does not fit the foot, a foot without clay above it, a fillet wider than the floor; `unsound`,
+/// with the place, if the set-back leaves a wall thinner than `min_wall_mm` or none at all, or if
+/// the foot leaves one thinner than `min_wall_mm` and than the thinnest before.
+Result<FinishedProfile> finished(const Profile& profile, const Finish& finish,
+                                 std::optional<double> min_wall_mm, double tolerance_mm);
+
 }  // namespace clay::solid::inline smoothing

@@ -115,6 +115,12 @@ struct OverhangLimit {
   std::string source;
 };
 
+/// The smallest radius of edges: sharp ones chip.
+struct EdgeLimit {
+  double min_radius_mm = 0.0;
+  std::string source;
+};
+
 /// The largest object that a machine, a kiln or a service takes.
 struct SizeLimit {
   double width_mm = 0.0, depth_mm = 0.0, height_mm = 0.0;
@@ -128,6 +134,7 @@ struct ProcessLimits {
   bool fired = false;  ///< in a kiln, where a closed cavity bursts
   std::optional<OverhangLimit> overhang;
   std::optional<SizeLimit> size;
+  std::optional<EdgeLimit> edges;
 
   [[nodiscard]] const WallLimit& wall_for(double size_sum_mm) const noexcept;
 };
