@@ -1,6 +1,6 @@
 #include "engine/tick/heave.hpp"
 
-#include "engine/clay/four.hpp"
+#include "engine/clay/packs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ constexpr std::size_t kRows = 64;
 
 /// Some neighbouring rings, and one more wall at either end.
 struct Block {
-  static constexpr std::size_t kAll = kRows + 2 * kFour;
+  static constexpr std::size_t kAll = kRows + 2 * kWidestPack;
   double outer2[kAll], inner2[kAll];         ///< [quanta]
   float outer[kAll], inner[kAll];            ///< [mm]
   float per_outer[kAll], per_inner[kAll];    ///< [1/mm]
@@ -24,39 +24,42 @@ struct Block {
   double lack[kAll];                         ///< above 0: does not take its share
   std::size_t first_lack, lacks_end;         ///< outside of these rings all take their shares
 
-  [[nodiscard]] CLAYSTACK_INLINE Four wall_of(std::size_t k) const noexcept {
-    return four_doubles(load<FourFloats>(outer + k)) - four_doubles(load<FourFloats>(inner + k));
+  template <std::size_t n>
+  [[nodiscard]] CLAYSTACK_INLINE Doubles<n> wall_of(std::size_t k) const noexcept {
+    return doubles<n>(load<Floats<n>>(outer + k)) - doubles<n>(load<Floats<n>>(inner + k));
   }
 };
 
 /// Rings from..last and, beyond the last, the last again.
-CLAYSTACK_INLINE inline FourRings load_up_to(const Ring* rings, std::size_t from,
-                                             std::size_t last) noexcept {
+template <std::size_t n>
+CLAYSTACK_INLINE inline RingPack<n> load_up_to(const Ring* rings, std::size_t from,
+                                               std::size_t last) noexcept {
   const std::size_t i = from < last ? from : last;
-  return load_four(rings + i, last + 1 - i);
+  return load_rings<n>(rings + i, last + 1 - i);
 }
 
-/// Lengths of the rings from `first` on to single precision, of which a machine takes eight at
-/// once.
+/// Lengths of the rings from `first` on to single precision, of which a machine takes twice as many
+/// at once.
+template <std::size_t n>
 CLAYSTACK_INLINE inline void measure(Block& b, const Ring* rings, std::size_t first,
                                      std::size_t last, std::size_t count) noexcept {
-  for (std::size_t k = 0; k < count; k += 2 * kFour) {
-    const FourRings low = load_up_to(rings, first + k, last);
-    const FourRings high = load_up_to(rings, first + k + kFour, last);
-    const Four low_outer2 = four_doubles(low.outer2), high_outer2 = four_doubles(high.outer2);
-    const Four low_inner2 = four_doubles(low.inner2), high_inner2 = four_doubles(high.inner2);
-    const EightFloats outer =
-        root(eight_floats(low_outer2 * kMm2PerQuantum, high_outer2 * kMm2PerQuantum));
-    const EightFloats inner =
-        root(eight_floats(low_inner2 * kMm2PerQuantum, high_inner2 * kMm2PerQuantum));
+  for (std::size_t k = 0; k < count; k += 2 * n) {
+    const RingPack<n> low = load_up_to<n>(rings, first + k, last);
+    const RingPack<n> high = load_up_to<n>(rings, first + k + n, last);
+    const auto low_outer2 = doubles_of(low.outer2), high_outer2 = doubles_of(high.outer2);
+    const auto low_inner2 = doubles_of(low.inner2), high_inner2 = doubles_of(high.inner2);
+    const TwiceFloats<n> outer = root(
+        floats(Doubles<n>(low_outer2 * kMm2PerQuantum), Doubles<n>(high_outer2 * kMm2PerQuantum)));
+    const TwiceFloats<n> inner = root(
+        floats(Doubles<n>(low_inner2 * kMm2PerQuantum), Doubles<n>(high_inner2 * kMm2PerQuantum)));
     store(b.outer2 + k, low_outer2);
-    store(b.outer2 + k + kFour, high_outer2);
+    store(b.outer2 + k + n, high_outer2);
     store(b.inner2 + k, low_inner2);
-    store(b.inner2 + k + kFour, high_inner2);
+    store(b.inner2 + k + n, high_inner2);
     store(b.outer + k, outer);
     store(b.inner + k, inner);
-    store(b.per_outer + k, 1.0f / outer);
-    store(b.per_inner + k, 1.0f / (inner + 1e-30f));
+    store(b.per_outer + k, TwiceFloats<n>(1.0f / outer));
+    store(b.per_inner + k, TwiceFloats<n>(1.0f / (inner + 1e-30f)));
   }
 }
 
@@ -67,52 +70,65 @@ struct Way {
   double start, step, last;  ///< of the faces, in parts of the reach: below 0 downward; last face
   double outside, inside;
 
+  template <std::size_t n>
   struct Faces {
-    Four outside_to, inside_to;
+    Doubles<n> outside_to, inside_to;
   };
-  CLAYSTACK_INLINE Faces faces(std::size_t k) const noexcept {
-    const Four x = start + lesser(load_four(&kLevels[k]), last) * step;
-    const Four t = lesser(greater(x, 0.0), 1.0), far = 1.0 - t, s = lesser(t, far);
-    const Four half = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
-    const Four part = t < far ? half : 1.0 - half;
-    return {nearest(outside * part), nearest(inside * part)};
+  template <std::size_t n>
+  CLAYSTACK_INLINE Faces<n> faces(std::size_t k) const noexcept {
+    using D = Doubles<n>;
+    const D x = start + lesser(load<D>(&kLevels[k]), last) * step;
+    const D t = lesser(greater(x, 0.0), 1.0), far = 1.0 - t, s = lesser(t, far);
+    const D half = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
+    const D part = t < far ? half : 1.0 - half;
+    return {nearest(D(outside * part)), nearest(D(inside * part))};
   }
 };
 
 /// Rows moved by one, the first or the last from their neighbours. In registers: a load of rows
 /// that have just been written apart would wait until the writes are done.
-CLAYSTACK_INLINE inline Four before(Four four, Four previous) noexcept {
-  return __builtin_shufflevector(previous, four, 3, 4, 5, 6);
+template <class Vector>
+CLAYSTACK_INLINE inline Vector before(Vector pack, Vector previous) noexcept {
+  if constexpr (kRowsOf<Vector> == 4)
+    return __builtin_shufflevector(previous, pack, 3, 4, 5, 6);
+  else
+    return __builtin_shufflevector(previous, pack, 1, 2);
 }
-CLAYSTACK_INLINE inline Four after(Four four, Four next) noexcept {
-  return __builtin_shufflevector(four, next, 1, 2, 3, 4);
+template <class Vector>
+CLAYSTACK_INLINE inline Vector after(Vector pack, Vector next) noexcept {
+  if constexpr (kRowsOf<Vector> == 4)
+    return __builtin_shufflevector(pack, next, 1, 2, 3, 4);
+  else
+    return __builtin_shufflevector(pack, next, 1, 2);
 }
 
 /// Each ring's share, the difference of its two faces, and which rings do not take it: without a
 /// root, by what is more than each surface moves. A share leaves a bore open.
+template <std::size_t n>
 CLAYSTACK_INLINE inline void divide(Block& b, std::size_t count, const Way& way, double sign,
                                     double spare, double largest2) noexcept {
-  Four previous_wall = all_of(b.wall[0]), wall = b.wall_of(0);
-  Way::Faces faces = way.faces(0);
-  Four first_lack = all_of(way.last), last_lack = all_of(-1.0);
-  for (std::size_t k = 0; k < count; k += kFour) {
-    const Four next_wall = b.wall_of(k + kFour);
-    const Way::Faces next = way.faces(k + kFour);
-    const Four outside = sign * (after(faces.outside_to, next.outside_to) - faces.outside_to);
-    const Four inside = sign * (after(faces.inside_to, next.inside_to) - faces.inside_to);
-    const Four per_outer = four_doubles(load<FourFloats>(b.per_outer + k));
-    const Four per_inner = four_doubles(load<FourFloats>(b.per_inner + k));
-    const Four moved = kMm2PerQuantum * (0.5 * outside * per_outer + inside * per_inner);
-    const Four slope = lesser(before(wall, previous_wall), after(wall, next_wall)) + spare - wall;
-    const Four over = moved - lesser(slope, load_four(b.clear + k));
-    const Four bore = inside > 0.0 ? inside + 1.0 - load_four(b.inner2 + k) : Four{};
-    const Four wide = load_four(b.outer2 + k) + outside - largest2;
-    const Four lacks = greater(over, greater(bore, wide));
-    const Four lack = moved > 0.0 ? lacks : Four{}, row = load_four(&kLevels[k]);
+  using D = Doubles<n>;
+  D previous_wall = all_of<D>(b.wall[0]), wall = b.wall_of<n>(0);
+  Way::Faces<n> faces = way.faces<n>(0);
+  D first_lack = all_of<D>(way.last), last_lack = all_of<D>(-1.0);
+  for (std::size_t k = 0; k < count; k += n) {
+    const D next_wall = b.wall_of<n>(k + n);
+    const Way::Faces<n> next = way.faces<n>(k + n);
+    const D outside = sign * (after(faces.outside_to, next.outside_to) - faces.outside_to);
+    const D inside = sign * (after(faces.inside_to, next.inside_to) - faces.inside_to);
+    const D per_outer = doubles<n>(load<Floats<n>>(b.per_outer + k));
+    const D per_inner = doubles<n>(load<Floats<n>>(b.per_inner + k));
+    const D moved = kMm2PerQuantum * (0.5 * outside * per_outer + inside * per_inner);
+    const D slope = lesser(before(wall, previous_wall), after(wall, next_wall)) + spare - wall;
+    const D over = moved - lesser(slope, load<D>(b.clear + k));
+    const D bore = inside > 0.0 ? inside + 1.0 - load<D>(b.inner2 + k) : D{};
+    const D wide = load<D>(b.outer2 + k) + outside - largest2;
+    const D lacks = greater(over, greater(bore, wide));
+    const D lack = moved > 0.0 ? lacks : D{}, row = load<D>(&kLevels[k]);
     first_lack = lesser(first_lack, lack > 0.0 ? row : first_lack);
     last_lack = greater(last_lack, lack > 0.0 ? row : last_lack);
     store(b.lack + k, lack);
-    store(b.changes + k, FourRings{four_quanta(outside), -four_quanta(inside)});
+    store(b.changes + k, RingPack<n>{quanta_of(outside), -quanta_of(inside)});
     store(b.outside_to + k, faces.outside_to);
     store(b.inside_to + k, faces.inside_to);
     store(b.wall + k + 1, wall);
@@ -120,9 +136,9 @@ CLAYSTACK_INLINE inline void divide(Block& b, std::size_t count, const Way& way,
     wall = next_wall;
     faces = next;
   }
-  const std::size_t rows = in_fours(count);
+  const std::size_t rows = (count + n - 1) / n * n;
   b.first_lack = static_cast<std::size_t>(least_of(first_lack));
-  b.lacks_end = static_cast<std::size_t>(-least_of(-last_lack) + 1.0);
+  b.lacks_end = static_cast<std::size_t>(-least_of(D(-last_lack)) + 1.0);
   b.wall[rows + 1] = wall[0];
   b.outside_to[rows] = faces.outside_to[0];
   b.inside_to[rows] = faces.inside_to[0];
@@ -226,11 +242,11 @@ class Heaving {
     const Ring& below = rings[first > 0 ? first - 1 : 0];
     block_.wall[0] =
         rough_root(mm2_from_quanta(below.outer2)) - rough_root(mm2_from_quanta(below.inner2));
-    in_lanes([=, b = &block_, last = std::min(first + count, stack_.size() - 1),
-              sign = heap_.up ? 1.0 : -1.0, spare = kSteepest * h_, most = largest2]()
+    in_packs([=, b = &block_, last = std::min(first + count, stack_.size() - 1),
+              sign = heap_.up ? 1.0 : -1.0, spare = kSteepest * h_, most = largest2](auto n)
                  CLAYSTACK_INLINE {
-                   measure(*b, rings, first, last, in_fours(count) + 1);
-                   divide(*b, count, way, sign, spare, most);
+                   measure<n>(*b, rings, first, last, (count + n - 1) / n * n + 1);
+                   divide<n>(*b, count, way, sign, spare, most);
                  });
   }
 
@@ -249,7 +265,7 @@ class Heaving {
 
   void find_clearance(std::size_t first, std::size_t count) noexcept {
     Block& b = block_;
-    std::fill_n(b.clear, in_fours(count), kFar);
+    std::fill_n(b.clear, in_packs_of(count), kFar);
     const double low = (hip_y_ + tool_.low()) / h_, high = (hip_y_ + tool_.high()) / h_;
     const double from = std::max(low - 1.0, static_cast<double>(first));
     const double to = std::min(high + 1.0, static_cast<double>(first + count));

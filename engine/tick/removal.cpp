@@ -1,6 +1,6 @@
 #include "engine/tick/removal.hpp"
 
-#include "engine/clay/four.hpp"
+#include "engine/clay/packs.hpp"
 #include "engine/clay/portable_math.hpp"
 #include "engine/tick/yielding.hpp"
 
@@ -134,7 +134,7 @@ void yield_to_tool(const RemovalPlan& plan, std::span<const Ring> rings, double 
   }
 }
 
-/// Rings of a slice, how far each is squeezed [mm], and what that removes [quanta]. Whole fours.
+/// Rings of a slice, how far each is squeezed [mm], and what that removes [quanta]. Whole packs.
 struct Squeezed {
   static constexpr std::size_t kRows = TouchedRings::kBlock;
   Ring rings[kRows];
@@ -144,7 +144,7 @@ struct Squeezed {
 
   void load(const Squeeze& squeeze, std::span<const Ring> all,
             const TouchedRings::Slice& slice) noexcept {
-    const std::size_t count = slice.size(), rows = in_fours(count), first = slice.begin;
+    const std::size_t count = slice.size(), rows = in_packs_of(count), first = slice.begin;
     std::copy_n(&all[slice.ring], count, rings);
     std::copy_n(&slice.rows.surface[first], count, surface);
     std::copy_n(&slice.rows.give[first], count, give);
@@ -157,35 +157,38 @@ struct Squeezed {
   }
 };
 
+template <std::size_t n>
 CLAYSTACK_INLINE inline void squeeze_rows(Squeezed& s, std::size_t count, bool outside,
                                           double min_wall) noexcept {
   const double outward = outside ? 1.0 : -1.0;
-  for (std::size_t k = 0; k < count; k += kFour) {
-    const FourRings four = load_four(s.rings + k);
-    const Four outer = root(four_doubles(four.outer2) * kMm2PerQuantum);
-    const Four inner = root(four_doubles(four.inner2) * kMm2PerQuantum);
-    const Four near = outside ? outer : inner;
-    const Four by = outward * (load_four(s.surface + k) - near);
-    const Four spare = greater(outer - inner - min_wall, 0.0);
-    const Four eps = greater(lesser(load_four(s.give + k) - by, spare), 0.0);
+  for (std::size_t k = 0; k < count; k += n) {
+    const RingPack<n> pack = load_rings<n>(s.rings + k);
+    const auto outer = root(doubles_of(pack.outer2) * kMm2PerQuantum);
+    const auto inner = root(doubles_of(pack.inner2) * kMm2PerQuantum);
+    const Doubles<n> near = outside ? outer : inner;
+    const Doubles<n> by = outward * (load_doubles<n>(s.surface + k) - near);
+    const Doubles<n> left = outer - inner - min_wall, asked = load_doubles<n>(s.give + k) - by;
+    const Doubles<n> eps = greater(lesser(asked, greater(left, 0.0)), 0.0);
+    const Doubles<n> depth = load_doubles<n>(s.depth + k) - by - eps;
     store(s.near + k, near);
     store(s.eps + k, eps);
-    store(s.depth + k, greater(load_four(s.depth + k) - by - eps, 0.0));
+    store(s.depth + k, greater(depth, 0.0));
   }
 }
 
-/// `take_outside` or `take_inside` of each row. False if one of them is too much for fours.
+/// `take_outside` or `take_inside` of each row. False if one of them is too much for packs.
+template <std::size_t n>
 CLAYSTACK_INLINE inline bool take_rows(Squeezed& s, std::size_t count, bool outside,
                                        Quanta smallest) noexcept {
-  FourQuanta much{};
-  for (std::size_t k = 0; k < count; k += kFour) {
-    const FourRings four = load_four(s.rings + k);
-    const Four eps = load_four(s.eps + k), twice = 2.0 * load_four(s.near + k);
-    const Four asked = eps * (outside ? twice - eps : twice + eps) * kQuantaPerMm2 + 0.5;
+  Quantas<n> much{};
+  for (std::size_t k = 0; k < count; k += n) {
+    const RingPack<n> pack = load_rings<n>(s.rings + k);
+    const Doubles<n> eps = load_doubles<n>(s.eps + k), twice = 2.0 * load_doubles<n>(s.near + k);
+    const Doubles<n> asked = eps * (outside ? twice - eps : twice + eps) * kQuantaPerMm2 + 0.5;
     much |= asked > kMostLaneQuanta;
-    const FourQuanta bore = four.inner2 + 1, least = all_of(outside ? smallest : 0);
-    const FourQuanta spare = four.outer2 - (bore < least ? least : bore);
-    const FourQuanta some = spare > 0 ? spare : FourQuanta{}, all = four_quanta_below(asked);
+    const Quantas<n> bore = pack.inner2 + 1, least = all_of<Quantas<n>>(outside ? smallest : 0);
+    const Quantas<n> spare = pack.outer2 - (bore < least ? least : bore);
+    const Quantas<n> some = spare > 0 ? spare : Quantas<n>{}, all = quanta_below(asked);
     store(s.removed + k, all < some ? all : some);
   }
   return !any(much);
@@ -197,14 +200,14 @@ void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
   const std::size_t count = slice.size();
   Squeezed s;
   s.load(squeeze, rings, slice);
-  in_lanes([=, to = &s, min_wall = squeeze.min_wall_mm]()
-               CLAYSTACK_INLINE { squeeze_rows(*to, count, outside, min_wall); });
+  in_packs([=, to = &s, min_wall = squeeze.min_wall_mm](auto n)
+               CLAYSTACK_INLINE { squeeze_rows<n>(*to, count, outside, min_wall); });
   if (!outside && slice.ring < squeeze.floor_rings) [[unlikely]]
     for (std::size_t k = 0; k < std::min(count, squeeze.floor_rings - slice.ring); ++k)
       if (s.rings[k].inner2 == 0) s.depth[k] += std::exchange(s.eps[k], 0.0);
   bool fits = false;
-  in_lanes([=, from = &s, smallest = kSmallestOuter2, ok = &fits]()
-               CLAYSTACK_INLINE { *ok = take_rows(*from, count, outside, smallest); });
+  in_packs([=, from = &s, smallest = kSmallestOuter2, ok = &fits](auto n)
+               CLAYSTACK_INLINE { *ok = take_rows<n>(*from, count, outside, smallest); });
   for (std::size_t k = 0; k < count && !fits; ++k)
     s.removed[k] = outside ? take_outside(s.rings[k], s.near[k], s.eps[k])
                            : take_inside(s.rings[k], s.near[k], s.eps[k]);

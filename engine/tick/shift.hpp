@@ -73,7 +73,7 @@ class Shift {
   static constexpr std::size_t kRows = 128;
   static constexpr std::size_t kBent = 32;  // distances are rounded from the first of these on
   void begin(const ClayStack& stack, const Band& band, const Shell& shell) noexcept;
-  /// To and from whole fours of rows.
+  /// To and from whole packs of rows.
   static void bend(double h, const Band& band, const Shell& shell, std::size_t first,
                    std::size_t count, double* by) noexcept;
   void move(const ClayStack& stack, const Push& push, std::size_t first, std::size_t count,
@@ -81,7 +81,7 @@ class Shift {
   void settle(const ClayStack& stack) noexcept;
 
   std::size_t from_ = 0, count_ = 0;
-  std::vector<Ring> changes_;  ///< room for whole fours; R^2 below 0: inward
+  std::vector<Ring> changes_;  ///< room for whole packs; R^2 below 0: inward
   WideQuanta raised_total_ = 0;
 };
 
