@@ -19,7 +19,7 @@ CLAYSTACK_INLINE inline double greater(double a, double b) noexcept { return a >
 
 /// 0, 1, 2, ... as doubles. To convert a counter, a loop would take eight rows at a time, and what
 /// is left of them one by one.
-inline constexpr auto kLevels = [] {
+alignas(64) inline constexpr auto kLevels = [] {
   std::array<double, 128> levels{};
   for (std::size_t k = 0; k < levels.size(); ++k) levels[k] = static_cast<double>(k);
   return levels;

@@ -52,6 +52,9 @@ template <class Vector>
 inline constexpr std::size_t kRowsOf = sizeof(Vector) / sizeof(double);
 
 inline constexpr std::size_t kWidestPack = 4;
+/// Arrays that packs go over begin on this many bytes: a pack that lies in two lines of the cache
+/// takes twice as long.
+inline constexpr std::size_t kPackBytes = 64;
 
 /// Rows that loops of packs go over: whole packs of any width.
 [[nodiscard]] constexpr std::size_t in_packs_of(std::size_t rows) noexcept {
@@ -79,6 +82,14 @@ CLAYSTACK_INLINE inline Vector load(const Value* from) noexcept {
 template <std::size_t n>
 CLAYSTACK_INLINE inline Doubles<n> load_doubles(const double* from) noexcept {
   return load<Doubles<n>>(from);
+}
+/// The first `count` of n numbers; the others are 0.
+template <std::size_t n>
+CLAYSTACK_INLINE inline Doubles<n> load_doubles(const double* from, std::size_t count) noexcept {
+  if (count >= n) return load_doubles<n>(from);
+  Doubles<n> some{};
+  for (std::size_t k = 0; k < count; ++k) some[k] = from[k];
+  return some;
 }
 template <class Vector, class Value>
 CLAYSTACK_INLINE inline void store(Value* to, Vector v) noexcept {
@@ -127,6 +138,14 @@ CLAYSTACK_INLINE inline bool any(Vector condition) noexcept {
   Quanta some = condition[0];
   for (std::size_t k = 1; k < kRowsOf<Vector>; ++k) some |= condition[k];
   return some != 0;
+}
+
+/// Whether a row of bits, taken as a signed number, is below 0.
+template <class Vector>
+CLAYSTACK_INLINE inline bool any_negative(Vector bits) noexcept {
+  std::uint64_t all = bits[0];
+  for (std::size_t k = 1; k < kRowsOf<Vector>; ++k) all |= bits[k];
+  return all >> 63 != 0;
 }
 
 /// Of doubles or floats.
@@ -198,6 +217,18 @@ CLAYSTACK_INLINE inline Quantas<kRowsOf<Vector>> quanta_below(Vector x) noexcept
   const Vector whole = near > size ? near - 1.0 : near;
   return quanta_of(x < 0.0 ? -whole : whole);
 }
+
+/// Room for rings on the stack. An array of Ring would be set to 0 first, which takes longer than
+/// what is then done with it.
+template <std::size_t most>
+class RawRings {
+ public:
+  [[nodiscard]] Ring* data() noexcept { return reinterpret_cast<Ring*>(bytes_); }
+  [[nodiscard]] const Ring* data() const noexcept { return reinterpret_cast<const Ring*>(bytes_); }
+
+ private:
+  alignas(Ring) std::byte bytes_[most * sizeof(Ring)];
+};
 
 template <std::size_t n>
 struct RingPack {

@@ -14,13 +14,13 @@ constexpr std::size_t kRows = 64;
 /// Some neighbouring rings, and one more wall at either end.
 struct Block {
   static constexpr std::size_t kAll = kRows + 2 * kWidestPack;
-  double outer2[kAll], inner2[kAll];         ///< [quanta]
-  float outer[kAll], inner[kAll];            ///< [mm]
+  alignas(kPackBytes) double outer2[kAll], inner2[kAll];         ///< [quanta]
+  alignas(kPackBytes) float outer[kAll], inner[kAll];            ///< [mm]
   float per_outer[kAll], per_inner[kAll];    ///< [1/mm]
   double wall[kAll + 2];                     ///< [mm]; from the one before the first ring on
-  double outside_to[kAll], inside_to[kAll];  ///< whole quanta that lie up to a ring's lower face
-  Ring changes[kAll];                        ///< of R^2 and r^2, by a ring's share
-  double clear[kAll];                        ///< of the tool [mm]
+  alignas(kPackBytes) double outside_to[kAll], inside_to[kAll];  ///< whole quanta that lie up to a ring's lower face
+  alignas(kPackBytes) RawRings<kAll> changes;                    ///< of R^2 and r^2, by a ring's share
+  alignas(kPackBytes) double clear[kAll];                        ///< of the tool [mm]
   double lack[kAll];                         ///< above 0: does not take its share
   std::size_t first_lack, lacks_end;         ///< outside of these rings all take their shares
 
@@ -128,7 +128,7 @@ CLAYSTACK_INLINE inline void divide(Block& b, std::size_t count, const Way& way,
     first_lack = lesser(first_lack, lack > 0.0 ? row : first_lack);
     last_lack = greater(last_lack, lack > 0.0 ? row : last_lack);
     store(b.lack + k, lack);
-    store(b.changes + k, RingPack<n>{quanta_of(outside), -quanta_of(inside)});
+    store(b.changes.data() + k, RingPack<n>{quanta_of(outside), -quanta_of(inside)});
     store(b.outside_to + k, faces.outside_to);
     store(b.inside_to + k, faces.inside_to);
     store(b.wall + k + 1, wall);
@@ -202,8 +202,8 @@ class Heaving {
         continue;
       }
       const std::size_t k = heap_.up ? n : count - 1 - n;
-      carry_.inside -= block_.changes[k].inner2;
-      carry_.outside += block_.changes[k].outer2;
+      carry_.inside -= block_.changes.data()[k].inner2;
+      carry_.outside += block_.changes.data()[k].outer2;
       if (carried() > 0) place(first + k, k);
       ++n;
     }
@@ -222,7 +222,7 @@ class Heaving {
 
   void give_shares(std::size_t first, std::size_t k, std::size_t count) noexcept {
     const Block& b = block_;
-    writer_.change(first + k, {b.changes + k, count});
+    writer_.change(first + k, {b.changes.data() + k, count});
     const double total =
         b.inside_to[k + count] - b.inside_to[k] + (b.outside_to[k + count] - b.outside_to[k]);
     placed_ += static_cast<Quanta>(heap_.up ? total : -total);

@@ -59,7 +59,7 @@ class Shift {
            Limit limit) noexcept {
     begin(stack, band, shell);
     for (std::size_t first = from_; first < to(); first += kRows) {
-      double by[kRows];
+      alignas(kPackBytes) double by[kRows];
       const std::size_t count = std::min(kRows, to() - first);
       for (std::size_t k = 0; k < count; k += kBent)
         bend(stack.ring_height_mm(), band, shell, first + k, std::min(kBent, count - k), by + k);

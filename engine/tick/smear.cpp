@@ -48,7 +48,7 @@ class Smear {
   /// are the upper places of the pairs; where they overlap the lower ones, a place has one row.
   struct Places {
     static constexpr std::size_t kAll = 2 * kRows + kWidestPack;
-    double surface[kAll], give[kAll], get[kAll];
+    alignas(kPackBytes) double surface[kAll], give[kAll], get[kAll];
     double depth[kAll];  ///< of the tool [mm]; for a sponge alone
   };
 
@@ -95,8 +95,8 @@ class Smear {
     if (stride > kRows) load(first + stride, count, places, kRows);
     const double h = stack_.ring_height_mm();
     const double start = (static_cast<double>(2 * first + stride + 1) * 0.5 * h - middle_) * per_c_;
-    double amounts[kRows];
-    Quanta whole[kRows];
+    alignas(kPackBytes) double amounts[kRows];
+    alignas(kPackBytes) Quanta whole[kRows];
     in_packs([=, p = &places, to = amounts, per_c = per_c_,
               sign = outside_ ? 1.0 : -1.0](auto n) CLAYSTACK_INLINE {
       using D = Doubles<n>;
