@@ -14,15 +14,16 @@ constexpr std::size_t kRows = 64;
 /// Some neighbouring rings, and one more wall at either end.
 struct Block {
   static constexpr std::size_t kAll = kRows + 2 * kWidestPack;
-  alignas(kPackBytes) double outer2[kAll], inner2[kAll];         ///< [quanta]
-  alignas(kPackBytes) float outer[kAll], inner[kAll];            ///< [mm]
-  float per_outer[kAll], per_inner[kAll];    ///< [1/mm]
-  double wall[kAll + 2];                     ///< [mm]; from the one before the first ring on
-  alignas(kPackBytes) double outside_to[kAll], inside_to[kAll];  ///< whole quanta that lie up to a ring's lower face
-  alignas(kPackBytes) RawRings<kAll> changes;                    ///< of R^2 and r^2, by a ring's share
-  alignas(kPackBytes) double clear[kAll];                        ///< of the tool [mm]
-  double lack[kAll];                         ///< above 0: does not take its share
-  std::size_t first_lack, lacks_end;         ///< outside of these rings all take their shares
+  alignas(kPackBytes) double outer2[kAll], inner2[kAll];  ///< [quanta]
+  alignas(kPackBytes) float outer[kAll], inner[kAll];     ///< [mm]
+  float per_outer[kAll], per_inner[kAll];                 ///< [1/mm]
+  double wall[kAll + 2];  ///< [mm]; from the one before the first ring on
+  alignas(kPackBytes) double outside_to[kAll],
+      inside_to[kAll];                         ///< whole quanta that lie up to a ring's lower face
+  alignas(kPackBytes) RawRings<kAll> changes;  ///< of R^2 and r^2, by a ring's share
+  alignas(kPackBytes) double clear[kAll];      ///< of the tool [mm]
+  double lack[kAll];                           ///< above 0: does not take its share
+  std::size_t first_lack, lacks_end;           ///< outside of these rings all take their shares
 
   template <std::size_t n>
   [[nodiscard]] CLAYSTACK_INLINE Doubles<n> wall_of(std::size_t k) const noexcept {

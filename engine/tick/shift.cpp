@@ -21,8 +21,8 @@ CLAYSTACK_INLINE inline Number smooth(Number t) noexcept {
 /// Some rings. Loops over them are short: a machine has room for about a hundred operations that
 /// wait for another, and a root or a quotient in a long loop fills it.
 struct Rows {
-  static constexpr std::size_t kMost = 128;  // a multiple of eight
-  alignas(kPackBytes) double outer2[kMost], inner2[kMost];       ///< [quanta]
+  static constexpr std::size_t kMost = 128;                 // a multiple of eight
+  alignas(kPackBytes) double outer2[kMost], inner2[kMost];  ///< [quanta]
   double by[kMost];                   ///< how far the ring moves, less where it is not thin [mm]
   double thinness[kMost];             ///< (R^2 - r^2) / (R^2 + r^2): thickness over middle radius
   double outer[kMost], inner[kMost];  ///< [mm]
