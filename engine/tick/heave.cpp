@@ -110,13 +110,20 @@ CLAYSTACK_INLINE inline void divide(Block& b, std::size_t count, const Way& way,
                                     double spare, double largest2) noexcept {
   using D = Doubles<n>;
   D previous_wall = all_of<D>(b.wall[0]), wall = b.wall_of<n>(0);
-  Way::Faces<n> faces = way.faces<n>(0);
+  const std::size_t rows = (count + n - 1) / n * n;
+  for (std::size_t k = 0; k <= rows; k += n) {
+    const Way::Faces<n> faces = way.faces<n>(k);
+    store(b.outside_to + k, faces.outside_to);
+    store(b.inside_to + k, faces.inside_to);
+  }
+  D outside_to = load<D>(b.outside_to), inside_to = load<D>(b.inside_to);
   D first_lack = all_of<D>(way.last), last_lack = all_of<D>(-1.0);
   for (std::size_t k = 0; k < count; k += n) {
     const D next_wall = b.wall_of<n>(k + n);
-    const Way::Faces<n> next = way.faces<n>(k + n);
-    const D outside = sign * (after(faces.outside_to, next.outside_to) - faces.outside_to);
-    const D inside = sign * (after(faces.inside_to, next.inside_to) - faces.inside_to);
+    const D next_outside = load<D>(b.outside_to + k + n),
+            next_inside = load<D>(b.inside_to + k + n);
+    const D outside = sign * (after(outside_to, next_outside) - outside_to);
+    const D inside = sign * (after(inside_to, next_inside) - inside_to);
     const D per_outer = doubles<n>(load<Floats<n>>(b.per_outer + k));
     const D per_inner = doubles<n>(load<Floats<n>>(b.per_inner + k));
     const D moved = kMm2PerQuantum * (0.5 * outside * per_outer + inside * per_inner);
@@ -130,19 +137,15 @@ CLAYSTACK_INLINE inline void divide(Block& b, std::size_t count, const Way& way,
     last_lack = greater(last_lack, lack > 0.0 ? row : last_lack);
     store(b.lack + k, lack);
     store(b.changes.data() + k, RingPack<n>{quanta_of(outside), -quanta_of(inside)});
-    store(b.outside_to + k, faces.outside_to);
-    store(b.inside_to + k, faces.inside_to);
     store(b.wall + k + 1, wall);
     previous_wall = wall;
     wall = next_wall;
-    faces = next;
+    outside_to = next_outside;
+    inside_to = next_inside;
   }
-  const std::size_t rows = (count + n - 1) / n * n;
   b.first_lack = static_cast<std::size_t>(least_of(first_lack));
   b.lacks_end = static_cast<std::size_t>(-least_of(D(-last_lack)) + 1.0);
   b.wall[rows + 1] = wall[0];
-  b.outside_to[rows] = faces.outside_to[0];
-  b.inside_to[rows] = faces.inside_to[0];
 }
 
 /// One end of a band and the way from there.
