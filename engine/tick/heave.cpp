@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace clay {
 namespace {
@@ -265,29 +266,31 @@ class Heaving {
     });
   }
 
-  /// How far ring i may grow before it stands in the tool [mm]; of one that is not beside it: a
+  /// How far each ring may grow before it stands in the tool [mm]; one that is not beside it: a
   /// long way.
-  [[nodiscard]] double clear_of_tool(std::size_t i) const noexcept {
+  void find_clearance(std::size_t first, std::size_t count) noexcept {
+    std::fill_n(block_.clear, in_packs_of(count), kFar);
+    const double low = (hip_y_ + tool_.low()) / h_, high = (hip_y_ + tool_.high()) / h_;
+    const double from = std::max(low - 1.0, static_cast<double>(first));
+    const double to = std::min(high + 1.0, static_cast<double>(first + count));
+    if (!(from < to)) return;
+    const auto begin = static_cast<std::size_t>(from), end = static_cast<std::size_t>(to);
+    std::visit(
+        [&](const auto& profile) {
+          for (std::size_t i = begin; i < end; ++i) block_.clear[i - first] = clear_of(profile, i);
+        },
+        tool_.profile());
+  }
+  template <class Profile>
+  [[nodiscard]] double clear_of(const Profile& profile, std::size_t i) const noexcept {
     const double t = (static_cast<double>(i) + 0.5) * h_ - hip_y_;
     if (!(t >= tool_.low() && t <= tool_.high())) return kFar;
-    const double f = tool_.radius(t), d = contact_.axis_distance_mm;
+    const double f = profile.radius(t), d = contact_.axis_distance_mm;
     const Ring& ring = stack_.rings()[i];
     const double near = contact_.side == Side::compressive
                             ? d - f - rough_root(mm2_from_quanta(ring.outer2))
                             : rough_root(mm2_from_quanta(ring.inner2)) - (d + f);
     return std::max(near, 0.0);
-  }
-
-  void find_clearance(std::size_t first, std::size_t count) noexcept {
-    Block& b = block_;
-    std::fill_n(b.clear, in_packs_of(count), kFar);
-    const double low = (hip_y_ + tool_.low()) / h_, high = (hip_y_ + tool_.high()) / h_;
-    const double from = std::max(low - 1.0, static_cast<double>(first));
-    const double to = std::min(high + 1.0, static_cast<double>(first + count));
-    if (from < to)
-      for (std::size_t k = static_cast<std::size_t>(from) - first;
-           k < static_cast<std::size_t>(to) - first; ++k)
-        b.clear[k] = clear_of_tool(first + k);
   }
 
   /// As much of what is carried as ring i takes.
