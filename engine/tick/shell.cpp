@@ -32,7 +32,7 @@ Wall wall_at(const ClayStack& stack, double up_mm) noexcept {
   return {radius(low.outer2, high.outer2), radius(low.inner2, high.inner2)};
 }
 
-constexpr std::size_t kRows = 32;
+constexpr std::size_t kRows = 64;
 // Parts of a stop are whole numbers, so that their sum does not depend on the order.
 constexpr double kStop = 0x1p30, kMostStops = 0x1p20;
 
