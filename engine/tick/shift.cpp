@@ -29,26 +29,19 @@ struct Rows {
 };
 
 template <std::size_t n>
-CLAYSTACK_INLINE inline void load_rows(Rows& rows, const Ring* rings, std::size_t count) noexcept {
+CLAYSTACK_INLINE inline void load_rows(Rows& rows, const Ring* rings, const double* by,
+                                       std::size_t count) noexcept {
   for (std::size_t k = 0; k < count; k += n) {
     const RingPack<n> pack = load_rings<n>(rings + k, count - k);
-    store(rows.outer2 + k, doubles_of(pack.outer2));
-    store(rows.inner2 + k, doubles_of(pack.inner2));
-  }
-  const std::size_t end = (count + n - 1) / n * n;
-  if (end % (2 * n) != 0) store(rows.outer2 + end, all_of<Doubles<n>>(1.0));  // for roots of 2 n
-}
-template <std::size_t n>
-CLAYSTACK_INLINE inline void bend_rows(Rows& rows, const double* by, std::size_t count) noexcept {
-  for (std::size_t k = 0; k < count; k += n) {
-    const auto outer2 = load_doubles<n>(rows.outer2 + k), inner2 = load_doubles<n>(rows.inner2 + k);
+    const auto outer2 = doubles_of(pack.outer2), inner2 = doubles_of(pack.inner2);
+    store(rows.outer2 + k, outer2);
+    store(rows.inner2 + k, inner2);
     store(rows.by + k, load_doubles<n>(by + k) * pliancy(outer2, inner2));
-  }
-  for (std::size_t k = 0; k < count; k += n) {
-    const auto outer2 = load_doubles<n>(rows.outer2 + k), inner2 = load_doubles<n>(rows.inner2 + k);
     const Doubles<n> per_both = 1.0 / (outer2 + inner2);
     store(rows.thinness + k, (outer2 - inner2) * per_both);
   }
+  const std::size_t end = (count + n - 1) / n * n;
+  if (end % (2 * n) != 0) store(rows.outer2 + end, all_of<Doubles<n>>(1.0));  // for roots of 2 n
 }
 
 template <std::size_t n>
@@ -127,8 +120,7 @@ void Shift::move(const ClayStack& stack, const Push& push, std::size_t first, st
   in_packs([=, r = &rows, rings = stack.rings().data() + first, changes = &changes_[first - from_],
             hoop = push.hoop ? 0.5 : 0.0, per_min_wall = 1.0 / push.min_wall_mm,
             outward = push.outward, most = largest2, total = &sum](auto n) CLAYSTACK_INLINE {
-    load_rows<n>(*r, rings, count);
-    bend_rows<n>(*r, by, count);
+    load_rows<n>(*r, rings, by, count);
     Quantas<n> raised{};
     const auto add = [&](std::size_t k, Quantas<n> more) CLAYSTACK_INLINE {
       if (k + n > count)
