@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <cstdint>
 
 namespace clay {
 namespace {
@@ -32,91 +32,82 @@ Wall wall_at(const ClayStack& stack, double up_mm) noexcept {
   return {radius(low.outer2, high.outer2), radius(low.inner2, high.inner2)};
 }
 
-constexpr std::size_t kRows = 64;
-// Parts of a stop are whole numbers, so that their sum does not depend on the order.
-constexpr double kStop = 0x1p30, kMostStops = 0x1p20;
+constexpr std::size_t kRows = 32;
 
-/// How much rings hold a wall, in parts of a stop: nothing where they are pliant.
-struct Holds {
-  alignas(kPackBytes) Quanta rows[kRows];
-  Quanta sum;
-  bool solid;  ///< one of them, at least
-};
-
-/// Of some rings, `per_ring` where they are solid.
-void hold(const Ring* rings, std::size_t count, double per_ring, Holds& holds) noexcept {
-  in_packs([=, to = &holds](auto n) CLAYSTACK_INLINE {
-    Doubles<n> stiffest{};
-    Quantas<n> sum{};
-    for (std::size_t k = 0; k < count; k += n) {
-      const RingPack<n> pack = load_rings<n>(rings + k, count - k);
-      const Doubles<n> stiff = 1.0 - pliancy(doubles_of(pack.outer2), doubles_of(pack.inner2));
-      const Quantas<n> some = quanta_of(Doubles<n>(per_ring * stiff));
-      store(to->rows + k, some);
-      stiffest = greater(stiffest, stiff);
-      sum += some;
-    }
-    to->sum = sum_of(sum);
-    to->solid = -least_of(Doubles<n>(-stiffest)) == 1.0;
-    // The last pack repeats the last ring.
-    for (std::size_t k = count; k % n != 0; ++k) to->sum -= to->rows[k];
-  });
+/// Of R^2: the r^2 from which a ring is pliant [quanta].
+template <class Number>
+CLAYSTACK_INLINE inline Number pliant_from(Number outer2) noexcept {
+  return (outer2 >> 3) + (outer2 >> 5);
 }
 
-/// The wall from an end of a band on.
-struct FreeWall {
-  double length_mm;
-  double foot_mm = kNoFoot;  ///< top of the first solid ring
-};
+/// Whether these rings are pliant, all of them.
+bool all_pliant(const Ring* rings, std::size_t count) noexcept {
+  constexpr std::size_t kAtOnce = 16;
+  bool stiff = false;
+  in_packs([=, some = &stiff](auto n) CLAYSTACK_INLINE {
+    for (std::size_t first = 0; first < count && !*some; first += kAtOnce) {
+      const std::size_t end = first + kAtOnce < count ? first + kAtOnce : count;
+      Bits<n> over{};
+      for (std::size_t k = first; k < end; k += n) {
+        const RingPack<n> pack = load_rings<n>(rings + k, end - k);
+        over |= reinterpret_cast<Bits<n>>(pack.inner2) -
+                pliant_from(reinterpret_cast<Bits<n>>(pack.outer2));
+      }
+      *some = any_negative(over);
+    }
+  });
+  return !stiff;
+}
 
-/// How far the wall is free to bend: to the floor, to a solid part, or farther than `most`. Nothing
-/// above the rim holds it.
-FreeWall free_wall(const ClayStack& stack, double end_mm, bool up, double most,
-                   double stop) noexcept {
-  const double h = stack.ring_height_mm();
+/// What each of these rings adds to a stop: nothing where it is pliant.
+CLAYSTACK_INLINE inline void stops_of(const Ring* rings, std::size_t count, double per_stop,
+                                      double* stops) noexcept {
+  for (std::size_t k = 0; k < count; ++k) {
+    const Ring ring = rings[k];
+    const double pliant = pliancy(lane_double(ring.outer2), lane_double(ring.inner2));
+    const auto from = static_cast<Quanta>(pliant_from(static_cast<std::uint64_t>(ring.outer2)));
+    stops[k] = ring.inner2 < from ? per_stop * (1.0 - pliant) : 0.0;
+  }
+}
+
+/// How far the wall is free to bend from an end of the band: to the floor, to a solid part, or
+/// farther than `most`. `foot_mm`: the top of the first solid ring below, if there is one.
+double free_length(const ClayStack& stack, double end_mm, bool up, double most, double stop,
+                   double* foot_mm = nullptr) noexcept {
+  const double h = stack.ring_height_mm(), per_stop = 1.0 / stop;
   const auto rings = stack.rings();
   const double level = std::clamp(end_mm / h, 0.0, static_cast<double>(rings.size()));
   const std::size_t first = std::min(static_cast<std::size_t>(level), rings.size() - 1);
   const std::size_t there = up ? rings.size() - first : first + 1;
+  // Most walls have no stop there: two rings more than the loop below would see are enough.
+  const auto rings_seen = static_cast<std::size_t>(most / h) + 3;
+  if (const std::size_t seen = std::min(rings_seen, there);
+      (up || seen == rings_seen) &&
+      all_pliant(rings.data() + (up ? first : first + 1 - seen), seen))
+    return most;
   const double within = level - static_cast<double>(first);
-  const double piece = up ? 1.0 - within : within;  // of the ring that the end lies in
-  const double near = std::ceil(std::max(most / h - piece, 0.0)) + 1.0;
-  const std::size_t seen =
-      near < static_cast<double>(there) ? static_cast<std::size_t>(near) : there;
-  FreeWall wall{up || seen < there ? most
-                                   : std::min(most, h * (piece + static_cast<double>(seen - 1)))};
-  const double per_ring = std::min(h / stop, kMostStops) * kStop;
-  double held = 0.0;
-  Holds holds;
-  for (std::size_t done = 0; done < seen; done += kRows) {
-    const std::size_t some = std::min(kRows, seen - done);
-    hold(rings.data() + (up ? first + done : first + 1 - done - some), some, per_ring, holds);
-    if (done == 0) {
-      Quanta& part = holds.rows[up ? 0 : some - 1];
-      const auto whole =
-          std::exchange(part, static_cast<Quanta>(static_cast<double>(part) * piece));
-      holds.sum += part - whole;
-    }
-    const bool seeks_foot = holds.solid && wall.foot_mm == kNoFoot;
-    if (!seeks_foot && held + static_cast<double>(holds.sum) < kStop) {
-      held += static_cast<double>(holds.sum);
-      continue;
-    }
-    for (std::size_t k = 0; k < some; ++k) {
-      const auto by = static_cast<double>(holds.rows[up ? k : some - 1 - k]);
-      const std::size_t i = done + k;
-      if (wall.foot_mm == kNoFoot && !(pliancy(rings[up ? first + i : first - i]) > 0.0))
-        wall.foot_mm = static_cast<double>(first - i + 1) * h;
-      if (held + by >= kStop) {
-        const double rest = (kStop - held) / by * (i == 0 ? piece : 1.0);
-        wall.length_mm =
-            std::min(most, h * (i == 0 ? rest : piece + static_cast<double>(i - 1) + rest));
-        return wall;
+  double piece = h * (up ? 1.0 - within : within);  // of the ring that the end lies in
+  double stops[kRows], length = 0.0, stopped = 0.0;
+  for (std::size_t done = 0; length < most; done += kRows) {
+    if (done >= there) return up ? most : length;  // nothing above the rim holds the wall
+    const std::size_t some = std::min(kRows, there - done);
+    const Ring* const from = rings.data() + (up ? first + done : first + 1 - done - some);
+    in_lanes([=, to = stops]() CLAYSTACK_INLINE { stops_of(from, some, h * per_stop, to); });
+    if (done == 0) stops_of(&rings[first], 1, piece * per_stop, &stops[up ? 0 : some - 1]);
+    for (std::size_t k = 0; k < some && length < most; ++k) {
+      const std::size_t ring = up ? first + done + k : first - done - k;
+      if (foot_mm != nullptr && !(pliancy(rings[ring]) > 0.0)) {
+        *foot_mm = static_cast<double>(ring + 1) * h;
+        foot_mm = nullptr;
       }
-      held += by;
+      const double by = stops[up ? k : some - 1 - k];
+      if (stopped + by >= 1.0) return std::min(most, length + piece * (1.0 - stopped) / by);
+      stopped += by;
+      length += piece;
+      piece = h;
     }
   }
-  return wall;
+  return most;
 }
 
 /// Top of the solid clay that a contact reaches down to; far below where it does not.
@@ -152,11 +143,12 @@ Shell shell_at(const ClayStack& stack, const Band& band, double min_wall_mm, dou
   const double c = std::max(band.height_mm(), h),
                rim = std::max(stack.height_mm() - band.high_mm, 0.0);
   const double hinge_mm = 0.25 * w;
-  const FreeWall down = free_wall(stack, band.low_mm, false, length, hinge_mm);
-  const double below = down.length_mm, foot = foot_of(stack, band);
-  shell.foot_mm = foot > kNoFoot ? foot : down.foot_mm;
+  double foot = foot_of(stack, band);
+  const double below =
+      free_length(stack, band.low_mm, false, length, hinge_mm, foot > kNoFoot ? nullptr : &foot);
+  shell.foot_mm = foot;
   shell.root_mm = std::max(kRoot * w, h);
-  const double above = free_wall(stack, band.high_mm, true, length, hinge_mm).length_mm;
+  const double above = free_length(stack, band.high_mm, true, length, hinge_mm);
 
   const double thinness = w / R;
   const double behind = trailing(upward_mm_s, into_mm_s, thinness);

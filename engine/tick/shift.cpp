@@ -101,10 +101,11 @@ void Shift::bend(double h, const Band& band, const Shell& shell, std::size_t fir
   const double per_above = greater(shell.turn, 0.0) / shell.above_mm;
   const double flare = greater(-shell.turn, 0.0) / shell.above_mm;
   const double low = amplitude * shell.trail_below, high = amplitude * shell.trail_above;
-  const double start = (static_cast<double>(first) + 0.5) * h - band.peak_mm;
-  in_packs([=](auto n) CLAYSTACK_INLINE {
+  in_packs([=, peak = band.peak_mm](auto n) CLAYSTACK_INLINE {
     for (std::size_t k = 0; k < count; k += n) {
-      const Doubles<n> x = start + load_doubles<n>(&kLevels[k]) * h;
+      const std::size_t from = k / kBent * kBent;
+      const double start = (static_cast<double>(first + from) + 0.5) * h - peak;
+      const Doubles<n> x = start + load_doubles<n>(&kLevels[k - from]) * h;
       const Doubles<n> down = x * per_below, up = -x * per_above, in = 1.0 + lesser(down, up);
       const Doubles<n> side = x < 0.0 ? all_of<Doubles<n>>(low) : all_of<Doubles<n>>(high);
       store(by + k, side * (smooth(greater(in, 0.0)) + greater(x, 0.0) * flare));

@@ -71,6 +71,7 @@ class Shift {
  private:
   static constexpr std::size_t kRows = 128;
   void begin(const ClayStack& stack, const Band& band, const Shell& shell) noexcept;
+  static constexpr std::size_t kBent = 32;  // distances are rounded from the first of these on
   /// To and from whole packs of rows.
   static void bend(double h, const Band& band, const Shell& shell, std::size_t first,
                    std::size_t count, double* by) noexcept;
