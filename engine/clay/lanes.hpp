@@ -19,19 +19,23 @@ CLAYSTACK_INLINE inline double greater(double a, double b) noexcept { return a >
 
 /// 0, 1, 2, ... as doubles. To convert a counter, a loop would take eight rows at a time, and what
 /// is left of them one by one.
-inline constexpr auto kLevels = [] {
+alignas(64) inline constexpr auto kLevels = [] {
   std::array<double, 128> levels{};
   for (std::size_t k = 0; k < levels.size(); ++k) levels[k] = static_cast<double>(k);
   return levels;
 }();
 
+/// The halves of a whole number behind these exponents are 2^52 + low and 2^84 + 2^32 high.
+inline constexpr std::uint64_t kLowExponent = std::bit_cast<std::uint64_t>(0x1p52);
+inline constexpr std::uint64_t kHighExponent = std::bit_cast<std::uint64_t>(0x1p84);
+inline constexpr double kBothExponents = 0x1p84 + 0x1p52;
+
 /// Quanta >= 0 as a double, rounded to nearest like a conversion; unlike one it is done in lanes.
 CLAYSTACK_INLINE inline double lane_double(Quanta q) noexcept {
-  constexpr std::uint64_t kExponent = std::bit_cast<std::uint64_t>(0x1p52);
   const auto bits = static_cast<std::uint64_t>(q);
-  const double low = std::bit_cast<double>((bits & 0xffffffffu) | kExponent) - 0x1p52;
-  const double high = std::bit_cast<double>((bits >> 32) | kExponent) - 0x1p52;
-  return high * 0x1p32 + low;
+  const double low = std::bit_cast<double>((bits & 0xffffffffu) | kLowExponent);
+  const double high = std::bit_cast<double>((bits >> 32) | kHighExponent);
+  return (high - kBothExponents) + low;
 }
 
 /// The largest size of a number that four.hpp rounds to quanta.

@@ -1,6 +1,6 @@
 #include "engine/clay/ring_sums.hpp"
 
-#include "engine/clay/four.hpp"
+#include "engine/clay/packs.hpp"
 
 #include <algorithm>
 
@@ -20,22 +20,28 @@ Stretch sum(std::span<const Stretch> parts) noexcept {
 }
 Stretch sum(std::span<const Ring> rings) noexcept { return stretch_of(rings); }
 
-/// Of whole fours. The halves of the volumes are summed apart, so that 64 bits do.
-CLAYSTACK_INLINE inline void add_fours(const Ring* rings, std::size_t count,
+/// Of an even number of packs, of which the second ones do not wait for the first. The halves of
+/// the volumes are summed apart, so that 64 bits do.
+template <std::size_t n>
+CLAYSTACK_INLINE inline void add_packs(const Ring* rings, std::size_t count,
                                        Stretch* stretch) noexcept {
-  FourBits low{}, high{};
-  FourQuanta least = all_of(stretch->least);
-  for (std::size_t k = 0; k < count; k += kFour) {
-    const FourRings four = load_four(rings + k);
-    const FourQuanta volume = four.outer2 - four.inner2;
-    const auto bits = reinterpret_cast<FourBits>(volume);
+  Bits<n> low{}, high{};
+  auto least = all_of<Quantas<n>>(stretch->least), second = least;
+  const auto add = [&](const RingPack<n>& pack, Quantas<n>& smallest) CLAYSTACK_INLINE {
+    const Quantas<n> volume = pack.outer2 - pack.inner2;
+    const auto bits = reinterpret_cast<Bits<n>>(volume);
     low += bits & 0xffffffffu;
     high += bits >> 32;
-    least = volume < least ? volume : least;
+    smallest = volume < smallest ? volume : smallest;
+  };
+  for (std::size_t k = 0; k < count; k += 2 * n) {
+    add(load_rings<n>(rings + k), least);
+    add(load_rings<n>(rings + k + n), second);
   }
-  for (int k = 0; k < 4; ++k) {
+  least = second < least ? second : least;
+  for (std::size_t k = 0; k < n; ++k) {
     stretch->volume += (WideQuanta{high[k]} << 32) + WideQuanta{low[k]};
-    stretch->least = std::min(stretch->least, least[k]);
+    stretch->least = std::min(stretch->least, Quanta{least[k]});
   }
 }
 
@@ -61,10 +67,10 @@ WideQuanta rest_of_stretch(std::span<const Part> parts, std::size_t i) noexcept 
 
 Stretch stretch_of(std::span<const Ring> rings) noexcept {
   Stretch stretch{0, rings.front().volume()};
-  const std::size_t fours = rings.size() / kFour * kFour;
-  in_lanes([=, from = rings.data(), to = &stretch]()
-               CLAYSTACK_INLINE { add_fours(from, fours, to); });
-  for (const Ring& ring : rings.subspan(fours)) {
+  const std::size_t packed = rings.size() / (2 * kWidestPack) * (2 * kWidestPack);
+  in_packs([=, from = rings.data(), to = &stretch](auto n)
+               CLAYSTACK_INLINE { add_packs<n>(from, packed, to); });
+  for (const Ring& ring : rings.subspan(packed)) {
     stretch.volume += ring.volume();
     stretch.least = std::min(stretch.least, ring.volume());
   }

@@ -1,6 +1,6 @@
 #include "engine/tick/removal.hpp"
 
-#include "engine/clay/four.hpp"
+#include "engine/clay/packs.hpp"
 #include "engine/clay/portable_math.hpp"
 #include "engine/tick/yielding.hpp"
 
@@ -134,58 +134,60 @@ void yield_to_tool(const RemovalPlan& plan, std::span<const Ring> rings, double 
   }
 }
 
-/// Rings of a slice, how far each is squeezed [mm], and what that removes [quanta]. Whole fours.
+/// Rings of a slice, how far each is squeezed [mm], and what that removes [quanta]. Whole packs.
 struct Squeezed {
   static constexpr std::size_t kRows = TouchedRings::kBlock;
-  Ring rings[kRows];
-  double surface[kRows], give[kRows], depth[kRows];  ///< of the slice
-  double near[kRows], eps[kRows];
+  alignas(kPackBytes) RawRings<kRows> raw;
+  alignas(kPackBytes) double near[kRows], eps[kRows], depth[kRows];
   Quanta removed[kRows];
 
   void load(const Squeeze& squeeze, std::span<const Ring> all,
             const TouchedRings::Slice& slice) noexcept {
-    const std::size_t count = slice.size(), rows = in_fours(count), first = slice.begin;
+    const std::size_t count = slice.size();
+    Ring* const rings = raw.data();
     std::copy_n(&all[slice.ring], count, rings);
-    std::copy_n(&slice.rows.surface[first], count, surface);
-    std::copy_n(&slice.rows.give[first], count, give);
-    std::copy_n(&slice.rows.depth[first], count, depth);
     if (squeeze.shift != nullptr) squeeze.shift->move(slice.ring, {rings, count});
-    for (std::size_t k = count; k < rows; ++k) {
-      rings[k] = rings[count - 1];
-      surface[k] = give[k] = depth[k] = 0.0;
-    }
+    for (std::size_t k = count; k < in_packs_of(count); ++k) rings[k] = rings[count - 1];
   }
 };
 
-CLAYSTACK_INLINE inline void squeeze_rows(Squeezed& s, std::size_t count, bool outside,
-                                          double min_wall) noexcept {
+template <std::size_t n>
+CLAYSTACK_INLINE inline void squeeze_rows(Squeezed& s, const TouchedRings::Slice& slice,
+                                          bool outside, double min_wall) noexcept {
+  const std::size_t count = slice.size(), first = slice.begin;
+  const TouchedRings::Block& rows = slice.rows;
   const double outward = outside ? 1.0 : -1.0;
-  for (std::size_t k = 0; k < count; k += kFour) {
-    const FourRings four = load_four(s.rings + k);
-    const Four outer = root(four_doubles(four.outer2) * kMm2PerQuantum);
-    const Four inner = root(four_doubles(four.inner2) * kMm2PerQuantum);
-    const Four near = outside ? outer : inner;
-    const Four by = outward * (load_four(s.surface + k) - near);
-    const Four spare = greater(outer - inner - min_wall, 0.0);
-    const Four eps = greater(lesser(load_four(s.give + k) - by, spare), 0.0);
+  for (std::size_t k = 0; k < count; k += n) {
+    const auto of_slice = [&](const TouchedRings::Row& row) CLAYSTACK_INLINE {
+      return load_doubles<n>(&row[first + k], count - k);
+    };
+    const RingPack<n> pack = load_rings<n>(s.raw.data() + k);
+    const auto outer = root(doubles_of(pack.outer2) * kMm2PerQuantum);
+    const auto inner = root(doubles_of(pack.inner2) * kMm2PerQuantum);
+    const Doubles<n> near = outside ? outer : inner;
+    const Doubles<n> by = outward * (of_slice(rows.surface) - near);
+    const Doubles<n> left = outer - inner - min_wall, asked = of_slice(rows.give) - by;
+    const Doubles<n> eps = greater(lesser(asked, greater(left, 0.0)), 0.0);
+    const Doubles<n> depth = of_slice(rows.depth) - by - eps;
     store(s.near + k, near);
     store(s.eps + k, eps);
-    store(s.depth + k, greater(load_four(s.depth + k) - by - eps, 0.0));
+    store(s.depth + k, greater(depth, 0.0));
   }
 }
 
-/// `take_outside` or `take_inside` of each row. False if one of them is too much for fours.
+/// `take_outside` or `take_inside` of each row. False if one of them is too much for packs.
+template <std::size_t n>
 CLAYSTACK_INLINE inline bool take_rows(Squeezed& s, std::size_t count, bool outside,
                                        Quanta smallest) noexcept {
-  FourQuanta much{};
-  for (std::size_t k = 0; k < count; k += kFour) {
-    const FourRings four = load_four(s.rings + k);
-    const Four eps = load_four(s.eps + k), twice = 2.0 * load_four(s.near + k);
-    const Four asked = eps * (outside ? twice - eps : twice + eps) * kQuantaPerMm2 + 0.5;
+  Quantas<n> much{};
+  for (std::size_t k = 0; k < count; k += n) {
+    const RingPack<n> pack = load_rings<n>(s.raw.data() + k);
+    const Doubles<n> eps = load_doubles<n>(s.eps + k), twice = 2.0 * load_doubles<n>(s.near + k);
+    const Doubles<n> asked = eps * (outside ? twice - eps : twice + eps) * kQuantaPerMm2 + 0.5;
     much |= asked > kMostLaneQuanta;
-    const FourQuanta bore = four.inner2 + 1, least = all_of(outside ? smallest : 0);
-    const FourQuanta spare = four.outer2 - (bore < least ? least : bore);
-    const FourQuanta some = spare > 0 ? spare : FourQuanta{}, all = four_quanta_below(asked);
+    const Quantas<n> bore = pack.inner2 + 1, least = all_of<Quantas<n>>(outside ? smallest : 0);
+    const Quantas<n> spare = pack.outer2 - (bore < least ? least : bore);
+    const Quantas<n> some = spare > 0 ? spare : Quantas<n>{}, all = quanta_below(asked);
     store(s.removed + k, all < some ? all : some);
   }
   return !any(much);
@@ -197,17 +199,20 @@ void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
   const std::size_t count = slice.size();
   Squeezed s;
   s.load(squeeze, rings, slice);
-  in_lanes([=, to = &s, min_wall = squeeze.min_wall_mm]()
-               CLAYSTACK_INLINE { squeeze_rows(*to, count, outside, min_wall); });
-  if (!outside && slice.ring < squeeze.floor_rings) [[unlikely]]
-    for (std::size_t k = 0; k < std::min(count, squeeze.floor_rings - slice.ring); ++k)
-      if (s.rings[k].inner2 == 0) s.depth[k] += std::exchange(s.eps[k], 0.0);
+  const Ring* const shifted = s.raw.data();
+  const bool on_floor = !outside && slice.ring < squeeze.floor_rings;
   bool fits = false;
-  in_lanes([=, from = &s, smallest = kSmallestOuter2, ok = &fits]()
-               CLAYSTACK_INLINE { *ok = take_rows(*from, count, outside, smallest); });
+  in_packs([=, to = &s, of = &slice, min_wall = squeeze.min_wall_mm, smallest = kSmallestOuter2,
+            ok = &fits](auto n) CLAYSTACK_INLINE {
+    squeeze_rows<n>(*to, *of, outside, min_wall);
+    if (!on_floor) *ok = take_rows<n>(*to, count, outside, smallest);
+  });
+  // On the floor row by row: what has no bore stays closed.
+  for (std::size_t k = 0; on_floor && k < std::min(count, squeeze.floor_rings - slice.ring); ++k)
+    if (shifted[k].inner2 == 0) s.depth[k] += std::exchange(s.eps[k], 0.0);
   for (std::size_t k = 0; k < count && !fits; ++k)
-    s.removed[k] = outside ? take_outside(s.rings[k], s.near[k], s.eps[k])
-                           : take_inside(s.rings[k], s.near[k], s.eps[k]);
+    s.removed[k] = outside ? take_outside(shifted[k], s.near[k], s.eps[k])
+                           : take_inside(shifted[k], s.near[k], s.eps[k]);
   std::copy_n(s.removed, count, removed);
   std::copy_n(s.depth, count, &slice.rows.depth[slice.begin]);
 }

@@ -1,6 +1,6 @@
 #include "engine/tick/shell.hpp"
 
-#include "engine/clay/lanes.hpp"
+#include "engine/clay/packs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,15 +34,39 @@ Wall wall_at(const ClayStack& stack, double up_mm) noexcept {
 
 constexpr std::size_t kRows = 32;
 
+/// Of R^2: the r^2 from which a ring is pliant [quanta].
+template <class Number>
+CLAYSTACK_INLINE inline Number pliant_from(Number outer2) noexcept {
+  return (outer2 >> 3) + (outer2 >> 5);
+}
+
+/// Whether these rings are pliant, all of them.
+bool all_pliant(const Ring* rings, std::size_t count) noexcept {
+  constexpr std::size_t kAtOnce = 16;
+  bool stiff = false;
+  in_packs([=, some = &stiff](auto n) CLAYSTACK_INLINE {
+    for (std::size_t first = 0; first < count && !*some; first += kAtOnce) {
+      const std::size_t end = first + kAtOnce < count ? first + kAtOnce : count;
+      Bits<n> over{};
+      for (std::size_t k = first; k < end; k += n) {
+        const RingPack<n> pack = load_rings<n>(rings + k, end - k);
+        over |= reinterpret_cast<Bits<n>>(pack.inner2) -
+                pliant_from(reinterpret_cast<Bits<n>>(pack.outer2));
+      }
+      *some = any_negative(over);
+    }
+  });
+  return !stiff;
+}
+
 /// What each of these rings adds to a stop: nothing where it is pliant.
 CLAYSTACK_INLINE inline void stops_of(const Ring* rings, std::size_t count, double per_stop,
                                       double* stops) noexcept {
   for (std::size_t k = 0; k < count; ++k) {
     const Ring ring = rings[k];
     const double pliant = pliancy(lane_double(ring.outer2), lane_double(ring.inner2));
-    const auto outer2 = static_cast<std::uint64_t>(ring.outer2);
-    const auto thin = static_cast<Quanta>((outer2 >> 3) + (outer2 >> 5));
-    stops[k] = ring.inner2 < thin ? per_stop * (1.0 - pliant) : 0.0;
+    const auto from = static_cast<Quanta>(pliant_from(static_cast<std::uint64_t>(ring.outer2)));
+    stops[k] = ring.inner2 < from ? per_stop * (1.0 - pliant) : 0.0;
   }
 }
 
@@ -55,6 +79,12 @@ double free_length(const ClayStack& stack, double end_mm, bool up, double most, 
   const double level = std::clamp(end_mm / h, 0.0, static_cast<double>(rings.size()));
   const std::size_t first = std::min(static_cast<std::size_t>(level), rings.size() - 1);
   const std::size_t there = up ? rings.size() - first : first + 1;
+  // Most walls have no stop there: two rings more than the loop below would see are enough.
+  const auto rings_seen = static_cast<std::size_t>(most / h) + 3;
+  if (const std::size_t seen = std::min(rings_seen, there);
+      (up || seen == rings_seen) &&
+      all_pliant(rings.data() + (up ? first : first + 1 - seen), seen))
+    return most;
   const double within = level - static_cast<double>(first);
   double piece = h * (up ? 1.0 - within : within);  // of the ring that the end lies in
   double stops[kRows], length = 0.0, stopped = 0.0;

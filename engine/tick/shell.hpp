@@ -2,7 +2,7 @@
 // How a wall answers to a tool on one side of it: as a plastic shell, by limit analysis.
 
 #include "claystack/engine/clay.hpp"
-#include "engine/clay/four.hpp"
+#include "engine/clay/packs.hpp"
 #include "engine/tick/band.hpp"
 
 namespace clay {

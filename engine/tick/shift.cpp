@@ -1,6 +1,6 @@
 #include "engine/tick/shift.hpp"
 
-#include "engine/clay/four.hpp"
+#include "engine/clay/packs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,66 +13,70 @@ constexpr std::size_t kMostSunk = 64;
 // A bore keeps half of its radius at least, however far a pose leaps.
 constexpr double kMostOfBore = 0.75;
 
-CLAYSTACK_INLINE inline Four smooth(Four t) noexcept { return t * t * (3.0 - 2.0 * t); }
+template <class Number>
+CLAYSTACK_INLINE inline Number smooth(Number t) noexcept {
+  return t * t * (3.0 - 2.0 * t);
+}
 
 /// Some rings. Loops over them are short: a machine has room for about a hundred operations that
 /// wait for another, and a root or a quotient in a long loop fills it.
 struct Rows {
-  static constexpr std::size_t kMost = 128;  // a multiple of eight
-  double outer2[kMost], inner2[kMost];       ///< [quanta]
+  static constexpr std::size_t kMost = 128;                 // a multiple of eight
+  alignas(kPackBytes) double outer2[kMost], inner2[kMost];  ///< [quanta]
   double by[kMost];                   ///< how far the ring moves, less where it is not thin [mm]
   double thinness[kMost];             ///< (R^2 - r^2) / (R^2 + r^2): thickness over middle radius
   double outer[kMost], inner[kMost];  ///< [mm]
 };
 
-CLAYSTACK_INLINE inline void load_rows(Rows& rows, const Ring* rings, std::size_t count) noexcept {
-  for (std::size_t k = 0; k < count; k += kFour) {
-    const FourRings four = load_four(rings + k, count - k);
-    store(rows.outer2 + k, four_doubles(four.outer2));
-    store(rows.inner2 + k, four_doubles(four.inner2));
-  }
-  if (const std::size_t end = in_fours(count); end % (2 * kFour) != 0)
-    store(rows.outer2 + end, all_of(1.0));  // roots are taken by eight
-}
-CLAYSTACK_INLINE inline void bend_rows(Rows& rows, const double* by, std::size_t count) noexcept {
-  for (std::size_t k = 0; k < count; k += kFour) {
-    const Four outer2 = load_four(rows.outer2 + k), inner2 = load_four(rows.inner2 + k);
-    store(rows.by + k, load_four(by + k) * pliancy(outer2, inner2));
-  }
-  for (std::size_t k = 0; k < count; k += kFour) {
-    const Four outer2 = load_four(rows.outer2 + k), inner2 = load_four(rows.inner2 + k);
-    const Four per_both = 1.0 / (outer2 + inner2);
+template <std::size_t n>
+CLAYSTACK_INLINE inline void load_rows(Rows& rows, const Ring* rings, const double* by,
+                                       std::size_t count) noexcept {
+  for (std::size_t k = 0; k < count; k += n) {
+    const RingPack<n> pack = load_rings<n>(rings + k, count - k);
+    const auto outer2 = doubles_of(pack.outer2), inner2 = doubles_of(pack.inner2);
+    store(rows.outer2 + k, outer2);
+    store(rows.inner2 + k, inner2);
+    store(rows.by + k, load_doubles<n>(by + k) * pliancy(outer2, inner2));
+    const Doubles<n> per_both = 1.0 / (outer2 + inner2);
     store(rows.thinness + k, (outer2 - inner2) * per_both);
   }
+  const std::size_t end = (count + n - 1) / n * n;
+  if (end % (2 * n) != 0) store(rows.outer2 + end, all_of<Doubles<n>>(1.0));  // for roots of 2 n
 }
 
-CLAYSTACK_INLINE inline Four pushed_in(const Rows& rows, std::size_t k) noexcept {
-  const Four outer = load_four(rows.outer + k), u = lesser(load_four(rows.by + k), outer);
-  const Four q = u * (2.0 * outer - u) * kQuantaPerMm2;
-  return lesser(lesser(q, kMostOfBore * load_four(rows.inner2 + k)), kMostLaneQuanta);
+template <std::size_t n>
+CLAYSTACK_INLINE inline Doubles<n> pushed_in(const Rows& rows, std::size_t k) noexcept {
+  const auto outer = load_doubles<n>(rows.outer + k);
+  const auto u = lesser(load_doubles<n>(rows.by + k), outer);
+  const Doubles<n> q = u * (2.0 * outer - u) * kQuantaPerMm2;
+  const Doubles<n> most = kMostOfBore * load_doubles<n>(rows.inner2 + k);
+  return lesser(lesser(q, most), kMostLaneQuanta);
 }
-CLAYSTACK_INLINE inline Four pushed_out(const Rows& rows, std::size_t k, double per_min_wall,
-                                        double largest2) noexcept {
-  const Four outer2 = load_four(rows.outer2 + k), inner2 = load_four(rows.inner2 + k);
-  const Four outer = load_four(rows.outer + k), inner = load_four(rows.inner + k);
-  const Four room = 0.5 * ((outer2 - inner2) * kMm2PerQuantum * per_min_wall - outer - inner);
-  const Four u = lesser(load_four(rows.by + k), greater(room, 0.0));
-  const Four q = u * (2.0 * inner + u) * kQuantaPerMm2;
-  return lesser(lesser(q, greater(largest2 - outer2, 0.0)), kMostLaneQuanta);
+template <std::size_t n>
+CLAYSTACK_INLINE inline Doubles<n> pushed_out(const Rows& rows, std::size_t k, double per_min_wall,
+                                              double largest2) noexcept {
+  const auto outer2 = load_doubles<n>(rows.outer2 + k), inner2 = load_doubles<n>(rows.inner2 + k);
+  const auto outer = load_doubles<n>(rows.outer + k), inner = load_doubles<n>(rows.inner + k);
+  const Doubles<n> room = 0.5 * ((outer2 - inner2) * kMm2PerQuantum * per_min_wall - outer - inner);
+  const auto u = lesser(load_doubles<n>(rows.by + k), greater(room, 0.0));
+  const Doubles<n> q = u * (2.0 * inner + u) * kQuantaPerMm2, left = largest2 - outer2;
+  return lesser(lesser(q, greater(left, 0.0)), kMostLaneQuanta);
 }
 
-/// Four rings' change of R^2 and r^2, q of both and less by the clay that they give up [quanta].
-CLAYSTACK_INLINE inline FourQuanta change_rows(const Rows& rows, std::size_t k, Four q, double hoop,
-                                               Ring* changes) noexcept {
-  const FourQuanta moved = four_quanta(q);
-  const FourQuanta raised = four_quanta(hoop * q * load_four(rows.thinness + k));
-  store(changes + k, FourRings{moved, moved + raised});
+/// A pack's change of R^2 and r^2, q of both and less by the clay that they give up [quanta].
+template <std::size_t n>
+CLAYSTACK_INLINE inline Quantas<n> change_rows(const Rows& rows, std::size_t k, Doubles<n> q,
+                                               double hoop, Ring* changes) noexcept {
+  const Quantas<n> moved = quanta_of(q);
+  const Doubles<n> part = hoop * q * load_doubles<n>(rows.thinness + k);
+  const Quantas<n> raised = quanta_of(part);
+  store(changes + k, RingPack<n>{moved, moved + raised});
   return raised;
 }
 
 }  // namespace
 
-void Shift::reserve(std::size_t rings) { changes_.resize(in_fours(rings)); }
+void Shift::reserve(std::size_t rings) { changes_.resize(in_packs_of(rings)); }
 
 void Shift::clear() noexcept {
   count_ = 0;
@@ -97,13 +101,14 @@ void Shift::bend(double h, const Band& band, const Shell& shell, std::size_t fir
   const double per_above = greater(shell.turn, 0.0) / shell.above_mm;
   const double flare = greater(-shell.turn, 0.0) / shell.above_mm;
   const double low = amplitude * shell.trail_below, high = amplitude * shell.trail_above;
-  const double start = (static_cast<double>(first) + 0.5) * h - band.peak_mm;
-  in_lanes([=]() CLAYSTACK_INLINE {
-    for (std::size_t k = 0; k < count; k += kFour) {
-      const Four x = start + load_four(&kLevels[k]) * h;
-      const Four t = greater(1.0 + lesser(x * per_below, -x * per_above), 0.0);
-      const Four side = x < 0.0 ? all_of(low) : all_of(high);
-      store(by + k, side * (smooth(t) + greater(x, 0.0) * flare));
+  in_packs([=, peak = band.peak_mm](auto n) CLAYSTACK_INLINE {
+    for (std::size_t k = 0; k < count; k += n) {
+      const std::size_t from = k / kBent * kBent;
+      const double start = (static_cast<double>(first + from) + 0.5) * h - peak;
+      const Doubles<n> x = start + load_doubles<n>(&kLevels[k - from]) * h;
+      const Doubles<n> down = x * per_below, up = -x * per_above, in = 1.0 + lesser(down, up);
+      const Doubles<n> side = x < 0.0 ? all_of<Doubles<n>>(low) : all_of<Doubles<n>>(high);
+      store(by + k, side * (smooth(greater(in, 0.0)) + greater(x, 0.0) * flare));
     }
   });
 }
@@ -113,34 +118,35 @@ void Shift::move(const ClayStack& stack, const Push& push, std::size_t first, st
   static const double largest2 = static_cast<double>(quanta_from_radius(kMaxRadiusMm));
   Rows rows;
   Quanta sum = 0;  // of 128 rings: fits
-  in_lanes([=, r = &rows, rings = stack.rings().data() + first, changes = &changes_[first - from_],
+  in_packs([=, r = &rows, rings = stack.rings().data() + first, changes = &changes_[first - from_],
             hoop = push.hoop ? 0.5 : 0.0, per_min_wall = 1.0 / push.min_wall_mm,
-            outward = push.outward, most = largest2, total = &sum]() CLAYSTACK_INLINE {
-    load_rows(*r, rings, count);
-    bend_rows(*r, by, count);
-    FourQuanta raised{};
-    const auto add = [&](std::size_t k, FourQuanta more) CLAYSTACK_INLINE {
-      raised += row_numbers(k) < static_cast<Quanta>(count) ? more : FourQuanta{};
+            outward = push.outward, most = largest2, total = &sum](auto n) CLAYSTACK_INLINE {
+    load_rows<n>(*r, rings, by, count);
+    Quantas<n> raised{};
+    const auto add = [&](std::size_t k, Quantas<n> more) CLAYSTACK_INLINE {
+      if (k + n > count)
+        for (std::size_t row = count - k; row < n; ++row) more[row] = 0;
+      raised += more;
     };
     if (outward) {
-      for (std::size_t k = 0; k < count; k += kFour) {
-        store(r->outer + k, root(load_four(r->outer2 + k) * kMm2PerQuantum));
-        store(r->inner + k, root(load_four(r->inner2 + k) * kMm2PerQuantum));
+      for (std::size_t k = 0; k < count; k += n) {
+        store(r->outer + k, root(load_doubles<n>(r->outer2 + k) * kMm2PerQuantum));
+        store(r->inner + k, root(load_doubles<n>(r->inner2 + k) * kMm2PerQuantum));
       }
-      for (std::size_t k = 0; k < count; k += kFour)
-        add(k, change_rows(*r, k, pushed_out(*r, k, per_min_wall, most), -hoop, changes));
+      for (std::size_t k = 0; k < count; k += n)
+        add(k, change_rows<n>(*r, k, pushed_out<n>(*r, k, per_min_wall, most), -hoop, changes));
     } else {
-      for (std::size_t k = 0; k < count; k += 2 * kFour) {
-        const EightFloats outer =
-            root(eight_floats(load_four(r->outer2 + k) * kMm2PerQuantum,
-                              load_four(r->outer2 + k + kFour) * kMm2PerQuantum));
-        store(r->outer + k, four_doubles(low_half(outer)));
-        store(r->outer + k + kFour, four_doubles(high_half(outer)));
+      for (std::size_t k = 0; k < count; k += 2 * n) {
+        const Doubles<n> low = load_doubles<n>(r->outer2 + k) * kMm2PerQuantum;
+        const Doubles<n> high = load_doubles<n>(r->outer2 + k + n) * kMm2PerQuantum;
+        const TwiceFloats<n> outer = root(floats(low, high));
+        store(r->outer + k, doubles<n>(low_half<n>(outer)));
+        store(r->outer + k + n, doubles<n>(high_half<n>(outer)));
       }
-      for (std::size_t k = 0; k < count; k += kFour)
-        add(k, change_rows(*r, k, -pushed_in(*r, k), -hoop, changes));
+      for (std::size_t k = 0; k < count; k += n)
+        add(k, change_rows<n>(*r, k, -pushed_in<n>(*r, k), -hoop, changes));
     }
-    *total = raised[0] + raised[1] + raised[2] + raised[3];
+    *total = sum_of(raised);
   });
   raised_total_ += sum;
 }

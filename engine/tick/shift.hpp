@@ -59,10 +59,9 @@ class Shift {
            Limit limit) noexcept {
     begin(stack, band, shell);
     for (std::size_t first = from_; first < to(); first += kRows) {
-      double by[kRows];
+      alignas(kPackBytes) double by[kRows];
       const std::size_t count = std::min(kRows, to() - first);
-      for (std::size_t k = 0; k < count; k += kBent)
-        bend(stack.ring_height_mm(), band, shell, first + k, std::min(kBent, count - k), by + k);
+      bend(stack.ring_height_mm(), band, shell, first, count, by);
       limit(first, std::span<double>(by, count));
       move(stack, push, first, count, by);
     }
@@ -71,9 +70,9 @@ class Shift {
 
  private:
   static constexpr std::size_t kRows = 128;
-  static constexpr std::size_t kBent = 32;  // distances are rounded from the first of these on
   void begin(const ClayStack& stack, const Band& band, const Shell& shell) noexcept;
-  /// To and from whole fours of rows.
+  static constexpr std::size_t kBent = 32;  // distances are rounded from the first of these on
+  /// To and from whole packs of rows.
   static void bend(double h, const Band& band, const Shell& shell, std::size_t first,
                    std::size_t count, double* by) noexcept;
   void move(const ClayStack& stack, const Push& push, std::size_t first, std::size_t count,
@@ -81,7 +80,7 @@ class Shift {
   void settle(const ClayStack& stack) noexcept;
 
   std::size_t from_ = 0, count_ = 0;
-  std::vector<Ring> changes_;  ///< room for whole fours; R^2 below 0: inward
+  std::vector<Ring> changes_;  ///< room for whole packs; R^2 below 0: inward
   WideQuanta raised_total_ = 0;
 };
 

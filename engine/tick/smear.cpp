@@ -1,6 +1,6 @@
 #include "engine/tick/smear.hpp"
 
-#include "engine/clay/four.hpp"
+#include "engine/clay/packs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,25 +47,26 @@ class Smear {
   /// the tool's way: half of it, for each ring is of two pairs. [quanta] The rows from `apart` on
   /// are the upper places of the pairs; where they overlap the lower ones, a place has one row.
   struct Places {
-    static constexpr std::size_t kAll = 2 * kRows + kFour;
-    double surface[kAll], give[kAll], get[kAll];
+    static constexpr std::size_t kAll = 2 * kRows + kWidestPack;
+    alignas(kPackBytes) double surface[kAll], give[kAll], get[kAll];
     double depth[kAll];  ///< of the tool [mm]; for a sponge alone
   };
 
   /// Rings first..first+count-1, from row `to` on.
   void load(std::size_t first, std::size_t count, Places& places, std::size_t to) noexcept {
-    in_lanes([=, at = &places, rings = stack_.rings().data() + first, least_wall = min_wall_,
-              outside = outside_]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count; k += kFour) {
-        const FourRings four = load_four(rings + k, count - k);
-        const Four outer2 = four_doubles(four.outer2), inner2 = four_doubles(four.inner2);
-        const Four other = root((outside ? inner2 : outer2) * kMm2PerQuantum);
-        const Four thinnest = outside ? other + least_wall : other - least_wall;
-        const Four kept = thinnest * thinnest * kQuantaPerMm2;
-        const Four spare = outside ? outer2 - kept : kept - inner2;
-        store(at->surface + to + k, outside ? outer2 : inner2);
-        store(at->give + to + k, spare > 0.0 ? 0.5 * spare : Four{});
-        store(at->get + to + k, all_of(1e300));
+    in_packs([=, at = &places, rings = stack_.rings().data() + first, least_wall = min_wall_,
+              outside = outside_](auto n) CLAYSTACK_INLINE {
+      for (std::size_t k = 0; k < count; k += n) {
+        const RingPack<n> pack = load_rings<n>(rings + k, count - k);
+        const auto outer2 = doubles_of(pack.outer2), inner2 = doubles_of(pack.inner2);
+        const Doubles<n> surface = outside ? outer2 : inner2;
+        const auto other = root((outside ? inner2 : outer2) * kMm2PerQuantum);
+        const Doubles<n> thinnest = outside ? other + least_wall : other - least_wall;
+        const Doubles<n> kept = thinnest * thinnest * kQuantaPerMm2;
+        const Doubles<n> spare = outside ? outer2 - kept : kept - inner2;
+        store(at->surface + to + k, surface);
+        store(at->give + to + k, spare > 0.0 ? 0.5 * spare : Doubles<n>{});
+        store(at->get + to + k, all_of<Doubles<n>>(1e300));
       }
     });
     const std::size_t beside = std::max(first, beside_from_);
@@ -94,27 +95,31 @@ class Smear {
     if (stride > kRows) load(first + stride, count, places, kRows);
     const double h = stack_.ring_height_mm();
     const double start = (static_cast<double>(2 * first + stride + 1) * 0.5 * h - middle_) * per_c_;
-    double amounts[kRows];
-    Quanta whole[kRows];
-    in_lanes([=, p = &places, to = amounts, per_c = per_c_,
-              sign = outside_ ? 1.0 : -1.0]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count; k += kFour) {
-        const Four z = start + load_four(&kLevels[k]) * h * per_c;
-        const Four window = 1.0 - z * z, share = window > 0.0 ? k0 * window : Four{};
-        const Four low = load_four(p->surface + k), high = load_four(p->surface + k + apart);
-        const Four up = sign * share * (low - high);
-        const Four most_up = lesser(load_four(p->give + k), load_four(p->get + k + apart));
-        const Four most_down = lesser(load_four(p->give + k + apart), load_four(p->get + k));
-        const Four flow = greater(lesser(up, most_up), -most_down);
-        const Four most = greater(lesser(flow, kMostLaneQuanta), -kMostLaneQuanta);
-        store(to + k, lesser(low, high) > 0.0 ? most : Four{});  // none into a closed bore
+    alignas(kPackBytes) double amounts[kRows];
+    alignas(kPackBytes) Quanta whole[kRows];
+    in_packs([=, p = &places, to = amounts, rounded = whole, per_c = per_c_,
+              sign = outside_ ? 1.0 : -1.0](auto n) CLAYSTACK_INLINE {
+      using D = Doubles<n>;
+      for (std::size_t k = 0; k < count; k += n) {
+        const D z = start + load_doubles<n>(&kLevels[k]) * h * per_c;
+        const D window = 1.0 - z * z, share = window > 0.0 ? k0 * window : D{};
+        const D low = load_doubles<n>(p->surface + k),
+                high = load_doubles<n>(p->surface + k + apart);
+        const D up = sign * share * (low - high);
+        const D most_up = lesser(load_doubles<n>(p->give + k), load_doubles<n>(p->get + k + apart));
+        const D most_down =
+            lesser(load_doubles<n>(p->give + k + apart), load_doubles<n>(p->get + k));
+        const D flow = greater(lesser(up, most_up), D(-most_down));
+        const D most = greater(lesser(flow, kMostLaneQuanta), -kMostLaneQuanta);
+        const D amount = lesser(low, high) > 0.0 ? most : D{};  // none into a closed bore
+        store(to + k, amount);
+        store(rounded + k, quanta_below(amount));
       }
     });
-    if (sponge_) level(places, apart, {amounts, count});
-    in_lanes([=, from = amounts, to = whole]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count; k += kFour)
-        store(to + k, four_quanta_below(load_four(from + k)));
-    });
+    if (sponge_) {
+      level(places, apart, {amounts, count});
+      for (std::size_t k = 0; k < count; ++k) whole[k] = static_cast<Quanta>(amounts[k]);
+    }
     writer_.smear(first, first + stride, {whole, count}, outside_);
   }
 

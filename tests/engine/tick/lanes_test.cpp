@@ -1,6 +1,6 @@
 // Processing rings four at a time, if the machine can, or two at a time gives the same bits.
 
-#include "engine/clay/four.hpp"
+#include "engine/clay/packs.hpp"
 
 #include "app/bench/hands/dice.hpp"
 #include "claystack/engine/wheel.hpp"
@@ -47,32 +47,39 @@ Thrown throw_with(const ToolShapeSpec& shape, bool four, std::optional<ClaySpec>
   return thrown;
 }
 
+constexpr std::size_t kRows = kWidestPack;
+
 struct Rows {
-  Quanta quanta[kFour];
-  double numbers[kFour], doubles[kFour], roots[kFour];
-  Quanta whole[kFour];
+  Quanta quanta[kRows];
+  double numbers[kRows], doubles[kRows], roots[kRows];
+  Quanta whole[kRows];
 };
 
-void convert(Rows& rows) noexcept {
-  in_lanes([to = &rows]() CLAYSTACK_INLINE {
-    store(to->doubles, four_doubles(load<FourQuanta>(to->quanta)));
-    store(to->whole, four_quanta_below(load_four(to->numbers)));
-    store(to->roots, rough_root(load_four(to->doubles)));
+/// With packs of four, if the machine has them, or of two.
+void convert(Rows& rows, bool four) noexcept {
+  const bool supported = std::exchange(four_lanes, four);
+  in_packs([to = &rows](auto n) CLAYSTACK_INLINE {
+    for (std::size_t k = 0; k < kRows; k += n) {
+      store(to->doubles + k, doubles_of(load<Quantas<n>>(to->quanta + k)));
+      store(to->whole + k, quanta_below(load_doubles<n>(to->numbers + k)));
+      store(to->roots + k, rough_roots<n>(load_doubles<n>(to->doubles + k)));
+    }
   });
+  four_lanes = supported;
 }
 
-TEST(Fours, ConvertLikeSingleNumbers) {
+TEST(Packs, ConvertLikeSingleNumbers) {
   bench::Dice dice(7);
-  for (int round = 0; round < 10'000; ++round) {
+  for (int round = 0; round < 20'000; ++round) {
     Rows rows{};
-    for (std::size_t k = 0; k < kFour; ++k) {
+    for (std::size_t k = 0; k < kRows; ++k) {
       const double size = std::ldexp(dice.between(1.0, 2.0), static_cast<int>(dice.unit() * 60.0));
       rows.quanta[k] = static_cast<Quanta>(size);
       const double number = std::ldexp(dice.between(-1.0, 1.0), static_cast<int>(50 * dice.unit()));
       rows.numbers[k] = dice.unit() < 0.2 ? std::round(number) : number;
     }
-    convert(rows);
-    for (std::size_t k = 0; k < kFour; ++k) {
+    convert(rows, round % 2 == 0 && four_lanes);
+    for (std::size_t k = 0; k < kRows; ++k) {
       EXPECT_EQ(rows.doubles[k], static_cast<double>(rows.quanta[k]));
       EXPECT_EQ(rows.whole[k], static_cast<Quanta>(rows.numbers[k])) << rows.numbers[k];
       EXPECT_EQ(rows.roots[k], static_cast<double>(std::sqrt(static_cast<float>(rows.doubles[k]))));
