@@ -6,6 +6,7 @@
 #include "app/cli/live_report.hpp"
 #include "app/cli/replay.hpp"
 #include "app/cli/rescue.hpp"
+#include "app/history/pot_scene.hpp"
 #include "app/servo/scene_hand.hpp"
 #include "app/servo/signals.hpp"
 #include "app/servo/tick_trace.hpp"
@@ -73,18 +74,18 @@ Result<void> take_up_stroke(const LiveJob& job, LiveOptions& options, Stage& sta
   return {};
 }
 
-std::string written_pot(const LiveJob& job, const Pot& pot) {
+std::string written_pot(const LiveJob& job, const SceneSpec& scene, const Pot& pot) {
   const bool cbor = job.pot_path.ends_with(".cbor");
-  return write_pot(pot, cbor ? PotEncoding::cbor : PotEncoding::json);
+  return write_pot(history::remembering(scene, pot), cbor ? PotEncoding::cbor : PotEncoding::json);
 }
 
 /// Only writing detects a full disk: tries to write the current pot, if that changes no existing
 /// file.
-Result<AtomicFile> open_pot_file(const LiveJob& job, const Pot& pot) {
+Result<AtomicFile> open_pot_file(const LiveJob& job, const SceneSpec& scene, const Pot& pot) {
   {
     auto trial = AtomicFile::create(job.pot_path);
     if (!trial || !trial->rereadable()) return trial;
-    if (auto fits = trial->write(written_pot(job, pot)); !fits)
+    if (auto fits = trial->write(written_pot(job, scene, pot)); !fits)
       return tl::make_unexpected(fits.error());
   }
   return AtomicFile::create(job.pot_path);
@@ -93,7 +94,7 @@ Result<AtomicFile> open_pot_file(const LiveJob& job, const Pot& pot) {
 /// Before throwing: an unwritable output found later would lose the pot.
 Result<void> open_pot(const LiveJob& job, Stage& stage) {
   if (job.pot_path.empty()) return {};
-  auto file = open_pot_file(job, stage.wheel->pot());
+  auto file = open_pot_file(job, stage.scene, stage.wheel->pot());
   if (!file) return tl::make_unexpected(file.error());
   stage.pot_file.emplace(std::move(*file));
   return {};
@@ -117,17 +118,19 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
     return tl::make_unexpected(by_option(checked.error()));
   const auto mapping = servo::Mapping::build(options.settings.mapping);
   if (!mapping) return tl::make_unexpected(by_option(mapping.error()));
-  auto scene = load_scene(job.scene_path);
-  if (!scene) return tl::make_unexpected(scene.error());
-  stage.scene = std::move(*scene);
+  auto start = load_start(job.scene_path, job.from_path, console);
+  if (!start) return tl::make_unexpected(start.error());
+  stage.scene = start->scene;
   if (!job.model.empty())
     stage.scene.model = job.model == "paper" ? Model::paper : Model::conserving;
   stage.scene_hash = hash_of(stage.scene);
   const auto named = [&](const Error& error) {
-    return failure(error.kind, job.scene_path + ": " + error.message);
+    const std::string& file = job.scene_path.empty() ? job.from_path : job.scene_path;
+    return failure(error.kind, file + ": " + error.message);
   };
   if (auto fits = fit_stiffness(stage.scene, options, console); !fits) return named(fits.error());
-  auto wheel = build_wheel(stage.scene, job.scene_path, job.from_path);
+  start->scene = stage.scene;
+  auto wheel = build_wheel(*start);
   if (!wheel) return tl::make_unexpected(wheel.error());
   stage.wheel.emplace(std::move(*wheel));
 
@@ -219,7 +222,7 @@ Result<void> keep_session(const LiveOptions& options, const Console& console, St
 
 Result<void> keep_pot(const LiveJob& job, Stage& stage, const Pot& pot) {
   if (!stage.pot_file) return {};
-  const std::string bytes = written_pot(job, pot);
+  const std::string bytes = written_pot(job, stage.scene, pot);
   const auto written =
       stage.pot_file->write(bytes).and_then([&] { return stage.pot_file->commit(); });
   if (written) return written;

@@ -1,5 +1,6 @@
 // Executes actions.
 
+#include "app/history/pot_scene.hpp"
 #include "app/studio/app_state.hpp"
 #include "app/studio/commands.hpp"
 #include "app/studio/new_scene.hpp"
@@ -132,6 +133,7 @@ struct Performer {
     if (!opened) return report(state, opened.error());
     if (!opened->empty()) state.ui.notices.show(Grade::warning, *opened);
     remember(state.settings, open.path);
+    show_own_wheel();
     show_work();
     state.log("opened: " + open.path.string());
   }
@@ -142,6 +144,7 @@ struct Performer {
     auto work = history::recover(path);
     if (!work) return report(state, work.error());
     state.document.begin(std::move(*work));
+    show_own_wheel();
     show_work();
     state.log("recovered: " + path.string());
   }
@@ -293,7 +296,8 @@ struct Performer {
     exporting.problem.clear();
     exporting.result.clear();
     state.log("export started");
-    state.exporter.write(state.document.shared_pot(), exporting.choices);
+    state.exporter.write(std::make_shared<const Pot>(state.document.pot_for_file()),
+                         exporting.choices);
   }
   void operator()(const CancelExport&) const { state.exporter.cancel(); }
   void operator()(const ShowExportFolder&) const {
@@ -335,7 +339,7 @@ struct Performer {
     const auto* import = std::get_if<ImportDialog>(&state.ui.dialog);
     if (import == nullptr || !import->made) return;
     const Pot& pot = import->made->pot;
-    apply(state, BeginWork{scene_for(pot, import->path.stem().string()),
+    apply(state, BeginWork{history::scene_for(pot, import->path.stem().string()),
                            std::make_shared<const Pot>(pot), import->path});
   }
   void operator()(const ShowWarning& warning) const {
@@ -439,6 +443,12 @@ struct Performer {
     state.scene.look(state.stroke.view(), ViewFrom::home);
     state.ui.exporting.written.clear();
     state.log("work started: " + state.document.scene().name);
+  }
+  /// A work from a file goes on at its own speed of the wheel, so that the same stroke gives the
+  /// same pot.
+  void show_own_wheel() const {
+    state.settings.wheel_rpm =
+        std::clamp(state.document.wheel_rpm(), kSlowestRpm, kFastestRpm);
   }
   void start_lesson(std::size_t sample, Demonstration demonstration) const {
     const auto begun = state.guide.begin(samples().at(sample), demonstration);
