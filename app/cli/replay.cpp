@@ -97,8 +97,8 @@ Result<Start> load_start(const std::string& scene_path, const std::string& pot_p
     start.pot = std::move(*pot);
   }
   if (scene_path.empty()) {
-    start.scene = history::scene_for(
-        *start.pot, std::filesystem::path(pot_path).stem().stem().string());
+    start.scene =
+        history::scene_for(*start.pot, std::filesystem::path(pot_path).stem().stem().string());
     return start;
   }
   auto scene = load_scene(scene_path);

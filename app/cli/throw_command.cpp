@@ -178,7 +178,9 @@ Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encodin
                            std::optional<TraceWriter>& trace, const SceneSpec& scene,
                            const Session& session) {
   if (outputs.pot)
-    if (auto written = outputs.pot->write(write_pot(history::remembering(scene, pot), encoding)); !written) return written;
+    if (auto written = outputs.pot->write(write_pot(history::remembering(scene, pot), encoding));
+        !written)
+      return written;
   if (trace)
     if (auto written = trace->finish(); !written) return written;
   if (outputs.error_plot) {
@@ -195,9 +197,10 @@ Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encodin
 /// Refuses invalid names before anything is read or played.
 Result<void> check_names(const ThrowOptions& options, const Console& console) {
   if (options.session.empty())
-    return failure(ErrorKind::bad_input,
-                   (options.scene.empty() ? "a pot without a scene" : "a scene from standard input") +
-                       std::string(": expected --session with the poses to play"));
+    return failure(
+        ErrorKind::bad_input,
+        (options.scene.empty() ? "a pot without a scene" : "a scene from standard input") +
+            std::string(": expected --session with the poses to play"));
   if (auto named = check_pot_name(options.pot); !named) return named;
   const std::vector<std::string> outputs = {options.pot, options.trace, options.error_plot};
   if (std::count(outputs.begin(), outputs.end(), "-") > (console.json ? 0 : 1))
@@ -312,10 +315,10 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<ThrowOptions>();
   CLI::App* command = app.add_subcommand(
       "throw", "Replay a session on a scene, or throw by hand, and write the pot");
-  command
-      ->add_option("scene", options->scene,
-                   "NAME.scene.json, or - for standard input; or NAME.work. Not needed with --from: "
-                   "the pot remembers its tool and clay");
+  command->add_option(
+      "scene", options->scene,
+      "NAME.scene.json, or - for standard input; or NAME.work. Not needed with --from: "
+      "the pot remembers its tool and clay");
   command->add_option("-s,--session", options->session,
                       "Poses to play (default: NAME.session beside the scene)");
   command->add_option("-o,--output", options->pot,
@@ -352,7 +355,8 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
       "  claystack throw mine.work --at 3 -o early.pot.json\n"
       "  claystack throw samples/vase.scene.json --error-plot vase-error.svg");
   command->callback([options, &console, &exit] {
-    if (options->session.empty() && !options->scene.empty() && options->scene != "-" && !options->scene.ends_with(".work"))
+    if (options->session.empty() && !options->scene.empty() && options->scene != "-" &&
+        !options->scene.ends_with(".work"))
       options->session = session_beside(options->scene);
     const auto done = throw_pot(*options, console);
     exit = done ? kDone : report(done.error());

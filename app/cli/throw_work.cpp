@@ -93,7 +93,10 @@ Result<void> throw_work(const WorkJob& job, Console console) {
   if (!job.pot_path.empty()) {
     const PotEncoding encoding =
         job.pot_path.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
-    if (auto written = publish(job.pot_path, write_pot(history::remembering(*work.view(node).scene, **pot), encoding)); !written) return written;
+    if (auto written = publish(
+            job.pot_path, write_pot(history::remembering(*work.view(node).scene, **pot), encoding));
+        !written)
+      return written;
   }
   if (console.json) print_json(json);
   console.print(fmt::format(

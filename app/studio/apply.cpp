@@ -342,9 +342,17 @@ struct Performer {
     apply(state, BeginWork{history::scene_for(pot, import->path.stem().string()),
                            std::make_shared<const Pot>(pot), import->path});
   }
+  void operator()(const ChooseTarget&) const {
+    if (!open_desktop_dialog(state, FileDialog::Kind::target, start_folder(state)))
+      state.ui.dialog = OpenDialog{start_folder(state).string(), true};
+  }
+  void operator()(const UseTarget& use) const { set_target(read_target(use.path)); }
+  void operator()(const UseSampleTarget& use) const { set_target(sample_target(use.index)); }
+  void operator()(const ClearTarget&) const { state.ui.target.reset(); }
   void operator()(const ShowWarning& warning) const {
     state.ui.notices.show(Grade::warning, warning.text);
   }
+  void operator()(const OpenMenu& open) const { state.ui.open_menu = open.index; }
   void operator()(const CloseNotice&) const { state.ui.notices.close(); }
 
   // --- Tool and wheel. ---------------------------------------------------------------------------
@@ -387,7 +395,7 @@ struct Performer {
   void operator()(const ReleaseTool&) const { state.stroke.release(); }
 
   // --- The view and the settings. ----------------------------------------------------------------
-  void operator()(const LookFrom& look) const { state.scene.look(state.stroke.view(), look.from); }
+  void operator()(const LookFrom& look) const { show_from(look.from); }
   void operator()(const ToggleCut& toggle) const {
     state.scene.cut = state.scene.cut == toggle.cut ? render::Cut::none : toggle.cut;
   }
@@ -447,8 +455,7 @@ struct Performer {
   /// A work from a file goes on at its own speed of the wheel, so that the same stroke gives the
   /// same pot.
   void show_own_wheel() const {
-    state.settings.wheel_rpm =
-        std::clamp(state.document.wheel_rpm(), kSlowestRpm, kFastestRpm);
+    state.settings.wheel_rpm = std::clamp(state.document.wheel_rpm(), kSlowestRpm, kFastestRpm);
   }
   void start_lesson(std::size_t sample, Demonstration demonstration) const {
     const auto begun = state.guide.begin(samples().at(sample), demonstration);
@@ -465,6 +472,20 @@ struct Performer {
       return asked->save->next;
     const auto* unsaved = std::get_if<UnsavedDialog>(&state.ui.dialog);
     return unsaved != nullptr && unsaved->saving ? std::optional(unsaved->next) : std::nullopt;
+  }
+  /// The pot, and the target if that is higher.
+  void show_from(ViewFrom from) const {
+    const render::PotView& pot = state.stroke.view();
+    const Target* target = state.ui.target.get();
+    state.scene.look(
+        target != nullptr && target->view.height_mm > pot.height_mm ? target->view : pot, from);
+  }
+  void set_target(Result<SharedTarget> target) const {
+    if (!target) return report(state, target.error());
+    state.ui.target = std::move(*target);
+    if (state.document.has_work()) show_from(ViewFrom::home);
+    if (state.ui.shows<OpenDialog>()) close_dialog(state);
+    state.log("target: " + state.ui.target->name);
   }
   void forget(std::size_t index) const {
     state.recoverable.erase(state.recoverable.begin() + static_cast<std::ptrdiff_t>(index));

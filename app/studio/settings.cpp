@@ -68,6 +68,10 @@ void describe(PlainFields& io, Settings& s) {
   io.text("folder", s.folder);
   io.texts("recent", s.recent, kMostRecent);
   io.number("pressing_mm_s", s.pressing_mm_s, kSlowestHandMmPerS, kFastestHandMmPerS);
+  io.number("goal_holds_ml", s.goal.holds_ml, 0.0, kMostGoalMl);
+  io.number("goal_height_mm", s.goal.height_mm, 0.0, kMostGoalMm);
+  io.number("goal_diameter_mm", s.goal.diameter_mm, 0.0, kMostGoalMm);
+  io.number("goal_shrinkage_percent", s.goal.shrinkage_percent, 0.0, kMostShrinkagePercent);
   io.number("bite_mm", s.bite_mm, kSoftestBiteMm, kFirmestBiteMm);
 }
 

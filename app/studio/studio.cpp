@@ -99,8 +99,8 @@ bool Studio::frame(Painting painting) {
   if (state_.ui.restyle) restyle();
   if (awake_frames_ > 0) --awake_frames_;
   state_.ui.notices.expire(now_s);
-  state_.readings.update(state_.document, state_.stroke, wanted_of(state_.settings), now_ns,
-                         state_.log);
+  state_.readings.update(state_.document, state_.stroke, wanted_of(state_.settings, state_.ui),
+                         now_ns, state_.log);
   // ImGui must process each input; the slow painting follows once for all of them. A closed window
   // remains under the mouse for two more ImGui frames.
   do {
@@ -135,12 +135,14 @@ void Studio::build_frame(double elapsed_s) {
   const glm::ivec2 size = state_.host.size_px();
   io.DisplaySize = {static_cast<float>(size.x), static_cast<float>(size.y)};
   io.DeltaTime = static_cast<float>(elapsed_s);
+  let_keys_navigate();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
   Actions actions;
   lay_out(view_model(state_), actions);
   ImGui::Render();
   state_.ui.reveal.clear();
+  state_.ui.open_menu.reset();
   apply_all(state_, actions);
 }
 
@@ -190,6 +192,7 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   const bool first = state_.scene.rect().size_px.x <= 1.0f;
   state_.scene.place(view);
   if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
+  draw_target(model, view);
   draw_marks(model, view);
   draw_path(model, view);
   draw_at_tool(model, view);

@@ -162,6 +162,9 @@ void update_file_dialog(AppState& state) {
     case FileDialog::Kind::process:
       apply(state, UseProcess{*chosen});
       break;
+    case FileDialog::Kind::target:
+      apply(state, UseTarget{*chosen});
+      break;
     case FileDialog::Kind::save:
       apply(state, SaveFile{*chosen, true});  // the desktop has asked
       break;

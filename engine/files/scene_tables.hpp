@@ -15,11 +15,13 @@
 namespace clay::files {
 
 inline constexpr Range kToolSizeMm = above(0).to(kMaxRadiusMm);
-inline constexpr std::array<std::string_view, 4> kShapeNames = {"sphere", "ellipse", "rib", "sampled"};
-inline constexpr std::array<std::string_view, 7> kToolModeNames = {"press",  "trim", "pinch",    "smooth",
-                                                            "needle", "wire", "trim_foot"};
+inline constexpr std::array<std::string_view, 4> kShapeNames = {"sphere", "ellipse", "rib",
+                                                                "sampled"};
+inline constexpr std::array<std::string_view, 7> kToolModeNames = {
+    "press", "trim", "pinch", "smooth", "needle", "wire", "trim_foot"};
 inline constexpr std::array<std::string_view, 2> kSwitchNames = {"off", "on"};
-inline constexpr std::array<std::string_view, 2> kWheelTurnNames = {"clockwise", "counterclockwise"};
+inline constexpr std::array<std::string_view, 2> kWheelTurnNames = {"clockwise",
+                                                                    "counterclockwise"};
 
 }  // namespace clay::files
 

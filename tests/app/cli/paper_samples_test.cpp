@@ -23,8 +23,9 @@ TEST_P(PaperSample, KeepsTheBytesOfItsPotAndMeshes) {
                       folder.file(name + ".drc"))
                 .status,
             0);
-  const Ran run = shell("cd " + folder.path().string() + " && sed '/\"written_by\"/d; /\"thrown_with\"/,/^  },$/d' " +
-                        pot + " > " + name + ".pot.json && grep ' " + name + "[.]' " +
+  const Ran run = shell("cd " + folder.path().string() +
+                        " && sed '/\"written_by\"/d; /\"thrown_with\"/,/^  },$/d' " + pot + " > " +
+                        name + ".pot.json && grep ' " + name + "[.]' " +
                         sample("paper/sha256sums") + " | sha256sum -c --strict");
   EXPECT_EQ(run.status, 0) << run.out << run.err;
   EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 3) << run.out;

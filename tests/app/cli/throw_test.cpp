@@ -107,8 +107,8 @@ TEST(Throw, APotGoesOnWithoutItsScene) {
   const std::string session = " -s " + sample("bowl.session");
   ASSERT_EQ(claystack("throw -q " + scene + " -o " + once).status, 0);
   const auto twice = [&](const std::string& given, const char* name) {
-    const auto run = claystack("throw -q " + given + session + " --from " + once + " -o " +
-                               folder.file(name));
+    const auto run =
+        claystack("throw -q " + given + session + " --from " + once + " -o " + folder.file(name));
     EXPECT_EQ(run.status, 0) << run.err;
     return run.err;
   };

@@ -56,6 +56,29 @@ TEST_F(ActionsTest, ADialogReplacesThePreviousOne) {
   EXPECT_TRUE(state.ui.shows<NoDialog>());
 }
 
+TEST_F(ActionsTest, ATargetIsAPotAWorkOrADrawing) {
+  ASSERT_TRUE(state.document.save(folder.file("a.pot.cbor")));
+  ASSERT_TRUE(state.document.save(folder.file("a.work")));
+  for (const std::string& path : {folder.file("a.pot.cbor"), folder.file("a.work")}) {
+    apply(state, UseTarget{path});
+    ASSERT_TRUE(state.ui.target) << path;
+    EXPECT_EQ(state.ui.target->view, state.document.view()) << path;
+    apply(state, ClearTarget{});
+    EXPECT_FALSE(state.ui.target);
+  }
+  apply(state, ChooseTarget{});
+  EXPECT_TRUE(state.ui.shows<OpenDialog>());
+  apply(state, UseTarget{test::sample("drawings/jug.svg")});
+  ASSERT_TRUE(state.ui.target);
+  EXPECT_EQ(state.ui.target->name, "jug.svg");
+  EXPECT_TRUE(state.ui.shows<NoDialog>());
+  EXPECT_EQ(strokes(), 0u) << "the pot on the wheel stays";
+  test::write_text(folder.file("bad.pot.json"), "{}");
+  apply(state, UseTarget{folder.file("bad.pot.json")});
+  EXPECT_EQ(state.ui.target->name, "jug.svg") << "an error changes nothing";
+  EXPECT_TRUE(state.last_error);
+}
+
 TEST_F(ActionsTest, GalleryStaysOpenWithoutAWork) {
   AppState empty{host, Settings{}, [](std::string_view) {}};
   EXPECT_TRUE(empty.ui.shows<GalleryDialog>());

@@ -38,9 +38,9 @@ TEST_F(Window, TheSameStrokeGivesTheSamePotFromWorkPotAndPrintFile) {
                 kDeeper + "save FOLDER/whole.pot.json\n")
                 .status,
             0);
-  ASSERT_EQ(claystack("export -q " + folder.file("mine.pot.json") + " " + folder.file("mine.3mf"))
-                .status,
-            0);
+  ASSERT_EQ(
+      claystack("export -q " + folder.file("mine.pot.json") + " " + folder.file("mine.3mf")).status,
+      0);
   const std::string whole = read_text(folder.file("whole.pot.json"));
   for (const char* name : {"mine.work", "mine.pot.json", "mine.pot.cbor", "mine.3mf"}) {
     // The tool and the speed of the wheel come from the file, not from what was chosen before.
@@ -53,9 +53,10 @@ TEST_F(Window, TheSameStrokeGivesTheSamePotFromWorkPotAndPrintFile) {
 
 TEST_F(Window, TheSameStrokeGivesTheSamePotFromADrawingAndItsPot) {
   const std::string jug = test::sample("drawings/jug.svg");
-  const std::string stroke = "key 1\npoint 80 90\npress left\npoint 40 90 over 0.4\nwait 0.2\n"
-                             "expect contact yes\npoint 80 90 over 0.3\nwait 0.2\nrelease left\n"
-                             "expect strokes 1\n";
+  const std::string stroke =
+      "key 1\npoint 80 90\npress left\npoint 40 90 over 0.4\nwait 0.2\n"
+      "expect contact yes\npoint 80 90 over 0.3\nwait 0.2\nrelease left\n"
+      "expect strokes 1\n";
   ASSERT_EQ(claystack("import " + jug + " -o " + folder.file("jug.pot.json")).status, 0);
   Ran ran = run("open " + jug + "\ndo import.take\n" + stroke + "save FOLDER/drawn.pot.json\n");
   ASSERT_EQ(ran.status, 0) << ran.err;

@@ -202,7 +202,7 @@ TEST(PotFile, ErrorsNameTheLineOfEveryOtherField) {
   expect_pot_error("\"gap_mm\": 4.5", "\"gap_mm\": 0",
                    "thrown_with.tool.gap_mm: expected a number from 0.001 to 1000, found 0");
   expect_pot_error("\"friction\": 0.3", "\"friction\": 0.3, \"grip\": 1",
-                   "thrown_with.force: unknown field \"grip\"; expected one of "
+                   "unknown field \"grip\" in thrown_with.force; expected one of "
                    "stiffness_n_per_mm2, limit_n, friction, wheel, paper_stiffness_n_per_mm");
 }
 
@@ -256,12 +256,9 @@ TEST(PotSchema, NamesTheWrittenFields) {
 /// The reader is stricter than the schema only where fields depend on each other: counts on ledger
 /// and radii, indices on the stack.
 bool is_rule_between_fields(const std::string& edit) {
-  constexpr std::array kRules = {"/rings/",
-                                 "/failed_ring: ",
-                                 "/axis/",
-                                 "/max_rings: at minimum",
-                                 "/max_rings: above minimum",
-                                 "/sampled/"};
+  constexpr std::array kRules = {
+      "/rings/",  "/failed_ring: ", "/axis/", "/max_rings: at minimum", "/max_rings: above minimum",
+      "/sampled/"};
   return std::ranges::any_of(
       kRules, [&](const char* rule) { return edit.find(rule) != std::string::npos; });
 }
