@@ -450,6 +450,7 @@ struct Performer {
     state.ui.dialog = NoDialog{};
     state.scene.look(state.stroke.view(), ViewFrom::home);
     state.ui.exporting.written.clear();
+    state.ui.thumbs.clear();
     state.log("work started: " + state.document.scene().name);
   }
   /// A work from a file goes on at its own speed of the wheel, so that the same stroke gives the

@@ -123,6 +123,8 @@ class Document {
   Result<void> undo();
   Result<void> redo();
   Result<void> go_to(history::NodeId node);
+  /// The pot after a stroke; replays strokes if it is not in memory.
+  Result<history::SharedPot> pot_at(history::NodeId node) { return work_->pot(node); }
   /// The next sibling of the nearest ancestor that has siblings; empty: there is no branch.
   [[nodiscard]] std::optional<history::NodeId> other_branch() const;
   /// Shows the pot at a moment in the middle of a stroke until another pot is shown. The work does

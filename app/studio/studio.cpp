@@ -77,7 +77,8 @@ Studio::~Studio() {
 
 bool Studio::wakeful() const noexcept {
   return moving() || fine_ != kFineness[0] || awake_frames_ > 0 || state_.readings.checking() ||
-         state_.guide.busy() || state_.exporter.busy() || state_.file_dialog.open();
+         state_.ui.thumbs_missing || state_.guide.busy() || state_.exporter.busy() ||
+         state_.file_dialog.open();
 }
 
 bool Studio::moving() const noexcept {
@@ -186,7 +187,8 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   draw_status_bar(model, {0.0f, size.y - status}, {size.x, status});
   const float wide = std::max(1.0f, size.x - left - right);
   const float timeline = timeline_height(model, {wide, height});
-  const ViewRect view{{left, top}, {wide, height - timeline}};
+  const ViewRect view{{left, top}, {wide, height}};
+  const ViewRect free{{left, top}, {wide, height - timeline}};  // of the timeline
   if (timeline > 0.0f)
     draw_timeline(model, actions, {left, top + height - timeline}, {wide, timeline});
   const bool first = state_.scene.rect().size_px.x <= 1.0f;
@@ -198,8 +200,8 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   draw_at_tool(model, view);
   draw_pause(model, view);
   draw_export_marks(model, view);
-  draw_hint(model, actions, view);
-  draw_guide(model, actions, view);
+  draw_hint(model, actions, free);
+  draw_guide(model, actions, free);
   draw_verdict(model, view);
   draw_dialog(model, actions, view);
   draw_banner(model, actions, view);

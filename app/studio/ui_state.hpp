@@ -8,6 +8,7 @@
 #include "app/studio/target.hpp"
 
 #include <glm/vec2.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -114,7 +115,10 @@ struct UiState {
   std::vector<Mark> marks;    ///< marks on the pot `marked`
   history::SharedPot marked;  ///< pot of the last export or preview
   SharedTarget target;        ///< null: none
-  std::string reveal;         ///< id of a panel to scroll to in this frame
+  /// Outlines for the timeline, by node of the work, of few rows.
+  std::map<history::NodeId, render::PotView> thumbs;
+  bool thumbs_missing = false;  ///< more will be made
+  std::string reveal;           ///< id of a panel to scroll to in this frame
   Fonts fonts;
   std::optional<std::size_t> open_menu;  ///< index of a menu to open in this frame
   bool restyle = true;                   ///< theme or scale has changed
