@@ -12,11 +12,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace clay::studio {
 namespace {
 
+constexpr double kGapShareStep = 0.05;
 constexpr double kNoteS = 5.0, kSavedNoteS = 4.0;
 
 bool is_process(const std::filesystem::path& path) {
@@ -361,6 +363,11 @@ struct Performer {
   void operator()(const ScaleTool& scale) const { resize(state.settings.tool, scale.factor); }
   void operator()(const ChangeGap& change) const {
     double& gap_mm = state.settings.tool.gap_mm;
+    if (double& share = state.settings.tool.gap_share; share > 0.0) {
+      share = std::clamp(share + std::copysign(kGapShareStep, change.by_mm), kLeastGapShare,
+                         kMostGapShare);
+      return;
+    }
     gap_mm = std::clamp(gap_mm + change.by_mm, kNarrowestGapMm, kWidestPinchMm);
   }
   void operator()(const SetStiffness& set) const { state.document.set_stiffness(set.n_per_mm2); }

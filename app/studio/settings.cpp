@@ -59,6 +59,7 @@ void describe(PlainFields& io, Settings& s) {
   size("rib_height_mm", s.tool.rib.height_mm);
   size("rib_radius_mm", s.tool.rib.radius_mm);
   io.number("gap_mm", s.tool.gap_mm, kNarrowestGapMm, kWidestPinchMm);
+  io.number("gap_share", s.tool.gap_share, 0.0, kMostGapShare);
   io.flag("wall_map", s.wall_map);
   io.flag("full_section", s.full_section);
   io.text("process", s.process);

@@ -108,7 +108,10 @@ void update_guide(AppState& state) {
     const LessonPlan& plan = *state.guide.plan();
     choose(state.guide.tool(), state.settings.tool);
     state.settings.tool.mode = plan.mode;
-    if (plan.gap_mm > 0.0) state.settings.tool.gap_mm = plan.gap_mm;
+    if (plan.gap_mm > 0.0) {
+      state.settings.tool.gap_mm = plan.gap_mm;
+      state.settings.tool.gap_share = 0.0;
+    }
     state.log(fmt::format("step: {}", state.guide.stroke(plan.step).name));
   }
   state.play.advance(state);
