@@ -7,6 +7,7 @@
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/replay.hpp"
 #include "app/cli/rescue.hpp"
+#include "app/history/pot_scene.hpp"
 #include "app/servo/scene_hand.hpp"
 #include "app/servo/signals.hpp"
 #include "app/servo/tick_trace.hpp"
@@ -78,17 +79,17 @@ PotEncoding encoding_of(const LiveJob& job) {
   return job.pot_path.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
 }
 
-std::string written_pot(const LiveJob& job, const Pot& pot) {
-  return write_pot(pot, encoding_of(job));
+std::string written_pot(const LiveJob& job, const SceneSpec& scene, const Pot& pot) {
+  return write_pot(history::remembering(scene, pot), encoding_of(job));
 }
 
 /// Only writing detects a full disk: tries to write the current pot, if that changes no existing
 /// file.
-Result<AtomicFile> open_pot_file(const LiveJob& job, const Pot& pot) {
+Result<AtomicFile> open_pot_file(const LiveJob& job, const SceneSpec& scene, const Pot& pot) {
   {
     auto trial = AtomicFile::create(job.pot_path);
     if (!trial || !trial->rereadable()) return trial;
-    if (auto fits = trial->write(written_pot(job, pot)); !fits)
+    if (auto fits = trial->write(written_pot(job, scene, pot)); !fits)
       return tl::make_unexpected(fits.error());
   }
   return AtomicFile::create(job.pot_path);
@@ -99,7 +100,7 @@ Result<void> open_pot(const LiveJob& job, Stage& stage) {
   if (job.pot_path.empty()) return {};
   const std::size_t rings = stage.wheel->stack().size();
   if (auto room = expect_room_to_write(rings, encoding_of(job), job.pot_path); !room) return room;
-  auto file = open_pot_file(job, stage.wheel->pot());
+  auto file = open_pot_file(job, stage.scene, stage.wheel->pot());
   if (!file) return tl::make_unexpected(file.error());
   stage.pot_file.emplace(std::move(*file));
   return {};
@@ -123,17 +124,19 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
     return tl::make_unexpected(by_option(checked.error()));
   const auto mapping = servo::Mapping::build(options.settings.mapping);
   if (!mapping) return tl::make_unexpected(by_option(mapping.error()));
-  auto scene = load_scene(job.scene_path);
-  if (!scene) return tl::make_unexpected(scene.error());
-  stage.scene = std::move(*scene);
+  auto start = load_start(job.scene_path, job.from_path, console);
+  if (!start) return tl::make_unexpected(start.error());
+  stage.scene = start->scene;
   if (!job.model.empty())
     stage.scene.model = job.model == "paper" ? Model::paper : Model::conserving;
   stage.scene_hash = hash_of(stage.scene);
   const auto named = [&](const Error& error) {
-    return failure(error.kind, job.scene_path + ": " + error.message);
+    const std::string& file = job.scene_path.empty() ? job.from_path : job.scene_path;
+    return failure(error.kind, file + ": " + error.message);
   };
   if (auto fits = fit_stiffness(stage.scene, options, console); !fits) return named(fits.error());
-  auto wheel = build_wheel(stage.scene, job.scene_path, job.from_path);
+  start->scene = stage.scene;
+  auto wheel = build_wheel(*start);
   if (!wheel) return tl::make_unexpected(wheel.error());
   stage.wheel.emplace(std::move(*wheel));
 
@@ -225,7 +228,7 @@ Result<void> keep_session(const LiveOptions& options, const Console& console, St
 
 Result<void> keep_pot(const LiveJob& job, Stage& stage, const Pot& pot) {
   if (!stage.pot_file) return {};
-  const std::string bytes = written_pot(job, pot);
+  const std::string bytes = written_pot(job, stage.scene, pot);
   const auto written =
       stage.pot_file->write(bytes).and_then([&] { return stage.pot_file->commit(); });
   if (written) return written;

@@ -1,6 +1,7 @@
 #include "app/cli/replay.hpp"
 #include "app/cli/memory_room.hpp"
 #include "app/cli/pot_input.hpp"
+#include "app/history/pot_scene.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -11,6 +12,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <utility>
 
 namespace clay::cli {
 namespace {
@@ -86,29 +89,43 @@ Result<SceneSpec> load_scene(const std::string& path) {
   return read_file(path).and_then([&](const std::string& text) { return parse_scene(text, path); });
 }
 
-Result<Wheel> build_wheel(const SceneSpec& scene, const std::string& scene_path,
-                          const std::string& pot_path) {
-  const auto named = [&](const Error& error) {
-    std::string files = scene_path;
-    if (!pot_path.empty()) files.append(" on ").append(pot_path);
-    return failure(error.kind, files + ": " + error.message);
-  };
+Result<Start> load_start(const std::string& scene_path, const std::string& pot_path,
+                         const Console& console) {
+  Start start{scene_path, pot_path, {}, {}};
+  if (!pot_path.empty()) {
+    auto pot = read_pot(pot_path);
+    if (!pot) return tl::make_unexpected(pot.error());
+    start.pot = std::move(*pot);
+  }
+  if (scene_path.empty()) {
+    start.scene =
+        history::scene_for(*start.pot, std::filesystem::path(pot_path).stem().stem().string());
+    return start;
+  }
+  auto scene = load_scene(scene_path);
+  if (!scene) return tl::make_unexpected(scene.error());
+  start.scene = std::move(*scene);
+  const auto& kept = start.pot ? start.pot->thrown_with : std::nullopt;
+  if (kept && *kept != settings_of(start.scene))
+    console.warn(pot_path + ": was thrown with another tool or other clay than those of " +
+                 scene_path + ", which are used");
+  return start;
+}
+
+Result<Wheel> build_wheel(const Start& start) {
   constexpr std::uint64_t kBytesPerRing = 50;  // measured; space for all rings is reserved
-  if (auto room = expect_room(
-          fmt::format("{}: a wheel for up to {} rings", scene_path, max_rings_of(scene.lump)),
-          kBytesPerRing * max_rings_of(scene.lump));
+  const std::size_t rings = max_rings_of(start.scene.lump);
+  const std::string& name = start.scene_path.empty() ? start.pot_path : start.scene_path;
+  if (auto room = expect_room(fmt::format("{}: a wheel for up to {} rings", name, rings),
+                              kBytesPerRing * rings);
       !room)
     return tl::make_unexpected(room.error());
-  if (pot_path.empty()) {
-    auto wheel = Wheel::build(scene);
-    if (!wheel) return named(wheel.error());
-    return wheel;
-  }
-  const auto pot = read_pot(pot_path);
-  if (!pot) return tl::make_unexpected(pot.error());
-  auto wheel = Wheel::build(scene, *pot);
-  if (!wheel) return named(wheel.error());
-  return wheel;
+  return (start.pot ? Wheel::build(start.scene, *start.pot) : Wheel::build(start.scene))
+      .map_error([&](const Error& error) {
+        std::string files = start.scene_path;
+        if (start.pot) files.append(files.empty() ? "" : " on ").append(start.pot_path);
+        return Error{error.kind, files + ": " + error.message};
+      });
 }
 
 Result<Session> load_session(const std::string& path) {

@@ -1,4 +1,6 @@
 #pragma once
+#include "app/cli/console.hpp"
+
 #include "claystack/core/result.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/engine/scene.hpp"
@@ -7,6 +9,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,10 +49,19 @@ ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOption
 
 /// Reads a scene; "-" is standard input.
 Result<SceneSpec> load_scene(const std::string& path);
-/// The scene's wheel, with the pot of that file instead of its lump; "": the lump. Errors name the
-/// files.
-Result<Wheel> build_wheel(const SceneSpec& scene, const std::string& scene_path,
-                          const std::string& pot_path);
+/// Where a throw begins: a scene with its lump, or a pot on the scene's wheel.
+struct Start {
+  std::string scene_path;  ///< empty: the pot remembers the tool and the clay
+  std::string pot_path;    ///< empty: the lump
+  SceneSpec scene;
+  std::optional<Pot> pot;
+};
+/// Reads both, of which one may be empty. A scene wins over what the pot remembers, and a remark
+/// says so.
+Result<Start> load_start(const std::string& scene_path, const std::string& pot_path,
+                         const Console& console);
+/// Errors name the files.
+Result<Wheel> build_wheel(const Start& start);
 /// Reads a session, by default the one beside the scene: NAME.scene.json -> NAME.session.
 Result<Session> load_session(const std::string& path);
 [[nodiscard]] std::string session_beside(const std::string& scene_path);

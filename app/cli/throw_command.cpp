@@ -8,6 +8,7 @@
 #include "app/cli/pot_input.hpp"
 #include "app/cli/replay.hpp"
 #include "app/cli/throw_work.hpp"
+#include "app/history/pot_scene.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -177,7 +178,9 @@ Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encodin
                            std::optional<TraceWriter>& trace, const SceneSpec& scene,
                            const Session& session) {
   if (outputs.pot)
-    if (auto written = outputs.pot->write(write_pot(pot, encoding)); !written) return written;
+    if (auto written = outputs.pot->write(write_pot(history::remembering(scene, pot), encoding));
+        !written)
+      return written;
   if (trace)
     if (auto written = trace->finish(); !written) return written;
   if (outputs.error_plot) {
@@ -194,8 +197,10 @@ Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encodin
 /// Refuses invalid names before anything is read or played.
 Result<void> check_names(const ThrowOptions& options, const Console& console) {
   if (options.session.empty())
-    return failure(ErrorKind::bad_input,
-                   "a scene from standard input: expected --session with the poses to play");
+    return failure(
+        ErrorKind::bad_input,
+        (options.scene.empty() ? "a pot without a scene" : "a scene from standard input") +
+            std::string(": expected --session with the poses to play"));
   if (auto named = check_pot_name(options.pot); !named) return named;
   const std::vector<std::string> outputs = {options.pot, options.trace, options.error_plot};
   if (std::count(outputs.begin(), outputs.end(), "-") > (console.json ? 0 : 1))
@@ -208,15 +213,16 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   // Output to standard output must be the only one.
   for (const std::string& output : {options.pot, options.trace, options.error_plot})
     if (output == "-") console.quiet = true;
-  auto scene = load_scene(options.scene);
-  if (!scene) return tl::make_unexpected(scene.error());
+  auto start = load_start(options.scene, options.from, console);
+  if (!start) return tl::make_unexpected(start.error());
+  SceneSpec& scene = start->scene;
   const auto session = load_session(options.session);
   if (!session) return tl::make_unexpected(session.error());
-  if (auto gaps = check_gaps(*session, *scene, options); !gaps) return gaps;
-  warn_of_oddities(console, *session, *scene, options);
+  if (auto gaps = check_gaps(*session, scene, options); !gaps) return gaps;
+  warn_of_oddities(console, *session, scene, options);
   if (!options.model.empty())
-    scene->model = options.model == "paper" ? Model::paper : Model::conserving;
-  auto wheel = build_wheel(*scene, options.scene, options.from);
+    scene.model = options.model == "paper" ? Model::paper : Model::conserving;
+  auto wheel = build_wheel(*start);
   if (!wheel) return tl::make_unexpected(wheel.error());
   const PotEncoding encoding =
       options.pot.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
@@ -235,7 +241,7 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   if (stats.ring_limit) console.warn("there is clay above the top ring: increase lump.max_rings");
 
   const Pot pot = wheel->pot();
-  if (auto written = write_outputs(*outputs, pot, encoding, trace, *scene, *session); !written)
+  if (auto written = write_outputs(*outputs, pot, encoding, trace, scene, *session); !written)
     return written;
 
   const Json json = summary(*wheel, stats, *session, pot);
@@ -278,6 +284,9 @@ Result<void> check_effects(const ThrowOptions& options) {
 
 Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
   if (auto effects = check_effects(options); !effects) return effects;
+  if (options.scene.empty() && options.from.empty())
+    return failure(ErrorKind::bad_input,
+                   "expected a scene, a work, or a pot to start from (--from), found none");
   if (options.scene.ends_with(".work")) return throw_work_file(options, console);
   if (options.at || options.list)
     return failure(ErrorKind::bad_input,
@@ -310,10 +319,10 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<ThrowOptions>();
   CLI::App* command = app.add_subcommand(
       "throw", "Replay a session on a scene, or throw by hand, and write the pot");
-  command
-      ->add_option("scene", options->scene,
-                   "NAME.scene.json, or - for standard input; or NAME.work")
-      ->required();
+  command->add_option(
+      "scene", options->scene,
+      "NAME.scene.json, or - for standard input; or NAME.work. Not needed with --from: "
+      "the pot remembers its tool and clay");
   command->add_option("-s,--session", options->session,
                       "Poses to play (default: NAME.session beside the scene)");
   command->add_option("-o,--output", options->pot,
@@ -345,11 +354,13 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
       "mine.pot.json\n"
       "  claystack throw samples/vase.scene.json --model paper --json\n"
       "  claystack throw rim.scene.json -s rim.session --from vase.pot.json -o higher.pot.json\n"
+      "  claystack throw --from vase.pot.json -s rim.session -o higher.pot.json\n"
       "  claystack throw mine.work --list\n"
       "  claystack throw mine.work --at 3 -o early.pot.json\n"
       "  claystack throw samples/vase.scene.json --error-plot vase-error.svg");
   command->callback([options, &console, &exit] {
-    if (options->session.empty() && options->scene != "-" && !options->scene.ends_with(".work"))
+    if (options->session.empty() && !options->scene.empty() && options->scene != "-" &&
+        !options->scene.ends_with(".work"))
       options->session = session_beside(options->scene);
     const auto done = throw_pot(*options, console);
     exit = done ? kDone : report(done.error());

@@ -111,6 +111,15 @@ struct ChooseProcessFile {};
 struct UseProcess {
   std::filesystem::path path;
 };
+// The target profile.
+struct ChooseTarget {};  ///< opens a dialog for its file
+struct UseTarget {
+  std::filesystem::path path;
+};
+struct UseSampleTarget {
+  std::size_t index = 0;  ///< index in samples()
+};
+struct ClearTarget {};
 struct EditImport {
   ImportSettings settings;
 };
@@ -119,6 +128,10 @@ struct ShowWarning {
   std::string text;
 };
 struct CloseNotice {};
+/// Opens a menu, for the arrow keys.
+struct OpenMenu {
+  std::size_t index = 0;  ///< in menus()
+};
 
 // --- Tool and wheel. ----------------------------------------------------------------------------
 struct SetToolMode {
@@ -193,6 +206,7 @@ using SetUnit = Set<&Settings::unit>;
 using SetWheelSpeed = Set<&Settings::wheel_rpm>;
 using SetTool = Set<&Settings::tool>;
 using SetProcess = Set<&Settings::process>;
+using SetGoal = Set<&Settings::goal>;
 using SetHints = Set<&Settings::hints>;
 using SetFolder = Set<&Settings::folder>;
 using SetBite = Set<&Settings::bite_mm>;
@@ -208,10 +222,11 @@ using Action = std::variant<
     GoToStroke, OtherBranch, Scrub, EndScrub, BranchHere, ShowDialog, CloseDialog, EditPath,
     SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, ReplaceFiles, KeepFiles,
     CancelExport, ShowExportFolder, ChooseExportFolder, ChooseProcessFile, UseProcess, EditImport,
-    TakeImport, ShowWarning, CloseNotice, SetToolMode, SetToolShape, ScaleTool, ChangeGap,
-    SetStiffness, DragToolSize, DragStiffness, TogglePause, Rearm, Back, PressClay, AimTool,
-    ReleaseTool, LookFrom, ToggleCut, TogglePanel, ToggleDiagnostics, FoldPanel, ToggleTheme,
-    ScaleText, SetTheme, SetScale, SetUnit, SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder,
+    TakeImport, ChooseTarget, UseTarget, UseSampleTarget, ClearTarget, SetGoal, ShowWarning,
+    CloseNotice, OpenMenu, SetToolMode, SetToolShape, ScaleTool, ChangeGap, SetStiffness,
+    DragToolSize, DragStiffness, TogglePause, Rearm, Back, PressClay, AimTool, ReleaseTool,
+    LookFrom, ToggleCut, TogglePanel, ToggleDiagnostics, FoldPanel, ToggleTheme, ScaleText,
+    SetTheme, SetScale, SetUnit, SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder,
     SetHandSpeed, SetBite, SetWallMap, SetFullSection, ToggleWallMap, ToggleHints>;
 
 /// In the order of creation.

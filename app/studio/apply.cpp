@@ -1,5 +1,6 @@
 // Executes actions.
 
+#include "app/history/pot_scene.hpp"
 #include "app/studio/app_state.hpp"
 #include "app/studio/commands.hpp"
 #include "app/studio/new_scene.hpp"
@@ -11,11 +12,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace clay::studio {
 namespace {
 
+constexpr double kGapShareStep = 0.05;
 constexpr double kNoteS = 5.0, kSavedNoteS = 4.0;
 
 bool is_process(const std::filesystem::path& path) {
@@ -132,6 +135,7 @@ struct Performer {
     if (!opened) return report(state, opened.error());
     if (!opened->empty()) state.ui.notices.show(Grade::warning, *opened);
     remember(state.settings, open.path);
+    show_own_wheel();
     show_work();
     state.log("opened: " + open.path.string());
   }
@@ -142,6 +146,7 @@ struct Performer {
     auto work = history::recover(path);
     if (!work) return report(state, work.error());
     state.document.begin(std::move(*work));
+    show_own_wheel();
     show_work();
     state.log("recovered: " + path.string());
   }
@@ -293,7 +298,8 @@ struct Performer {
     exporting.problem.clear();
     exporting.result.clear();
     state.log("export started");
-    state.exporter.write(state.document.shared_pot(), exporting.choices);
+    state.exporter.write(std::make_shared<const Pot>(state.document.pot_for_file()),
+                         exporting.choices);
   }
   void operator()(const CancelExport&) const { state.exporter.cancel(); }
   void operator()(const ShowExportFolder&) const {
@@ -335,12 +341,20 @@ struct Performer {
     const auto* import = std::get_if<ImportDialog>(&state.ui.dialog);
     if (import == nullptr || !import->made) return;
     const Pot& pot = import->made->pot;
-    apply(state, BeginWork{scene_for(pot, import->path.stem().string()),
+    apply(state, BeginWork{history::scene_for(pot, import->path.stem().string()),
                            std::make_shared<const Pot>(pot), import->path});
   }
+  void operator()(const ChooseTarget&) const {
+    if (!open_desktop_dialog(state, FileDialog::Kind::target, start_folder(state)))
+      state.ui.dialog = OpenDialog{start_folder(state).string(), true};
+  }
+  void operator()(const UseTarget& use) const { set_target(read_target(use.path)); }
+  void operator()(const UseSampleTarget& use) const { set_target(sample_target(use.index)); }
+  void operator()(const ClearTarget&) const { state.ui.target.reset(); }
   void operator()(const ShowWarning& warning) const {
     state.ui.notices.show(Grade::warning, warning.text);
   }
+  void operator()(const OpenMenu& open) const { state.ui.open_menu = open.index; }
   void operator()(const CloseNotice&) const { state.ui.notices.close(); }
 
   // --- Tool and wheel. ---------------------------------------------------------------------------
@@ -349,6 +363,11 @@ struct Performer {
   void operator()(const ScaleTool& scale) const { resize(state.settings.tool, scale.factor); }
   void operator()(const ChangeGap& change) const {
     double& gap_mm = state.settings.tool.gap_mm;
+    if (double& share = state.settings.tool.gap_share; share > 0.0) {
+      share = std::clamp(share + std::copysign(kGapShareStep, change.by_mm), kLeastGapShare,
+                         kMostGapShare);
+      return;
+    }
     gap_mm = std::clamp(gap_mm + change.by_mm, kNarrowestGapMm, kWidestPinchMm);
   }
   void operator()(const SetStiffness& set) const { state.document.set_stiffness(set.n_per_mm2); }
@@ -383,7 +402,7 @@ struct Performer {
   void operator()(const ReleaseTool&) const { state.stroke.release(); }
 
   // --- The view and the settings. ----------------------------------------------------------------
-  void operator()(const LookFrom& look) const { state.scene.look(state.stroke.view(), look.from); }
+  void operator()(const LookFrom& look) const { show_from(look.from); }
   void operator()(const ToggleCut& toggle) const {
     state.scene.cut = state.scene.cut == toggle.cut ? render::Cut::none : toggle.cut;
   }
@@ -438,7 +457,13 @@ struct Performer {
     state.ui.dialog = NoDialog{};
     state.scene.look(state.stroke.view(), ViewFrom::home);
     state.ui.exporting.written.clear();
+    state.ui.thumbs.clear();
     state.log("work started: " + state.document.scene().name);
+  }
+  /// A work from a file goes on at its own speed of the wheel, so that the same stroke gives the
+  /// same pot.
+  void show_own_wheel() const {
+    state.settings.wheel_rpm = std::clamp(state.document.wheel_rpm(), kSlowestRpm, kFastestRpm);
   }
   void start_lesson(std::size_t sample, Demonstration demonstration) const {
     const auto begun = state.guide.begin(samples().at(sample), demonstration);
@@ -455,6 +480,20 @@ struct Performer {
       return asked->save->next;
     const auto* unsaved = std::get_if<UnsavedDialog>(&state.ui.dialog);
     return unsaved != nullptr && unsaved->saving ? std::optional(unsaved->next) : std::nullopt;
+  }
+  /// The pot, and the target if that is higher.
+  void show_from(ViewFrom from) const {
+    const render::PotView& pot = state.stroke.view();
+    const Target* target = state.ui.target.get();
+    state.scene.look(
+        target != nullptr && target->view.height_mm > pot.height_mm ? target->view : pot, from);
+  }
+  void set_target(Result<SharedTarget> target) const {
+    if (!target) return report(state, target.error());
+    state.ui.target = std::move(*target);
+    if (state.document.has_work()) show_from(ViewFrom::home);
+    if (state.ui.shows<OpenDialog>()) close_dialog(state);
+    state.log("target: " + state.ui.target->name);
   }
   void forget(std::size_t index) const {
     state.recoverable.erase(state.recoverable.begin() + static_cast<std::ptrdiff_t>(index));

@@ -17,8 +17,9 @@ constexpr float kTextStep = 1.1f;
 
 using View = const ViewModel&;
 
-constexpr std::string_view kSection = "section", kWalls = "walls", kCertificate = "certificate",
-                           kLedger = "ledger", kStress = "stress", kServo = "servo";
+constexpr std::string_view kGoal = "goal", kSection = "section", kWalls = "walls",
+                           kCertificate = "certificate", kLedger = "ledger", kStress = "stress",
+                           kServo = "servo";
 
 bool always(View) { return true; }
 bool in_lesson(View view) { return view.guide.active(); }
@@ -78,6 +79,7 @@ template <const std::string_view& id>
 bool is_open(View view) {
   return panel_open(view.settings, id);
 }
+bool has_target(View view) { return view.ui.target != nullptr; }
 bool paused(View view) { return view.stroke.paused(); }
 bool is_light(View view) { return view.settings.theme == Theme::light; }
 bool has_wall_map(View view) { return view.settings.wall_map; }
@@ -128,6 +130,14 @@ const std::array kCommands = {
     C{"export.folder", "Open the folder", kNone, kNone, ShowExportFolder{}, has_written},
     C{"import.take", "Place on the wheel", key(GLFW_KEY_ENTER, kCtrlShift), kNone, TakeImport{}, can_import},
 
+    // In the panel of the goal; not in a menu.
+    C{"goal.bowl", "Target: the sample bowl", kNone, kNone, UseSampleTarget{0}, always},
+    C{"goal.vase", "Target: the sample vase", kNone, kNone, UseSampleTarget{1}, always},
+    C{"goal.bottle", "Target: the sample bottle", kNone, kNone, UseSampleTarget{2}, always},
+    C{"goal.cylinder", "Target: the sample cylinder", kNone, kNone, UseSampleTarget{3}, always},
+    C{"goal.file", "Target from a file...", kNone, kNone, ChooseTarget{}, always},
+    C{"goal.none", "No target", kNone, kNone, ClearTarget{}, has_target},
+
     C{"tool.press", "Press", key(GLFW_KEY_P), kNone, SetToolMode{ToolMode::press}, always, is_mode<ToolMode::press>},
     C{"tool.trim", "Trim", key(GLFW_KEY_T), kNone, SetToolMode{ToolMode::trim}, always, is_mode<ToolMode::trim>},
     C{"tool.pinch", "Pinch", key(GLFW_KEY_H), kNone, SetToolMode{ToolMode::pinch}, always, is_mode<ToolMode::pinch>},
@@ -156,6 +166,7 @@ const std::array kCommands = {
     C{"view.cut_half", "Cut away a half", key(GLFW_KEY_C), kNone, ToggleCut{render::Cut::half}, has_work, is_cut<render::Cut::half>},
     C{"view.cut_quarter", "Cut away a quarter", key(GLFW_KEY_C, kShift), kNone, ToggleCut{render::Cut::quarter}, has_work, is_cut<render::Cut::quarter>},
     C{"view.wall_map", "Wall thickness map", key(GLFW_KEY_W), kNone, ToggleWallMap{}, always, has_wall_map},
+    C{"view.goal", "Goal", key(GLFW_KEY_O), kNone, TogglePanel{kGoal}, always, is_open<kGoal>},
     C{"view.section", "Section", key(GLFW_KEY_X), kNone, TogglePanel{kSection}, always, is_open<kSection>},
     C{"view.walls", "Walls", kNone, kNone, TogglePanel{kWalls}, always, is_open<kWalls>},
     C{"view.certificate", "Certificate", kNone, kNone, TogglePanel{kCertificate}, always, is_open<kCertificate>},
@@ -173,6 +184,7 @@ const std::array kCommands = {
     C{"help.show_step", "Show this step", key(GLFW_KEY_G), kNone, ShowStep{}, in_step},
     C{"help.next_step", "Next step", key(GLFW_KEY_N), kNone, NextStep{}, in_step},
     C{"help.end_lesson", "End the guide", kNone, kNone, EndLesson{}, in_lesson},
+    C{"help.menu", "Open the menu", key(GLFW_KEY_F10), kNone, OpenMenu{}, always},
     C{"help.hint", "First steps", kNone, kNone, ToggleHints{}, always, has_hints},
     C{"help.keys", "Keys and mouse", key(GLFW_KEY_SLASH, kShift), key(GLFW_KEY_F1), ShowDialog{Kind::shortcuts}, always},
 };

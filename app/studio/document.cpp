@@ -2,8 +2,8 @@
 
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
+#include "app/history/pot_scene.hpp"
 #include "app/render/pot_view.hpp"
-#include "app/studio/new_scene.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 
@@ -58,7 +58,8 @@ void Document::replace(const SceneSpec& scene, history::Work work) {
   file_.clear();
   lock_.reset();
   scene_ = scene;
-  nominal_rate_per_s_ = scene.removal.rate_per_s;
+  rate_per_s_ = scene.removal.rate_per_s;
+  wheel_rpm_ = scene.clay && scene.clay->wheel_rpm > 0.0 ? scene.clay->wheel_rpm : kNominalRpm;
   work_.emplace(std::move(work));
   if (auto shown = show_pot(); !shown) problem_ = shown.error();
   journal_error_.reset();
@@ -105,7 +106,7 @@ Result<Document::Remark> Document::open(const std::filesystem::path& path) {
   auto begun =
       is_pot(name) || cli::is_3mf(name)
           ? cli::pot_from(*text, name).and_then([&](Pot&& pot) {
-              return begin(scene_for(pot, path.stem().stem().string()), pot);
+              return begin(history::scene_for(pot, path.stem().stem().string()), pot);
             })
           : parse_scene(*text, name).and_then([&](SceneSpec&& scene) { return begin(scene); });
   if (!begun) return tl::make_unexpected(begun.error());
@@ -121,8 +122,12 @@ Result<void> Document::save(const std::filesystem::path& path) {
         fmt::format("{}: expected a name that ends in .work, .pot.json or .pot.cbor", name));
   const auto encoding = name.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
   return cli::expect_room_to_write(pot_->stack.size(), encoding, name).and_then([&] {
-    return publish(path, write_pot(*pot_, encoding));
+    return publish(path, write_pot(pot_for_file(), encoding));
   });
+}
+
+Pot Document::pot_for_file() const {
+  return history::remembering(current_scene(work_->record()), *pot_);
 }
 
 void Document::keep_file(const std::filesystem::path& path) {
@@ -144,7 +149,7 @@ std::string Document::name() const {
 SceneSpec Document::scene_with(const ToolSpec& tool, double wheel_rpm) const {
   SceneSpec scene = scene_;
   scene.tool = tool;
-  scene.removal.rate_per_s = nominal_rate_per_s_ * wheel_rpm / kNominalRpm;
+  scene.removal.rate_per_s = rate_per_s_ * wheel_rpm / wheel_rpm_;
   if (scene.clay) scene.clay->wheel_rpm = wheel_rpm;
   return scene;
 }

@@ -23,7 +23,7 @@ struct Moment {
   double seconds = 0.0;
 };
 
-/// Wheel speed at which clay yields at the rate of its scene.
+/// Wheel speed at which clay without rules yields at the rate of its scene.
 inline constexpr double kNominalRpm = 120.0;
 
 /// Tells whether a file is still the one that was read or written.
@@ -85,6 +85,8 @@ class Document {
   [[nodiscard]] bool has_work() const noexcept { return work_.has_value(); }
   [[nodiscard]] const history::Work& work() const noexcept { return *work_; }
   [[nodiscard]] const Pot& pot() const noexcept { return *pot_; }
+  /// The current pot as files hold it: with the tool and clay of its last stroke.
+  [[nodiscard]] Pot pot_for_file() const;
   /// Null before there is a work. During a stroke: the pot at its start.
   [[nodiscard]] const history::SharedPot& shared_pot() const noexcept { return pot_; }
   /// The pot on screen between strokes: the current pot, or the pot at `moment`.
@@ -98,8 +100,10 @@ class Document {
 
   // --- The next stroke. --------------------------------------------------------------------------
   [[nodiscard]] const SceneSpec& scene() const noexcept { return scene_; }
+  /// Speed of the wheel when the work began: that of its clay rules, or kNominalRpm.
+  [[nodiscard]] double wheel_rpm() const noexcept { return wheel_rpm_; }
   /// The scene of a stroke with this tool. The wheel's speed scales the removal rate, which the
-  /// work has at kNominalRpm, and is that of the clay rules.
+  /// work has at `wheel_rpm`, and is that of the clay rules.
   [[nodiscard]] SceneSpec scene_with(const ToolSpec& tool, double wheel_rpm) const;
   void set_scene(const SceneSpec& scene) { scene_ = scene; }
   /// Stiffness of the contact [N/mm^2].
@@ -119,6 +123,8 @@ class Document {
   Result<void> undo();
   Result<void> redo();
   Result<void> go_to(history::NodeId node);
+  /// The pot after a stroke; replays strokes if it is not in memory.
+  Result<history::SharedPot> pot_at(history::NodeId node) { return work_->pot(node); }
   /// The next sibling of the nearest ancestor that has siblings; empty: there is no branch.
   [[nodiscard]] std::optional<history::NodeId> other_branch() const;
   /// Shows the pot at a moment in the middle of a stroke until another pot is shown. The work does
@@ -143,7 +149,8 @@ class Document {
   FileStamp stamp_;                          ///< of file_, when it was read or written
   std::unique_ptr<history::FileLock> lock_;  ///< on file_, so that other windows see its use
   SceneSpec scene_;
-  double nominal_rate_per_s_ = 20.0;
+  double rate_per_s_ = 20.0;  ///< of the scene, at wheel_rpm_
+  double wheel_rpm_ = kNominalRpm;
   std::optional<history::Work> work_;
   history::SharedPot pot_;
   std::optional<Moment> moment_;

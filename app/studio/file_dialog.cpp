@@ -55,7 +55,8 @@ std::vector<std::string> words_of(FileDialog::Kind kind, const std::string& star
   }
   if (auto kdialog = program("kdialog")) {
     constexpr std::array kWhat = {"--getopenfilename", "--getsavefilename",
-                                  "--getexistingdirectory", "--getopenfilename"};
+                                  "--getexistingdirectory", "--getopenfilename",
+                                  "--getopenfilename"};
     return {*kdialog, kWhat[static_cast<std::size_t>(kind)], start_at};
   }
   return {};

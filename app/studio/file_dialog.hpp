@@ -11,7 +11,7 @@ namespace clay::studio {
 
 class FileDialog {
  public:
-  enum class Kind : std::uint8_t { open, save, folder, process };
+  enum class Kind : std::uint8_t { open, save, folder, process, target };
 
   FileDialog() = default;
   ~FileDialog();

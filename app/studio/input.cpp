@@ -31,6 +31,7 @@ constexpr std::array kNamedKeys = {
     NamedKey{"Up", GLFW_KEY_UP},
     NamedKey{"Down", GLFW_KEY_DOWN},
     NamedKey{"F1", GLFW_KEY_F1},
+    NamedKey{"F10", GLFW_KEY_F10},
     NamedKey{"F11", GLFW_KEY_F11},
     NamedKey{"Num+", GLFW_KEY_KP_ADD},
     NamedKey{"Num-", GLFW_KEY_KP_SUBTRACT},

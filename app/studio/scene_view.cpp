@@ -190,7 +190,7 @@ void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, bool in
   const auto tool = chosen_tool(view);
   if (!tool || !view.document.has_work() || view.stroke.has_device() || view.stroke.paused())
     return;
-  const ToolSpec spec = tool_of(view.settings.tool, inverted);
+  ToolSpec spec = tool_of(view.settings.tool, inverted);
   const render::PotView pot = shown_pot(view);
   glm::dvec2 start = free_place(pot, *tool, pointed_mm);
   double gap_mm = 0.0;
@@ -205,6 +205,8 @@ void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, bool in
     }
     start = pinch_place(*wall, pointed_mm);
     gap_mm = wall->thickness_mm;
+    if (const double share = view.settings.tool.gap_share; share > 0.0)
+      spec.gap_mm = std::max(kNarrowestGapMm, share * (gap_mm - 2.0 * kClearanceMm));
   }
   offset_mm_ = start - pointed_mm;
   actions.emplace_back(

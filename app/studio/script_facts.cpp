@@ -114,6 +114,18 @@ const std::array kFacts = {
            return s.readings.check() ? ready_text(*s.readings.check(), s.settings.unit)
                                      : std::string();
          }},
+    Fact{"goal",
+         [](const AppState& s) {
+           const auto& check = s.readings.check();
+           return check && check->maker
+                      ? read_goal(s.settings.goal, *check->maker, s.settings.unit).text
+                      : std::string();
+         }},
+    Fact{"off_target_mm",
+         [](const AppState& s) {
+           const auto& check = s.readings.check();
+           return check && check->off ? fmt::format("{}", check->off->mm) : std::string();
+         }},
     Fact{"step",
          [](const AppState& s) {
            return !s.guide.active()    ? "none"

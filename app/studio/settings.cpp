@@ -59,6 +59,7 @@ void describe(PlainFields& io, Settings& s) {
   size("rib_height_mm", s.tool.rib.height_mm);
   size("rib_radius_mm", s.tool.rib.radius_mm);
   io.number("gap_mm", s.tool.gap_mm, kNarrowestGapMm, kWidestPinchMm);
+  io.number("gap_share", s.tool.gap_share, 0.0, kMostGapShare);
   io.flag("wall_map", s.wall_map);
   io.flag("full_section", s.full_section);
   io.text("process", s.process);
@@ -68,6 +69,10 @@ void describe(PlainFields& io, Settings& s) {
   io.text("folder", s.folder);
   io.texts("recent", s.recent, kMostRecent);
   io.number("pressing_mm_s", s.pressing_mm_s, kSlowestHandMmPerS, kFastestHandMmPerS);
+  io.number("goal_holds_ml", s.goal.holds_ml, 0.0, kMostGoalMl);
+  io.number("goal_height_mm", s.goal.height_mm, 0.0, kMostGoalMm);
+  io.number("goal_diameter_mm", s.goal.diameter_mm, 0.0, kMostGoalMm);
+  io.number("goal_shrinkage_percent", s.goal.shrinkage_percent, 0.0, kMostShrinkagePercent);
   io.number("bite_mm", s.bite_mm, kSoftestBiteMm, kFirmestBiteMm);
 }
 

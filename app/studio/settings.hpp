@@ -1,6 +1,7 @@
 #pragma once
 // Settings of the window that are kept between runs.
 
+#include "app/studio/readings/goal.hpp"
 #include "app/studio/style.hpp"
 #include "app/studio/tool_choice.hpp"
 #include "app/studio/units.hpp"
@@ -30,6 +31,7 @@ struct Settings {
   bool full_section = false;  ///< show both halves of the section
   std::string process;        ///< process for walls and exports: a name or a file; empty: none
   std::vector<std::string> processes;  ///< custom process files, newest first
+  PotGoal goal;                        ///< what the pot shall become
   bool hints = true;                   ///< the first-run hint has not been closed yet
   std::map<std::string, bool> open;    ///< unfolded panels by id; others have their default
   std::string folder;                  ///< folder of the last file; empty: none yet

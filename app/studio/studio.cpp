@@ -77,7 +77,8 @@ Studio::~Studio() {
 
 bool Studio::wakeful() const noexcept {
   return moving() || fine_ != kFineness[0] || awake_frames_ > 0 || state_.readings.checking() ||
-         state_.guide.busy() || state_.exporter.busy() || state_.file_dialog.open();
+         state_.ui.thumbs_missing || state_.guide.busy() || state_.exporter.busy() ||
+         state_.file_dialog.open();
 }
 
 bool Studio::moving() const noexcept {
@@ -99,8 +100,8 @@ bool Studio::frame(Painting painting) {
   if (state_.ui.restyle) restyle();
   if (awake_frames_ > 0) --awake_frames_;
   state_.ui.notices.expire(now_s);
-  state_.readings.update(state_.document, state_.stroke, wanted_of(state_.settings), now_ns,
-                         state_.log);
+  state_.readings.update(state_.document, state_.stroke, wanted_of(state_.settings, state_.ui),
+                         now_ns, state_.log);
   // ImGui must process each input; the slow painting follows once for all of them. A closed window
   // remains under the mouse for two more ImGui frames.
   do {
@@ -135,12 +136,14 @@ void Studio::build_frame(double elapsed_s) {
   const glm::ivec2 size = state_.host.size_px();
   io.DisplaySize = {static_cast<float>(size.x), static_cast<float>(size.y)};
   io.DeltaTime = static_cast<float>(elapsed_s);
+  let_keys_navigate();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
   Actions actions;
   lay_out(view_model(state_), actions);
   ImGui::Render();
   state_.ui.reveal.clear();
+  state_.ui.open_menu.reset();
   apply_all(state_, actions);
 }
 
@@ -184,19 +187,21 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   draw_status_bar(model, {0.0f, size.y - status}, {size.x, status});
   const float wide = std::max(1.0f, size.x - left - right);
   const float timeline = timeline_height(model, {wide, height});
-  const ViewRect view{{left, top}, {wide, height - timeline}};
+  const ViewRect view{{left, top}, {wide, height}};
+  const ViewRect free{{left, top}, {wide, height - timeline}};  // of the timeline
   if (timeline > 0.0f)
     draw_timeline(model, actions, {left, top + height - timeline}, {wide, timeline});
   const bool first = state_.scene.rect().size_px.x <= 1.0f;
   state_.scene.place(view);
   if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
+  draw_target(model, view);
   draw_marks(model, view);
   draw_path(model, view);
   draw_at_tool(model, view);
   draw_pause(model, view);
   draw_export_marks(model, view);
-  draw_hint(model, actions, view);
-  draw_guide(model, actions, view);
+  draw_hint(model, actions, free);
+  draw_guide(model, actions, free);
   draw_verdict(model, view);
   draw_dialog(model, actions, view);
   draw_banner(model, actions, view);

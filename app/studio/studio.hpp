@@ -105,6 +105,7 @@ class Studio {
   [[nodiscard]] bool moving() const noexcept;
   void handle_input();
   void restyle();
+  void let_keys_navigate();
   void build_frame(double elapsed_s);
   void apply(const Input& input);
   void key(const KeyChanged& change);

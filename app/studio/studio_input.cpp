@@ -50,6 +50,12 @@ void connect_clipboard(ImGuiIO& io, Host& host) {
   };
 }
 
+/// A menu or a list is open.
+bool menu_open() {
+  return ImGui::GetFrameCount() > 0 &&
+         ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
 /// Commands that are enabled while a dialog is open.
 bool in_dialogs(const Command& command) {
   constexpr std::array kPrefixes = {"file.",   "view.",    "help.",   "quit.",
@@ -117,6 +123,18 @@ void Studio::apply(const Input& input) {
   apply_all(state_, actions);
 }
 
+/// Arrows, Enter and Space move and choose in menus and dialogs, and do nothing else there. Over
+/// the clay the keys are those of the commands. In a dialog Enter is the key of its default button.
+void Studio::let_keys_navigate() {
+  ImGuiIO& io = ImGui::GetIO();
+  const bool menu = menu_open(), gallery = state_.ui.shows<GalleryDialog>();
+  if (menu || !state_.ui.shows<NoDialog>())
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  else
+    io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
+  io.KeyMap[ImGuiKey_Space] = menu || gallery ? GLFW_KEY_ENTER : GLFW_KEY_SPACE;
+}
+
 void Studio::key(const KeyChanged& change) {
   ImGuiIO& io = ImGui::GetIO();
   if (change.key >= 0 && change.key < 512) io.KeysDown[change.key] = change.down;
@@ -124,6 +142,11 @@ void Studio::key(const KeyChanged& change) {
   io.KeyShift = (change.mods & kShift) != 0;
   io.KeyAlt = (change.mods & kAlt) != 0;
   if (!change.down) return;
+  // An open menu is topmost: Esc closes it, and keys without Ctrl are for it. Where an arm is in
+  // use, Esc also sets the force to zero.
+  if (menu_open() && (change.mods & kControl) == 0 &&
+      !(change.key == GLFW_KEY_ESCAPE && state_.stroke.has_device()))
+    return;
   const Command* command = command_for({change.key, change.mods});
   if (command == nullptr) return;
   // A text field captures the keys that edit text.

@@ -85,7 +85,9 @@ ToolSpec tool_of(const ToolChoice& choice, bool inverted) {
 void choose(const ToolSpec& tool, ToolChoice& choice) {
   std::visit(Chooser{choice}, tool.shape);
   choice.mode = tool.mode;
-  if (tool.gap_mm) choice.gap_mm = std::clamp(*tool.gap_mm, kNarrowestGapMm, kWidestPinchMm);
+  if (!tool.gap_mm) return;
+  choice.gap_mm = std::clamp(*tool.gap_mm, kNarrowestGapMm, kWidestPinchMm);
+  choice.gap_share = 0.0;
 }
 
 std::optional<double> size_mm(const ToolChoice& choice) {

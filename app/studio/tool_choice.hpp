@@ -18,11 +18,14 @@ struct ToolChoice {
   RibSpec rib;
   SampledSpec own;  ///< from the scene that was opened; without points there is none
   double gap_mm = 6.0;
+  /// Part of the wall where a pinch of the mouse begins, instead of gap_mm; 0: gap_mm.
+  double gap_share = 0.0;
   friend bool operator==(const ToolChoice&, const ToolChoice&) = default;
 };
 
 inline constexpr double kSmallestToolMm = 0.5, kLargestToolMm = 60.0;
 inline constexpr double kNarrowestGapMm = 0.5, kWidestPinchMm = 40.0;
+inline constexpr double kLeastGapShare = 0.3, kMostGapShare = 0.95;
 
 /// How the window names a mode.
 [[nodiscard]] const char* name_of(ToolMode mode) noexcept;

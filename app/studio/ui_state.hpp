@@ -5,8 +5,10 @@
 #include "app/history/work.hpp"
 #include "app/studio/action.hpp"
 #include "app/studio/style.hpp"
+#include "app/studio/target.hpp"
 
 #include <glm/vec2.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -54,6 +56,7 @@ struct UnsavedDialog {
 };
 struct OpenDialog {
   std::string path;
+  bool target = false;  ///< the file becomes the target profile
 };
 /// `next`: the action to run after saving.
 struct SaveDialog {
@@ -111,9 +114,14 @@ struct UiState {
   JournalWatch journal;
   std::vector<Mark> marks;    ///< marks on the pot `marked`
   history::SharedPot marked;  ///< pot of the last export or preview
-  std::string reveal;         ///< id of a panel to scroll to in this frame
+  SharedTarget target;        ///< null: none
+  /// Outlines for the timeline, by node of the work, of few rows.
+  std::map<history::NodeId, render::PotView> thumbs;
+  bool thumbs_missing = false;  ///< more will be made
+  std::string reveal;           ///< id of a panel to scroll to in this frame
   Fonts fonts;
-  bool restyle = true;  ///< theme or scale has changed
+  std::optional<std::size_t> open_menu;  ///< index of a menu to open in this frame
+  bool restyle = true;                   ///< theme or scale has changed
 
   template <class D>
   [[nodiscard]] bool shows() const noexcept {

@@ -1,8 +1,10 @@
 // Updates between two frames: devices connect and disconnect, strokes end, a pot falls, the
 // desktop's file dialog and background jobs return their results.
 
+#include "app/render/pot_view.hpp"
 #include "app/servo/words.hpp"
 #include "app/studio/app_state.hpp"
+#include "app/studio/panels/timeline.hpp"
 #include "claystack/export/job.hpp"
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace clay::studio {
 namespace {
@@ -105,7 +108,10 @@ void update_guide(AppState& state) {
     const LessonPlan& plan = *state.guide.plan();
     choose(state.guide.tool(), state.settings.tool);
     state.settings.tool.mode = plan.mode;
-    if (plan.gap_mm > 0.0) state.settings.tool.gap_mm = plan.gap_mm;
+    if (plan.gap_mm > 0.0) {
+      state.settings.tool.gap_mm = plan.gap_mm;
+      state.settings.tool.gap_share = 0.0;
+    }
     state.log(fmt::format("step: {}", state.guide.stroke(plan.step).name));
   }
   state.play.advance(state);
@@ -162,6 +168,9 @@ void update_file_dialog(AppState& state) {
     case FileDialog::Kind::process:
       apply(state, UseProcess{*chosen});
       break;
+    case FileDialog::Kind::target:
+      apply(state, UseTarget{*chosen});
+      break;
     case FileDialog::Kind::save:
       apply(state, SaveFile{*chosen, true});  // the desktop has asked
       break;
@@ -169,6 +178,34 @@ void update_file_dialog(AppState& state) {
       state.ui.exporting.choices.folder = *chosen;
       break;
   }
+}
+
+/// A standing outline of at most kThumbRows rows.
+render::PotView thumb_of(const Pot& pot) {
+  constexpr std::size_t kThumbRows = 96;
+  const render::PotView whole = render::view_of(pot);
+  render::PotView thumb;
+  thumb.height_mm = whole.height_mm;
+  const std::size_t rows = std::min(whole.rows.size(), kThumbRows);
+  for (std::size_t i = 0; i < rows; ++i)
+    thumb.rows.push_back(whole.rows[i * whole.rows.size() / rows]);
+  return thumb;
+}
+
+/// One a frame, the nearest first, so that no frame replays more than a stroke.
+void update_thumbs(AppState& state) {
+  UiState& ui = state.ui;
+  ui.thumbs_missing = false;
+  if (!state.document.has_work() || state.stroke.throwing()) return;
+  const history::Work& work = state.document.work();
+  std::vector<history::NodeId> wanted{0};
+  for (const TimelineCard& card : timeline_of(work)) wanted.push_back(card.node);
+  const auto missing =
+      std::ranges::find_if(wanted, [&](history::NodeId node) { return !ui.thumbs.contains(node); });
+  if (missing == wanted.end()) return;
+  const auto pot = state.document.pot_at(*missing);
+  ui.thumbs[*missing] = pot ? thumb_of(**pot) : render::PotView();
+  ui.thumbs_missing = missing + 1 != wanted.end();
 }
 
 /// The view keeps the pot as it is on the wheel; the solid in the file is larger.
@@ -266,6 +303,7 @@ void update(AppState& state) {
   const std::int64_t now_ns = state.host.frame_ns();
   update_devices(state);
   update_file_dialog(state);
+  update_thumbs(state);
   update_export(state);
   state.stroke.advance(now_ns);
   state.host.clock().sleep_until_ns(now_ns);  // in case no servo has advanced it

@@ -8,6 +8,7 @@
 #include "engine/files/pot_json.hpp"
 #include "engine/files/ring_arrays.hpp"
 #include "engine/files/scene_json.hpp"
+#include "engine/files/scene_tables.hpp"
 #include "engine/files/text_codes.hpp"
 
 #include <algorithm>
@@ -77,6 +78,7 @@ struct PotRecord {
   Ledger ledger;
   std::optional<Rim> rim;
   std::optional<Motion> motion;
+  std::optional<ThrowSettings> thrown_with;
   std::optional<Collapse> collapse;
 
   [[nodiscard]] std::size_t size() const {
@@ -100,6 +102,7 @@ void describe(auto& io, Is<PotRecord> auto& pot) {
   io.part("ledger", pot.ledger);
   io.part("rim", pot.rim);
   io.part("motion", pot.motion);
+  io.part("thrown_with", pot.thrown_with);
   io.part_or_null("collapse", pot.collapse);
   io.check([&](ObjectReader& reader) {
     if (!pot.rings && !pot.rounded_rings) return reader.require({"rings"});
@@ -133,6 +136,7 @@ PotRecord record_of(const Pot& pot, bool for_people) {
                    .ledger = pot.ledger,
                    .rim = pot.rim == Rim{} ? std::nullopt : std::optional(pot.rim),
                    .motion = pot.motion == Motion{} ? std::nullopt : std::optional(pot.motion),
+                   .thrown_with = pot.thrown_with,
                    .collapse = pot.collapse};
   if (const auto grid = grid_of(pot)) {
     record.rounded_rings = rounded_ring_arrays(*record.rings, *pot.rounding, *grid);
@@ -162,7 +166,8 @@ Result<Pot> pot_from(const LocatedJson& document, const PotRecord& record) {
           record.collapse,
           std::nullopt,
           record.rim.value_or(Rim{}),
-          record.motion.value_or(Motion{})};
+          record.motion.value_or(Motion{}),
+          record.thrown_with};
   if (rounded) pot.rounding = {rounded->rounded_to_mm, rounded->exact_volume};
   return pot;
 }

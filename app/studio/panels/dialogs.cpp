@@ -97,6 +97,14 @@ void draw(const UnsavedDialog&, const ViewModel& model, Actions& actions, const 
 void draw(const OpenDialog& dialog, const ViewModel& model, Actions& actions,
           const ViewRect& rect) {
   begin_dialog("##open", rect, 40.0f);
+  if (dialog.target) {
+    dialog_title(model, "Open a target");
+    draw_path<UseTarget>(dialog.path,
+                         "A pot, a work, or a drawing of a section (SVG, DXF, CSV). Its outline "
+                         "is shown over the pot on the wheel",
+                         "Open (Enter)", model, actions);
+    return ImGui::End();
+  }
   dialog_title(model, "Open");
   draw_path<OpenFile>(dialog.path,
                       "A scene, a pot, a work, or a drawing of a section (SVG, DXF, CSV)",

@@ -174,17 +174,14 @@ void draw_path(const ViewModel& model, const ViewRect& rect) {
   draw->PopClipRect();
 }
 
-void draw_verdict(const ViewModel& model, const ViewRect& rect) {
-  const auto& check = model.readings.check();
-  if (!check || !model.document.has_work() || !model.ui.shows<NoDialog>()) return;
-  const std::string text = model.readings.fallen() ? "Fallen: undo removes the last stroke"
-                                                   : ready_text(*check, model.settings.unit);
-  const bool ready = check->ready() && !model.readings.fallen();
-  const ImVec4 colour = ready ? model.colours().good : model.colours().warning;
+namespace {
+
+/// A line over the top of the view, with a dot of this colour. Returns its lower edge.
+float draw_pill(const std::string& text, const ImVec4& colour, const ViewRect& rect, float top) {
   const float em = ImGui::GetFontSize(), wrap = rect.size_px.x - 4.0f * em;
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
   const ImVec2 at(rect.corner_px.x + 0.5f * (rect.size_px.x - size.x) + 0.5f * em,
-                  rect.corner_px.y + 0.8f * em);
+                  top + 0.35f * em);
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   const ImVec2 low(at.x - 1.7f * em, at.y - 0.35f * em);
   const ImVec2 high(at.x + size.x + 0.8f * em, at.y + size.y + 0.35f * em);
@@ -193,6 +190,34 @@ void draw_verdict(const ViewModel& model, const ViewRect& rect) {
                         ImGui::GetColorU32(colour));
   draw->AddText(ImGui::GetFont(), em, at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str(), nullptr,
                 wrap);
+  return high.y;
+}
+
+}  // namespace
+
+void draw_verdict(const ViewModel& model, const ViewRect& rect) {
+  const auto& check = model.readings.check();
+  if (!check || !model.document.has_work() || !model.ui.shows<NoDialog>()) return;
+  const bool fallen = model.readings.fallen();
+  const std::string text =
+      fallen ? "Fallen: undo removes the last stroke" : ready_text(*check, model.settings.unit);
+  const Palette& colours = model.colours();
+  const float em = ImGui::GetFontSize();
+  float top = draw_pill(text, check->ready() && !fallen ? colours.good : colours.warning, rect,
+                        rect.corner_px.y + 0.45f * em);
+  if (fallen) return;
+  if (check->maker && model.settings.goal.set()) {
+    const GoalReading goal = read_goal(model.settings.goal, *check->maker, model.settings.unit);
+    top = draw_pill(goal.text, goal.met ? colours.good : colours.warning, rect, top + 0.2f * em);
+  }
+  if (check->off && model.ui.target)
+    draw_pill(fmt::format("Up to {} from the target, at a height of {}",
+                          length_text(check->off->mm, model.settings.unit),
+                          length_text(check->off->height_mm, model.settings.unit)),
+              check->off->mm <= kMatchesMm ? colours.good
+              : check->off->mm <= kNearMm  ? colours.warning
+                                           : colours.fault,
+              rect, top + 0.2f * em);
 }
 
 }  // namespace clay::studio

@@ -24,6 +24,19 @@ void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImV
   draw->AddText(at, ImGui::GetColorU32(colour), text.c_str());
 }
 
+ImU32 colour_of(const render::Swatch& swatch) {
+  return IM_COL32(swatch.red, swatch.green, swatch.blue, 255);
+}
+
+/// The same where the pot is darkest: half of the light (clay_fragment in render/shaders.cpp). The
+/// scale shows every colour of a wall, from shade at the left to light at the right.
+ImU32 in_shade(const render::Swatch& swatch) {
+  const auto shade = [](int channel) {
+    return static_cast<int>(std::lround(channel * std::pow(0.5, 1.0 / 2.2)));
+  };
+  return IM_COL32(shade(swatch.red), shade(swatch.green), shade(swatch.blue), 255);
+}
+
 /// The scale of the wall map: the same range for every pot, with the limit marked.
 void draw_scale(const PotCheck& check, const ViewRect& rect, LengthUnit unit) {
   const float em = ImGui::GetFontSize();
@@ -31,15 +44,15 @@ void draw_scale(const PotCheck& check, const ViewRect& rect, LengthUnit unit) {
   const render::WallMap map = wall_map_of(check);
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   const ImVec4 ink = ImGui::GetStyleColorVec4(ImGuiCol_Text);
-  const float height = std::min(11.0f * em, 0.45f * rect.size_px.y), width = 0.7f * em;
+  const float height = std::min(11.0f * em, 0.45f * rect.size_px.y), width = 1.1f * em;
   const ImVec2 low(rect.corner_px.x + 1.2f * em, rect.corner_px.y + 3.2f * em);
   shaded_text(draw, {low.x, low.y - 1.8f * em}, "Wall thickness", ink);
   for (int px = 0; px < static_cast<int>(height); ++px) {
     const double wall = map.top_mm * (1.0 - (px + 0.5) / static_cast<double>(height));
     const render::Swatch swatch = render::wall_swatch(map, wall);
     const float y = low.y + static_cast<float>(px);
-    draw->AddRectFilled({low.x, y}, {low.x + width, y + 1.0f},
-                        IM_COL32(swatch.red, swatch.green, swatch.blue, 255));
+    draw->AddRectFilledMultiColor({low.x, y}, {low.x + width, y + 1.0f}, in_shade(swatch),
+                                  colour_of(swatch), colour_of(swatch), in_shade(swatch));
   }
   for (int step = 0; step <= kSteps; ++step) {
     const double wall = map.top_mm * step / kSteps;

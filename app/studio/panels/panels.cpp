@@ -24,6 +24,7 @@ const std::array kPanels = {
     Panel{"tool", "Tool", Column::context, true, &draw_tool},
     Panel{"pot", "Pot", Column::context, true, &draw_pot},
     Panel{"walls", "Walls", Column::context, true, &draw_walls},
+    Panel{"goal", "Goal", Column::context, false, &draw_goal},
     Panel{"section", "Section", Column::context, true, &draw_section},
     Panel{"wheel", "Wheel", Column::context, false, &draw_wheel},
     Panel{"force", "Force", Column::diagnostics, true, &draw_force},
@@ -43,11 +44,23 @@ bool is_open(const Settings& settings, const Panel& panel) {
   return remembered == settings.open.end() ? panel.open : remembered->second;
 }
 
-void draw_recent(const ViewModel& model, Actions& actions) {
-  if (!ImGui::BeginMenu("Recent", !model.settings.recent.empty())) return;
+/// Returns whether the keys are on its title, or in it.
+bool draw_recent(const ViewModel& model, Actions& actions) {
+  const bool open = ImGui::BeginMenu("Recent", !model.settings.recent.empty());
+  if (!open) return ImGui::IsItemFocused() && !model.settings.recent.empty();
   for (const std::string& path : model.settings.recent)
     if (ImGui::MenuItem(path.c_str())) actions.emplace_back(OpenFile{path});
   ImGui::EndMenu();
+  return true;
+}
+
+/// Left and Right go from menu to menu.
+void go_to_next_menu(std::size_t menu, Actions& actions) {
+  const std::size_t count = menus().size();
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_RightArrow)))
+    actions.emplace_back(OpenMenu{(menu + 1) % count});
+  else if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_LeftArrow)))
+    actions.emplace_back(OpenMenu{(menu + count - 1) % count});
 }
 
 /// What is needed most, at the right end of the menu.
@@ -133,8 +146,9 @@ bool panel_open(const Settings& settings, std::string_view id) {
          (panel->column == Column::context || diagnostics_open(settings));
 }
 
-Wanted wanted_of(const Settings& settings) {
-  return {true, panel_open(settings, "servo"), settings.process};
+Wanted wanted_of(const Settings& settings, const UiState& ui) {
+  return {true, panel_open(settings, "servo"), settings.process, ui.target,
+          0.01 * settings.goal.shrinkage_percent};
 }
 
 void draw_column(const ViewModel& model, Actions& actions, Column column, glm::vec2 corner_px,
@@ -160,8 +174,11 @@ void draw_column(const ViewModel& model, Actions& actions, Column column, glm::v
 
 float draw_menu(const ViewModel& model, Actions& actions) {
   if (!ImGui::BeginMainMenuBar()) return 0.0f;
-  for (const Menu& menu : menus()) {
+  if (model.ui.open_menu) ImGui::OpenPopup(menus()[*model.ui.open_menu].title);
+  for (std::size_t index = 0; index < menus().size(); ++index) {
+    const Menu& menu = menus()[index];
     if (!ImGui::BeginMenu(menu.title)) continue;
+    bool in_submenu = false;
     // Space between the title of a command and its keys.
     const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(2.5f * spacing.x, spacing.y));
@@ -171,8 +188,9 @@ float draw_menu(const ViewModel& model, Actions& actions) {
       if (ImGui::MenuItem(command.title, text_of(command.chord).c_str(), on,
                           command.enabled(model)))
         actions.emplace_back(RunCommand{command.id});
-      if (command.id == "file.open") draw_recent(model, actions);
+      if (command.id == "file.open") in_submenu = draw_recent(model, actions);
     }
+    if (!in_submenu) go_to_next_menu(index, actions);
     ImGui::PopStyleVar();
     ImGui::EndMenu();
   }

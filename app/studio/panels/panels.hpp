@@ -21,7 +21,7 @@ inline constexpr const char* kDiagnostics = "diagnostics";
 /// Whether the panel is unfolded and in sight; false for an unknown id.
 [[nodiscard]] bool panel_open(const Settings& settings, std::string_view id);
 /// Data that the open panels need.
-[[nodiscard]] Wanted wanted_of(const Settings& settings);
+[[nodiscard]] Wanted wanted_of(const Settings& settings, const UiState& ui);
 
 /// All panels of a column, in one window.
 void draw_column(const ViewModel& model, Actions& actions, Column column, glm::vec2 corner_px,
@@ -50,6 +50,8 @@ void draw_verdict(const ViewModel& model, const ViewRect& rect);
 /// Draws over the view: results of the checks at their places on the pot, and the scale of the wall
 /// map.
 void draw_marks(const ViewModel& model, const ViewRect& rect);
+/// Draws over the view: the outline of the target.
+void draw_target(const ViewModel& model, const ViewRect& rect);
 /// Draws over the view: problems of the last export at their places.
 void draw_export_marks(const ViewModel& model, const ViewRect& rect);
 
@@ -59,6 +61,7 @@ void draw_wheel(const ViewModel& model, Actions& actions);
 void draw_force(const ViewModel& model, Actions& actions);
 void draw_pot(const ViewModel& model, Actions& actions);
 void draw_section(const ViewModel& model, Actions& actions);
+void draw_goal(const ViewModel& model, Actions& actions);
 void draw_walls(const ViewModel& model, Actions& actions);
 void draw_certificate(const ViewModel& model, Actions& actions);
 void draw_ledger(const ViewModel& model, Actions& actions);

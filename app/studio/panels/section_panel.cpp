@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace clay::studio {
 namespace {
@@ -54,9 +55,19 @@ ImU32 colour_at(const PotCheck* check, double y_mm, const ImVec4& clay) {
   return IM_COL32(swatch.red, swatch.green, swatch.blue, 255);
 }
 
+/// How near a row is to the target.
+ImU32 match_at(const OffTarget& off, double part, const Palette& colours) {
+  const double rows = static_cast<double>(off.rows_mm.size());
+  const double mm = static_cast<double>(
+      off.rows_mm[static_cast<std::size_t>(std::clamp(part * rows, 0.0, rows - 1.0))]);
+  return ImGui::GetColorU32(mm <= kMatchesMm ? colours.good
+                            : mm <= kNearMm  ? colours.warning
+                                             : colours.fault);
+}
+
 /// Opaque where all rings of a row hold clay, faint where only some do.
 void draw_clay(const ViewModel& model, const Sheet& sheet, double height, bool full,
-               const PotCheck* check) {
+               const PotCheck* check, const OffTarget* off) {
   const std::size_t rows = whole_px(sheet.px_per_mm * static_cast<float>(height));
   const auto& section = model.readings.section(rows);
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -64,7 +75,9 @@ void draw_clay(const ViewModel& model, const Sheet& sheet, double height, bool f
   for (std::size_t i = 0; i < section.size(); ++i) {
     const SectionRow& row = section[i];
     const double low = row_mm * static_cast<double>(i), high = low + row_mm;
-    const ImU32 solid = colour_at(check, low + 0.5 * row_mm, model.colours().clay);
+    const ImU32 solid = off != nullptr && check == nullptr
+                            ? match_at(*off, (low + 0.5 * row_mm) / height, model.colours())
+                            : colour_at(check, low + 0.5 * row_mm, model.colours().clay);
     const ImU32 faint = (solid & ~IM_COL32_A_MASK) | IM_COL32(0, 0, 0, 90);
     const auto stretch = [&](float inner, float outer, ImU32 colour) {
       if (!(outer > inner)) return;
@@ -129,6 +142,32 @@ void draw_tool_at(const render::ToolView& tool, const Sheet& sheet, const Palett
   draw_outline(tool.half_profile_mm, sheet, place - reach, colour);
 }
 
+/// The outline of the target, outer and inner wall on each side.
+void draw_target_outline(const render::PotView& target, const Sheet& sheet, bool full) {
+  const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
+  const double row_mm = target.height_mm / static_cast<double>(target.rows.size());
+  std::vector<ImVec2> line;
+  const auto wall = [&](double side, float render::Row::*radius) {
+    line.clear();
+    for (std::size_t i = 0; i < target.rows.size(); ++i)
+      line.push_back(sheet.at(side * static_cast<double>(target.rows[i].*radius),
+                              row_mm * (static_cast<double>(i) + 0.5)));
+    ImGui::GetWindowDrawList()->AddPolyline(line.data(), static_cast<int>(line.size()), ink,
+                                            ImDrawFlags_None, 0.1f * ImGui::GetFontSize());
+  };
+  for (const double side : {1.0, -1.0}) {
+    if (side < 0.0 && !full) continue;
+    wall(side, &render::Row::outer_mm);
+    wall(side, &render::Row::inner_mm);
+  }
+}
+
+double widest_mm(const render::PotView& pot) {
+  float widest = 0.0f;
+  for (const render::Row& row : pot.rows) widest = std::max(widest, row.outer_mm);
+  return static_cast<double>(widest);
+}
+
 /// Marks the thinnest place, walls that are too thin, and places without a proof.
 void draw_faults(const PlotArea& area, const Sheet& sheet, const PotCheck& check,
                  const Palette& colours) {
@@ -175,10 +214,21 @@ std::string read_out(const PlotArea& area, const Sheet& sheet, double height, bo
   return text + u.name;
 }
 
+/// The colours of `match_at`.
+void draw_match_legend(const Palette& colours, LengthUnit unit) {
+  const auto part = [](const ImVec4& colour, const std::string& text, bool last) {
+    ImGui::TextColored(colour, "%s", text.c_str());
+    if (!last) ImGui::SameLine(0.0f, 0.8f * ImGui::GetFontSize());
+  };
+  part(colours.good, "within " + length_text(kMatchesMm, unit), false);
+  part(colours.warning, length_text(kNearMm, unit), false);
+  part(colours.fault, "farther", true);
+}
+
 /// As high as wide, or the rest of the column, so that the column scrolls only if it must.
-float plot_height_em(bool fallen) {
+float plot_height_em(int lines) {
   const float em = ImGui::GetFontSize(), below = ImGui::GetTextLineHeightWithSpacing();
-  const float room = ImGui::GetContentRegionAvail().y - (fallen ? 2.0f : 1.0f) * below -
+  const float room = ImGui::GetContentRegionAvail().y - static_cast<float>(lines) * below -
                      3.0f * ImGui::GetStyle().ItemSpacing.y;
   return std::clamp(room / em, kLeastHeightEm,
                     std::min(kMostHeightEm, ImGui::GetContentRegionAvail().x / em));
@@ -191,25 +241,34 @@ void draw_section(const ViewModel& model, Actions& actions) {
   const bool full = model.settings.full_section;
   if (const int part = choice_row("part", kParts, full ? 1 : 0); part >= 0)
     actions.emplace_back(SetFullSection{part == 1});
-  const PlotArea area = begin_plot(plot_height_em(model.readings.fallen()));
+  const PlotArea area =
+      begin_plot(plot_height_em(model.readings.fallen() || model.ui.target ? 2 : 1));
   const ClayStack* stack = model.readings.stack();
   if (stack == nullptr || stack->size() == 0)
     return plot_text(area, Corner::upper_left, "No clay on the wheel", colours.faint);
   const double height = stack->height_mm(), widest = model.readings.widest_mm();
   const auto& known = model.readings.check();
   const PotCheck* check = known && !model.readings.fallen() ? &*known : nullptr;
-  const Sheet upright = sheet_for(area, widest, height, full);
+  const Target* target = model.readings.fallen() ? nullptr : model.ui.target.get();
+  const Sheet upright = target == nullptr
+                            ? sheet_for(area, widest, height, full)
+                            : sheet_for(area, std::max(widest, widest_mm(target->view)),
+                                        std::max(height, target->view.height_mm), full);
+  const OffTarget* off =
+      target != nullptr && check != nullptr && check->off ? &*check->off : nullptr;
   Sheet sheet = upright;
   if (model.settings.tool.mode == ToolMode::trim_foot) sheet.turned_mm = height;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->PushClipRect(area.low, area.high, true);
-  draw_clay(model, sheet, height, full, model.settings.wall_map ? check : nullptr);
+  draw_clay(model, sheet, height, full, model.settings.wall_map ? check : nullptr, off);
+  if (target != nullptr) draw_target_outline(target->view, sheet, full);
   draw_measures(area, upright, widest, height, full, colours, model.settings.unit);
   if (check != nullptr) draw_faults(area, sheet, *check, colours);
   if (const auto tool = model.scene.tool_view(model)) draw_tool_at(*tool, upright, colours);
   const std::string words = read_out(area, sheet, height, full, check, model.settings.unit);
   draw->PopClipRect();
   faint_text(colours, words);
+  if (off != nullptr && !model.settings.wall_map) draw_match_legend(colours, model.settings.unit);
   if (model.readings.fallen()) faint_text(colours, "Shown as it stood before the fall.");
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace clay::studio {
@@ -38,6 +39,25 @@ const char* help_text(ToolMode mode) {
   return "The pot stands upside down: removes clay from its foot.";
 }
 
+/// As a length, or as a part of the wall.
+bool draw_gap(ToolChoice& tool, LengthUnit unit) {
+  constexpr double kUsualShare = 0.7;
+  bool changed = false, share = tool.gap_share > 0.0;
+  if (share) {
+    slider_label("Gap", fmt::format("{:.0f} % of the wall", 100.0 * tool.gap_share));
+    float percent = static_cast<float>(100.0 * tool.gap_share);
+    changed = ImGui::SliderFloat("##share", &percent, static_cast<float>(100.0 * kLeastGapShare),
+                                 static_cast<float>(100.0 * kMostGapShare), "",
+                                 ImGuiSliderFlags_AlwaysClamp);
+    if (changed) tool.gap_share = 0.01 * std::round(static_cast<double>(percent));
+  } else {
+    changed = length_slider("Gap", tool.gap_mm, kNarrowestGapMm, kWidestPinchMm, unit);
+  }
+  if (!ImGui::Checkbox("Part of the wall", &share)) return changed;
+  tool.gap_share = share ? kUsualShare : 0.0;
+  return true;
+}
+
 /// Sliders of the selected shape. Returns true if one has moved.
 bool draw_sizes(ToolChoice& tool, LengthUnit unit, const Palette& colours) {
   const auto size = [&](const char* label, double& mm) {
@@ -60,8 +80,7 @@ bool draw_sizes(ToolChoice& tool, LengthUnit unit, const Palette& colours) {
       faint_text(colours, fmt::format("{} points, from the scene", tool.own.t_mm.size()));
       break;
   }
-  if (tool.mode == ToolMode::pinch)
-    changed = length_slider("Gap", tool.gap_mm, kNarrowestGapMm, kWidestPinchMm, unit) || changed;
+  if (tool.mode == ToolMode::pinch) changed = draw_gap(tool, unit) || changed;
   return changed;
 }
 

@@ -65,7 +65,14 @@ void take_remarks(const solid::ExportReport& report, PotCheck& check) {
     check.remarks.push_back({kept.from_mm, kept.to_mm, text_of(kept.reason)});
 }
 
-void take_report(const solid::ExportReport& report, std::size_t rows, PotCheck& check) {
+solid::MakerNumbers numbers_of(const solid::ExportReport& report, double shrinkage) {
+  solid::ClayFigures clay = report.maker->clay;
+  clay.shrinkage = shrinkage;
+  return solid::maker_numbers(report.section.profile(), clay);
+}
+
+void take_report(const solid::ExportReport& report, std::size_t rows, double shrinkage,
+                 PotCheck& check) {
   check.proved = true;
   check.problems = solid::problems_of_solid(report);
   check.triangles = report.size.triangles;
@@ -74,6 +81,7 @@ void take_report(const solid::ExportReport& report, std::size_t rows, PotCheck& 
   check.proved_mm3 = report.volume.solid_mm3;
   check.volume_error_relative = report.volume.error_relative;
   if (check.fallen) return take_remarks(report, check);
+  if (report.maker) check.maker = numbers_of(report, shrinkage);
   check.least_wall_mm = report.walls.min_wall_mm;
   check.thinnest_mm = report.walls.thinnest.thickness_mm;
   check.thinnest_from = {report.walls.thinnest.from.rho, report.walls.thinnest.from.y};
@@ -105,7 +113,7 @@ void run(const PotQuestion& question, const Pot& pot, const std::function<bool()
     options.wall_spacing_mm =
         std::max(kFinestSpacingMm, 0.5 * check.height_mm / static_cast<double>(rows));
   const auto report = solid::run_export(pot, {}, options);
-  if (report) return take_report(*report, rows, check);
+  if (report) return take_report(*report, rows, question.shrinkage, check);
   check.why_not = report.error().message;
   check.fault_mm = parting_mm(pot.stack);
 }
@@ -136,6 +144,8 @@ PotCheck check_pot(const PotQuestion& question, const std::function<bool()>& can
     run(question, provisional(std::move(*stack), question.subject.density_g_cm3), cancelled, check);
   else
     check.why_not = "expected clay, found none";
+  if (question.target && !check.fallen)
+    check.off = off_target(question.subject.outline, question.target->view);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   check.seconds = spent.count();
   return check;

@@ -5,6 +5,7 @@
 #include "app/history/work.hpp"
 #include "app/render/picture.hpp"
 #include "app/studio/settings.hpp"
+#include "app/studio/target.hpp"
 #include "claystack/engine/clay.hpp"
 #include "claystack/export/job.hpp"
 #include "claystack/export/walls.hpp"
@@ -31,6 +32,8 @@ struct PotQuestion {
   Subject subject;
   std::string process;  ///< name or file, as for solid::read_process; empty: none
   double tolerance_mm = 0.02;
+  SharedTarget target;     ///< null: none
+  double shrinkage = 0.0;  ///< fraction of each length, for `PotCheck::maker`
 };
 
 struct Stretch {
@@ -61,7 +64,9 @@ struct PotCheck {
   std::vector<solid::Problem> problems;  ///< as for `claystack export` with the same process
   std::vector<render::RowWall> walls;    ///< one for each equal part of `height_mm`; empty: unknown
   double height_mm = 0.0;
-  double seconds = 0.0;  ///< run time of the check
+  std::optional<solid::MakerNumbers> maker;  ///< of a standing pot that is proved
+  std::optional<OffTarget> off;              ///< from the target of the question
+  double seconds = 0.0;                      ///< run time of the check
 
   /// One solid without a problem that fails.
   [[nodiscard]] bool ready() const;

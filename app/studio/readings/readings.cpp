@@ -56,11 +56,14 @@ void Readings::read(const Document& document, const StrokeController& stroke) {
 }
 
 void Readings::ask(const Wanted& wanted, std::int64_t now_ns) {
-  if (!changed_ && asked_ == wanted.process) return;
+  if (!changed_ && asked_ == wanted) return;
   const bool soon = now_ns - asked_ns_ < kLiveCheckNs || checker_.busy();
   if (live() && soon) return;
-  checker_.ask({subject_, wanted.process});
-  asked_ = wanted.process;
+  checker_.ask({.subject = subject_,
+                .process = wanted.process,
+                .target = wanted.target,
+                .shrinkage = wanted.shrinkage});
+  asked_ = wanted;
   asked_ns_ = now_ns;
   changed_ = false;
 }

@@ -21,6 +21,9 @@ namespace clay::studio {
 struct Wanted {
   bool check = false, ticks = false;
   std::string process;  ///< as in PotQuestion
+  SharedTarget target;
+  double shrinkage = 0.0;
+  friend bool operator==(const Wanted&, const Wanted&) = default;
 };
 
 class Readings {
@@ -58,7 +61,7 @@ class Readings {
   StressCurve stress_;
   TickHistory ticks_;
   std::optional<PotCheck> check_;
-  std::optional<std::string> asked_;  // process of the last check
+  std::optional<Wanted> asked_;  // of the last check
   std::int64_t asked_ns_ = 0;
   bool changed_ = false;  // since the last check
   mutable std::vector<SectionRow> section_;

@@ -101,6 +101,37 @@ TEST(Throw, ReportsACollapse) {
   EXPECT_GT(fall.at("energy_lost_mj"), fall.at("plastic_work_mj"));
 }
 
+TEST(Throw, APotGoesOnWithoutItsScene) {
+  const ScratchFolder folder;
+  const std::string scene = sample("bowl.scene.json"), once = folder.file("once.pot.json");
+  const std::string session = " -s " + sample("bowl.session");
+  ASSERT_EQ(claystack("throw -q " + scene + " -o " + once).status, 0);
+  const auto twice = [&](const std::string& given, const char* name) {
+    const auto run =
+        claystack("throw -q " + given + session + " --from " + once + " -o " + folder.file(name));
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.err;
+  };
+  EXPECT_EQ(twice(scene, "scene.pot.json"), "");
+  twice("", "alone.pot.json");
+  EXPECT_EQ(read_text(folder.file("alone.pot.json")), read_text(folder.file("scene.pot.json")));
+  EXPECT_EQ(nlohmann::json::parse(read_text(once)).at("thrown_with").at("flow"),
+            nlohmann::json::parse(read_text(scene)).at("flow"));
+  // Another scene wins.
+  auto other = nlohmann::json::parse(read_text(scene));
+  other["flow"]["reach_mm"] = 11;
+  write_text(folder.file("other.scene.json"), other.dump());
+  EXPECT_NE(twice(folder.file("other.scene.json"), "other.pot.json")
+                .find("once.pot.json: was thrown with another tool or other clay than those of "),
+            std::string::npos);
+  EXPECT_NE(read_text(folder.file("other.pot.json")), read_text(folder.file("scene.pot.json")));
+  const auto none = claystack("throw --from " + once);
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("a pot without a scene: expected --session"), std::string::npos)
+      << none.err;
+  EXPECT_EQ(claystack("throw").status, 2);
+}
+
 TEST(Throw, WarnsAboutASessionOfAnotherScene) {
   const auto run =
       claystack("throw " + sample("vase.scene.json") + " --session " + sample("bowl.session"));

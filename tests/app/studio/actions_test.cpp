@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <sys/resource.h>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -54,6 +55,53 @@ TEST_F(ActionsTest, ADialogReplacesThePreviousOne) {
   EXPECT_EQ(std::get<OpenDialog>(state.ui.dialog).path, "somewhere");
   apply(state, CloseDialog{});
   EXPECT_TRUE(state.ui.shows<NoDialog>());
+}
+
+TEST_F(ActionsTest, AGapCanBeAPartOfTheWall) {
+  // A cup with a wall of 6 mm.
+  SceneSpec scene = small_scene();
+  std::vector<Ring> rings(120, Ring{quanta_from_radius(40.0), 0});
+  for (std::size_t i = 20; i < rings.size(); ++i) rings[i].inner2 = quanta_from_radius(34.0);
+  Pot cup;
+  cup.stack = ClayStack::from_rings(0.5, std::move(rings), 0).value();
+  cup.ledger.initial = cup.stack.volume();
+  apply(state, BeginWork{scene, std::make_shared<const Pot>(cup), {}});
+  apply(state, SetToolMode{ToolMode::pinch});
+  apply(state, SetToolShape{Shape::sphere});
+  state.settings.tool.sphere.radius_mm = 5.0;
+  state.settings.tool.gap_share = 0.5;
+  state.scene.place({{0.0f, 0.0f}, {800.0f, 600.0f}});
+  Actions actions;
+  state.scene.shape_from(view_model(state), {37.0, 40.0}, false, actions);
+  ASSERT_EQ(actions.size(), 1u);
+  const auto& press = std::get<PressClay>(actions[0]).press;
+  EXPECT_NEAR(press.tool.gap_mm.value(), 3.0, 1e-3);
+  EXPECT_NEAR(std::hypot(press.place_mm.x, press.place_mm.z), 37.0, 1e-3);
+  apply(state, ChangeGap{-1.0});
+  EXPECT_DOUBLE_EQ(state.settings.tool.gap_share, 0.45);
+}
+
+TEST_F(ActionsTest, ATargetIsAPotAWorkOrADrawing) {
+  ASSERT_TRUE(state.document.save(folder.file("a.pot.cbor")));
+  ASSERT_TRUE(state.document.save(folder.file("a.work")));
+  for (const std::string& path : {folder.file("a.pot.cbor"), folder.file("a.work")}) {
+    apply(state, UseTarget{path});
+    ASSERT_TRUE(state.ui.target) << path;
+    EXPECT_EQ(state.ui.target->view, state.document.view()) << path;
+    apply(state, ClearTarget{});
+    EXPECT_FALSE(state.ui.target);
+  }
+  apply(state, ChooseTarget{});
+  EXPECT_TRUE(state.ui.shows<OpenDialog>());
+  apply(state, UseTarget{test::sample("drawings/jug.svg")});
+  ASSERT_TRUE(state.ui.target);
+  EXPECT_EQ(state.ui.target->name, "jug.svg");
+  EXPECT_TRUE(state.ui.shows<NoDialog>());
+  EXPECT_EQ(strokes(), 0u) << "the pot on the wheel stays";
+  test::write_text(folder.file("bad.pot.json"), "{}");
+  apply(state, UseTarget{folder.file("bad.pot.json")});
+  EXPECT_EQ(state.ui.target->name, "jug.svg") << "an error changes nothing";
+  EXPECT_TRUE(state.last_error);
 }
 
 TEST_F(ActionsTest, GalleryStaysOpenWithoutAWork) {

@@ -111,6 +111,47 @@ TEST_F(DocumentTest, FailedOpenChangesNothing) {
   EXPECT_TRUE(document.unsaved());
 }
 
+/// Another flow, threshold and rules than a pot of this size has by default.
+SceneSpec own_clay() {
+  SceneSpec scene = small_scene();
+  scene.flow.reach_mm = 7.0;
+  scene.stability = StabilitySpec{14.0};
+  scene.clay = ClaySpec{.hoop = false, .wheel_rpm = 150.0, .floor_mm = 3.0};
+  scene.tool.shape = EllipseSpec{9.0, 6.0};
+  return scene;
+}
+
+std::string pot_after(Document& document, std::uint64_t seed) {
+  const SceneSpec scene = document.scene_with(document.scene().tool, 150.0);
+  auto begun = document.begin_stroke(scene);
+  EXPECT_TRUE(begun) << begun.error().message;
+  test::record(press_stroke(seed), *begun->sink);
+  EXPECT_TRUE(document.end_stroke(std::nullopt, history::Recording::one_stroke));
+  return write_pot(document.pot(), PotEncoding::json);
+}
+
+TEST_F(DocumentTest, TheSameStrokeGivesTheSamePotFromWorkAndPot) {
+  ASSERT_TRUE(document.begin(own_clay()));
+  const std::string before = pot_after(document, 1);
+  for (const char* name : {"a.work", "a.pot.json", "a.pot.cbor"})
+    ASSERT_TRUE(document.save(folder.file(name))) << name;
+  const std::string after = pot_after(document, 2);
+  EXPECT_NE(after, before);
+  for (const char* name : {"a.work", "a.pot.json", "a.pot.cbor"}) {
+    Document other;
+    ASSERT_TRUE(other.open(folder.file(name))) << name;
+    EXPECT_EQ(settings_of(other.scene()), settings_of(own_clay())) << name;
+    EXPECT_EQ(other.wheel_rpm(), 150.0) << name;
+    EXPECT_EQ(pot_after(other, 2), after) << name;
+  }
+  const std::string usual = write_pot(document.pot(), PotEncoding::json);
+  test::write_text(folder.file("usual.pot.json"), usual);
+  Document other;
+  ASSERT_TRUE(other.open(folder.file("usual.pot.json")));
+  ASSERT_TRUE(other.save(folder.file("again.pot.json")));
+  EXPECT_EQ(read_text(folder.file("again.pot.json")), usual) << "usual clay takes no section";
+}
+
 TEST_F(DocumentTest, SavesAndOpensEachKindOfFile) {
   stroke(1);
   const std::string before = pot();

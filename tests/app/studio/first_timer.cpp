@@ -127,6 +127,7 @@ FirstPot throw_first_pot(std::size_t sample, std::uint64_t seed, double noise_mm
   first.finished = state.guide.finished();
   first.fallen = pot.collapse.has_value();
   const PotCheck check = check_pot({{state.document.shared_pot(), state.document.view()}, "fdm"});
+  first.pot = state.document.shared_pot();
   first.ready = check.ready() && !first.fallen;
   first.verdict = ready_text(check, LengthUnit::mm);
   first.thinnest_mm = check.thinnest_mm;

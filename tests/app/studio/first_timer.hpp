@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace clay::test {
@@ -17,6 +18,7 @@ struct FirstPot {
   bool fallen = false;
   bool ready = false;  ///< the verdict that the window shows
   std::string verdict;
+  std::shared_ptr<const Pot> pot;
   double thinnest_mm = 0.0;
   double height_mm = 0.0, sample_height_mm = 0.0;
   double capacity_ml = 0.0, sample_capacity_ml = 0.0;

@@ -1,6 +1,7 @@
 // Figures that the panels show for known pots; they must be those of the engine and the export.
 
 #include "app/studio/readings/readings.hpp"
+#include "app/studio/readings/goal.hpp"
 
 #include "app/render/pot_view.hpp"
 #include "claystack/engine/tick.hpp"
@@ -47,6 +48,40 @@ TEST(ClayAccount, WeighsTheClayOfTheLedger) {
   EXPECT_NEAR(account.initial_g, account.in_stack_g + account.trimmed_g, 1e-9);
   EXPECT_EQ(account.unaccounted, "0");
   EXPECT_NEAR(account.capacity_mm3, kPi * 35.0 * 35.0 * 50.0, 1e-6);
+}
+
+/// Fired, lengths shrink by a tenth and the capacity by 1 - 0.9^3.
+TEST(Goal, ReadsTheFiguresOfTheFiredPot) {
+  PotQuestion question = question_of(pot_of(cup_rings()));
+  question.shrinkage = 0.1;
+  const PotCheck check = check_pot(question);
+  ASSERT_TRUE(check.maker) << check.why_not;
+  // The lip is rounded and the floor is smooth: a few tenths of the 192 ml.
+  const double ml = 1e-3 * kPi * 35.0 * 35.0 * 50.0 * 0.729;
+  EXPECT_NEAR(check.maker->in_use().capacity_ml, ml, 0.01 * ml);
+  PotGoal goal{.holds_ml = 140.0, .height_mm = 54.0, .diameter_mm = 0.0, .shrinkage_percent = 10.0};
+  GoalReading reading = read_goal(goal, *check.maker, LengthUnit::mm);
+  EXPECT_TRUE(reading.met) << reading.text;
+  EXPECT_EQ(reading.text, "Holds 140 of 140 ml, 54.0 of 54.0 mm high after firing");
+  goal.height_mm = 60.0;  // that of the pot on the wheel
+  reading = read_goal(goal, *check.maker, LengthUnit::cm);
+  EXPECT_FALSE(reading.met) << reading.text;
+  question.shrinkage = 0.0;
+  EXPECT_TRUE(read_goal({.height_mm = 60.0}, *check_pot(question).maker, LengthUnit::mm).met);
+}
+
+TEST(Target, DistanceOfAWallThatIsMovedIsTheWay) {
+  const auto cup = pot_of(cup_rings()), thick = pot_of(cup_rings(8.0));
+  const render::PotView target = render::view_of(*cup);
+  const auto same = off_target(target, target);
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->mm, 0.0);
+  const auto off = off_target(render::view_of(*thick), target);
+  ASSERT_TRUE(off);
+  EXPECT_NEAR(off->mm, 3.0, 2e-3);  // the inner wall moved by 3 mm
+  ASSERT_EQ(off->rows_mm.size(), 120u);
+  EXPECT_NEAR(off->rows_mm[80], 3.0f, 2e-3f);
+  EXPECT_NEAR(off->rows_mm[5], 0.0f, 1e-6f) << "the floor is the same";
 }
 
 TEST(ClayAccount, ReportsAMissingQuantum) {

@@ -25,51 +25,36 @@ history::Work work_of(const std::vector<int>& moves) {
   return work;
 }
 
-TEST(Timeline, ConsecutiveStrokesShareARow) {
-  const history::Work work = work_of({1, 1, 1});
-  const Timeline timeline = timeline_of(work);
-  ASSERT_EQ(timeline.blocks.size(), 3u);
-  EXPECT_EQ(timeline.rows, 1u);
-  double end_s = 0.0;
-  for (const TimelineBlock& block : timeline.blocks) {
-    EXPECT_EQ(block.from_s, end_s);
-    EXPECT_DOUBLE_EQ(block.to_s - block.from_s,
-                     std::max(kShortestBlockS, work.view(block.node).seconds));
-    EXPECT_TRUE(block.done);
-    end_s = block.to_s;
-  }
-  EXPECT_EQ(timeline.seconds, end_s);
+TEST(Timeline, UndoneStrokesStayUntilABranch) {
+  std::vector<TimelineCard> cards = timeline_of(work_of({1, 1, -1}));
+  ASSERT_EQ(cards.size(), 2u);
+  EXPECT_TRUE(cards[0].done);
+  EXPECT_FALSE(cards[1].done);
+  EXPECT_TRUE(cards[1].others.empty());
+  cards = timeline_of(work_of({1, 1, -1, 1}));
+  ASSERT_EQ(cards.size(), 2u);
+  EXPECT_EQ(cards[1].node, 3u) << "the new branch takes the row";
+  EXPECT_EQ(cards[1].others, std::vector<history::NodeId>{2}) << "the old one is in its menu";
+  EXPECT_TRUE(cards[0].others.empty());
 }
 
-TEST(Timeline, UndoneStrokesKeepTheirRowUntilABranch) {
-  Timeline timeline = timeline_of(work_of({1, 1, -1}));
-  EXPECT_EQ(timeline.rows, 1u);
-  EXPECT_TRUE(timeline.blocks[0].done);
-  EXPECT_FALSE(timeline.blocks[1].done);
-  timeline = timeline_of(work_of({1, 1, -1, 1}));
-  EXPECT_EQ(timeline.rows, 2u);
-  EXPECT_EQ(timeline.blocks[1].row, 1u);
-  EXPECT_EQ(timeline.blocks[1].parent_row, 0u);
-  EXPECT_EQ(timeline.blocks[2].row, 0u);
-  EXPECT_EQ(timeline.blocks[1].from_s, timeline.blocks[2].from_s);
-}
-
-RC_GTEST_PROP(Timeline, BlocksDoNotOverlapAndEachIsFoundAtItsPlace, ()) {
+RC_GTEST_PROP(Timeline, IsThePathOfUndoAndRedoAndLeadsToEveryBranch, ()) {
   const auto moves = *rc::gen::container<std::vector<int>>(12, rc::gen::element(1, 1, -1));
   const history::Work work = work_of(moves);
-  const Timeline timeline = timeline_of(work);
-  RC_ASSERT(timeline.blocks.size() + 1 == work.size());
-  for (const TimelineBlock& block : timeline.blocks) {
-    RC_ASSERT(block.row < timeline.rows);
-    const auto found = block_at(timeline, 0.5 * (block.from_s + block.to_s), block.row);
-    RC_ASSERT(found.has_value());
-    RC_ASSERT(found->node == block.node);
+  const std::vector<TimelineCard> cards = timeline_of(work);
+  history::NodeId before = 0;
+  std::set<history::NodeId> done;
+  for (const TimelineCard& card : cards) {
+    RC_ASSERT(work.view(card.node).parent == before);
+    RC_ASSERT(card.others.size() + 1 == work.view(before).children.size());
+    if (card.done) done.insert(card.node);
+    before = card.node;
   }
-  std::set<history::NodeId> before;
+  RC_ASSERT(work.view(before).children.empty());
+  std::set<history::NodeId> expected;
   for (history::NodeId node = work.at(); node != 0; node = work.view(node).parent)
-    before.insert(node);
-  for (const TimelineBlock& block : timeline.blocks)
-    RC_ASSERT(block.done == before.contains(block.node));
+    expected.insert(node);
+  RC_ASSERT(done == expected);
 }
 
 }  // namespace

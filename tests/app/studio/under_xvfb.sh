@@ -37,13 +37,23 @@ until_line "exported: .*bowl.3mf" 2
 cmp bowl.3mf by_key.3mf || fail "expected the same bytes by menu and by key"
 xdotool key --window "$window" Escape
 until_line "action: wheel.zero_force" 2
+# The same by the keyboard: the last row of the menu File is Quit, then Settings, then Export.
+xdotool key --window "$window" F10
+until_line "action: help.menu"
+for key in Up Up Up Return; do
+  xdotool key --window "$window" "$key" sleep 0.1
+done
+until_line "action: file.export" 3
+until_line "export previewed" 3
+xdotool key --window "$window" Escape
+until_line "action: wheel.zero_force" 3
 # The larger text is saved; the test checks the settings file.
 xdotool key --window "$window" ctrl+equal
 until_line "action: view.larger"
 xdotool key --window "$window" ctrl+q
 until_line "prompt: quit"
 xdotool key --window "$window" Escape
-until_line "action: wheel.zero_force" 3
+until_line "action: wheel.zero_force" 4
 # Quitting again asks again.
 xdotool key --window "$window" ctrl+q
 until_line "prompt: quit" 2

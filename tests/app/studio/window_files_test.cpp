@@ -32,6 +32,39 @@ TEST_F(Window, UndoneAndRedoneStrokeEqualsThrow) {
   EXPECT_EQ(one, read_text(folder.file("thrown.pot.json")));
 }
 
+TEST_F(Window, TheSameStrokeGivesTheSamePotFromWorkPotAndPrintFile) {
+  ASSERT_EQ(run(std::string(kPress) +
+                "save FOLDER/mine.work\nsave FOLDER/mine.pot.json\nsave FOLDER/mine.pot.cbor\n" +
+                kDeeper + "save FOLDER/whole.pot.json\n")
+                .status,
+            0);
+  ASSERT_EQ(
+      claystack("export -q " + folder.file("mine.pot.json") + " " + folder.file("mine.3mf")).status,
+      0);
+  const std::string whole = read_text(folder.file("whole.pot.json"));
+  for (const char* name : {"mine.work", "mine.pot.json", "mine.pot.cbor", "mine.3mf"}) {
+    // The tool and the speed of the wheel come from the file, not from what was chosen before.
+    const Ran ran = run("key R\nopen FOLDER/" + std::string(name) + "\nkey 1\n" + kDeeper +
+                        "save FOLDER/again.pot.json\n");
+    ASSERT_EQ(ran.status, 0) << name << ran.err;
+    EXPECT_EQ(read_text(folder.file("again.pot.json")), whole) << name;
+  }
+}
+
+TEST_F(Window, TheSameStrokeGivesTheSamePotFromADrawingAndItsPot) {
+  const std::string jug = test::sample("drawings/jug.svg");
+  const std::string stroke =
+      "key 1\npoint 80 90\npress left\npoint 40 90 over 0.4\nwait 0.2\n"
+      "expect contact yes\npoint 80 90 over 0.3\nwait 0.2\nrelease left\n"
+      "expect strokes 1\n";
+  ASSERT_EQ(claystack("import " + jug + " -o " + folder.file("jug.pot.json")).status, 0);
+  Ran ran = run("open " + jug + "\ndo import.take\n" + stroke + "save FOLDER/drawn.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  ran = run("open FOLDER/jug.pot.json\n" + stroke + "save FOLDER/read.pot.json\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(read_text(folder.file("drawn.pot.json")), read_text(folder.file("read.pot.json")));
+}
+
 TEST_F(Window, AScriptAlwaysGivesTheSameBytes) {
   ASSERT_EQ(run(std::string(kPress) + "save FOLDER/a.pot.json\nsave FOLDER/a.work\n").status, 0);
   ASSERT_EQ(run(std::string(kPress) + "save FOLDER/b.pot.json\nsave FOLDER/b.work\n").status, 0);

@@ -73,14 +73,14 @@ TEST_F(Window, AStrokeFromAnEarlierPotIsABranch) {
 }
 
 TEST_F(Window, TheTimelineCanBeClickedAndDragged) {
-  // The timeline is above the status bar; its blocks begin beside "Start".
+  // The timeline is above the status bar; its cards begin beside "Start".
   const Ran ran = run(std::string(kPress) + kDeeper +
                       "save FOLDER/two.pot.json\n"
-                      "move 92 595\npress left\nrelease left\nexpect node 0\n"
-                      "move 230 595\npress left\nexpect scrubbing no\n"
-                      "move 168 595 over 0.3\nexpect scrubbing yes\nexpect node 0\n"
+                      "move 99 570\npress left\nrelease left\nexpect node 0\n"
+                      "move 178 570\npress left\nexpect scrubbing no\n"
+                      "move 150 570 over 0.3\nexpect scrubbing yes\nexpect node 0\n"
                       "release left\nexpect scrubbing yes\nkey Esc\nexpect scrubbing no\n"
-                      "expect node 0\nmove 230 595\npress left\nrelease left\nexpect node 1\n"
+                      "expect node 0\nmove 178 570\npress left\nrelease left\nexpect node 1\n"
                       "do edit.redo\nexpect node 2\nsave FOLDER/again.pot.json\n");
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(read_text(folder.file("two.pot.json")), read_text(folder.file("again.pot.json")));
@@ -88,7 +88,7 @@ TEST_F(Window, TheTimelineCanBeClickedAndDragged) {
 
 /// The drag ends at a pixel of the timeline; the saved work holds the time of that pixel.
 TEST_F(Window, BranchWithinAStrokeMatchesThrow) {
-  const std::string drag = "move 230 595\npress left\nmove 168 595 over 0.3\nrelease left\n";
+  const std::string drag = "move 178 570\npress left\nmove 150 570 over 0.3\nrelease left\n";
   const Ran ran = run(std::string(kPress) + drag +
                       "expect scrubbing yes\nexpect node 1\ndo edit.branch\n"
                       "expect scrubbing no\nexpect strokes 2\nexpect node 2\n"

@@ -118,6 +118,7 @@ inline Pot arbitrary_pot() {
   pot.rim = {wide() - wide(), wide() - wide()};
   pot.motion = {*number_in(-1e12, 1e12), *number_in(-1e12, 1e12)};
   pot.density_g_cm3 = *number_in(0.1, 25);
+  pot.thrown_with = maybe<ThrowSettings>([] { return settings_of(arbitrary_scene()); });
   pot.collapse = maybe<Collapse>([&] {
     const double heading = *number_in(-3, 3);
     const auto position = [] { return *number_in(-1e6, 1e6); };

@@ -1,6 +1,7 @@
 #include "claystack/engine/files.hpp"
 
 #include "tests/engine/files/arbitrary.hpp"
+#include "tests/engine/files/full_scene.hpp"
 #include "tests/engine/files/text_edits.hpp"
 #include "tests/support/schema_check.hpp"
 
@@ -43,6 +44,7 @@ Pot collapsed_pot() {
   Pot pot = small_pot();
   pot.rim = {7, -3};
   pot.motion = {-12.5, 0.1};
+  pot.thrown_with = settings_of(test::full_scene());
   pot.collapse = Collapse{
       2, {11.5, 2.25, -3.0}, {0.6, 0.0, -0.8}, 1.25, 12.5, {0.8, -1.5, 0.6}, 12.0, 45.5, 31.75};
   return pot;
@@ -95,6 +97,14 @@ RC_GTEST_PROP(PotFile, CborHoldsTheFieldsOfJsonExceptRadii, ()) {
   file["rings"].erase("outer_mm");
   file["rings"].erase("inner_mm");
   RC_ASSERT(Json::from_cbor(write_pot(pot, PotEncoding::cbor)) == file);
+}
+
+TEST(PotFile, SettingsAreThoseOfTheSceneFile) {
+  const Json pot = Json::parse(write_pot(collapsed_pot(), PotEncoding::json));
+  const Json scene = Json::parse(write_scene(test::full_scene()));
+  for (const auto& [name, part] : pot["thrown_with"].items()) EXPECT_EQ(part, scene[name]) << name;
+  EXPECT_EQ(pot["thrown_with"].size(), 6u);
+  EXPECT_FALSE(Json::parse(write_pot(small_pot(), PotEncoding::json)).contains("thrown_with"));
 }
 
 TEST(PotFile, TwoHundredRingsFitIntoFourKilobytes) {
@@ -188,7 +198,12 @@ TEST(PotFile, ErrorsNameTheLineOfEveryOtherField) {
       "\"density_g_cm3\": 2.1", "\"density_g_cm3\": 2.1, \"density\": 2",
       "unknown field \"density\"; expected one of schema, written_by, model, "
       "density_g_cm3, ring_height_mm, max_rings, quantum_mm2, rings, rounded_rings, crown, "
-      "ledger, rim, motion, collapse");
+      "ledger, rim, motion, thrown_with, collapse");
+  expect_pot_error("\"gap_mm\": 4.5", "\"gap_mm\": 0",
+                   "thrown_with.tool.gap_mm: expected a number from 0.001 to 1000, found 0");
+  expect_pot_error("\"friction\": 0.3", "\"friction\": 0.3, \"grip\": 1",
+                   "unknown field \"grip\" in thrown_with.force; expected one of "
+                   "stiffness_n_per_mm2, limit_n, friction, wheel, paper_stiffness_n_per_mm");
 }
 
 TEST(PotFile, ErrorsInCborNameTheField) {
@@ -223,19 +238,27 @@ TEST(PotFile, AFlippedBitNeverGivesAnUnbalancedPot) {
 }
 
 TEST(PotSchema, NamesTheWrittenFields) {
-  const auto written =
-      test::member_paths(Json::parse(write_pot(collapsed_pot(), PotEncoding::json)));
+  std::set<std::string> written;
+  for (const ToolShapeSpec& shape :
+       {ToolShapeSpec(SphereSpec{}), ToolShapeSpec(EllipseSpec{}), ToolShapeSpec(RibSpec{}),
+        ToolShapeSpec(SampledSpec{{0, 1}, {1, 1}})}) {
+    Pot pot = collapsed_pot();
+    pot.thrown_with->tool.shape = shape;
+    const auto paths = test::member_paths(Json::parse(write_pot(pot, PotEncoding::json)));
+    written.insert(paths.begin(), paths.end());
+  }
   auto described = test::property_paths(test::load_schema("pot"));
   std::erase_if(described,
                 [](const std::string& path) { return path.starts_with("/rounded_rings"); });
-  EXPECT_EQ(std::set(written.begin(), written.end()), std::set(described.begin(), described.end()));
+  EXPECT_EQ(written, std::set(described.begin(), described.end()));
 }
 
 /// The reader is stricter than the schema only where fields depend on each other: counts on ledger
 /// and radii, indices on the stack.
 bool is_rule_between_fields(const std::string& edit) {
-  constexpr std::array kRules = {"/rings/", "/failed_ring: ", "/axis/", "/max_rings: at minimum",
-                                 "/max_rings: above minimum"};
+  constexpr std::array kRules = {
+      "/rings/",  "/failed_ring: ", "/axis/", "/max_rings: at minimum", "/max_rings: above minimum",
+      "/sampled/"};
   return std::ranges::any_of(
       kRules, [&](const char* rule) { return edit.find(rule) != std::string::npos; });
 }

@@ -191,6 +191,8 @@ struct Pot {
   std::optional<Rounding> rounding;
   Rim rim{};        ///< for who throws on; of the paper's model none
   Motion motion{};  ///< likewise; of a scene without clay rules none
+  /// Likewise, in a pot for a file: what opening it would not know. A wheel sets none.
+  std::optional<ThrowSettings> thrown_with{};
   friend bool operator==(const Pot&, const Pot&) = default;
 };
 

@@ -139,4 +139,19 @@ struct SceneSpec {
   friend bool operator==(const SceneSpec&, const SceneSpec&) = default;
 };
 
+/// What a pot remembers of its last scene, so that the next stroke finds the same tool and clay:
+/// everything but the name, the model and the lump.
+struct ThrowSettings {
+  ToolSpec tool;
+  RemovalSpec removal;
+  FlowSpec flow;
+  std::optional<ForceSpec> force;
+  std::optional<StabilitySpec> stability;
+  std::optional<ClaySpec> clay;
+  friend bool operator==(const ThrowSettings&, const ThrowSettings&) = default;
+};
+[[nodiscard]] inline ThrowSettings settings_of(const SceneSpec& scene) {
+  return {scene.tool, scene.removal, scene.flow, scene.force, scene.stability, scene.clay};
+}
+
 }  // namespace clay

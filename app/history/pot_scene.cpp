@@ -1,0 +1,54 @@
+#include "app/history/pot_scene.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace clay::history {
+namespace {
+
+constexpr double kFloorMm = 5.0;  // usual for a pot that is not trimmed on its foot
+
+}  // namespace
+
+SceneSpec usual_scene(double height_mm) {
+  SceneSpec scene;
+  scene.removal.yield_depth_mm = 2.0;
+  scene.removal.min_wall_mm = 3.0;
+  scene.flow = {.sigma_mm = 0.12 * height_mm, .reach_mm = 0.5 * height_mm, .inside_share = 0.25};
+  scene.force->stiffness_n_per_mm2 = 0.03;
+  scene.force->friction = 0.2;
+  scene.clay = ClaySpec{.floor_mm = kFloorMm};
+  return scene;
+}
+
+SceneSpec scene_for(const Pot& pot, const std::string& name) {
+  double widest_mm = 1.0;
+  for (const Ring& ring : pot.stack.rings()) widest_mm = std::max(widest_mm, ring.outer_mm());
+  SceneSpec scene = usual_scene(std::max(1.0, pot.stack.height_mm()));
+  scene.name = name;
+  scene.model = pot.model;
+  if (pot.model == Model::paper) scene.clay.reset();
+  scene.lump = {.rings = pot.stack.size(),
+                .ring_height_mm = pot.stack.ring_height_mm(),
+                .outer_radius_mm = widest_mm,
+                .inner_radius_mm = 0.0,
+                .max_rings = 0,
+                .density_g_cm3 = pot.density_g_cm3};
+  if (!pot.thrown_with) return scene;
+  scene.tool = pot.thrown_with->tool;
+  scene.removal = pot.thrown_with->removal;
+  scene.flow = pot.thrown_with->flow;
+  scene.force = pot.thrown_with->force;
+  scene.stability = pot.thrown_with->stability;
+  scene.clay = pot.thrown_with->clay;
+  return scene;
+}
+
+Pot remembering(const SceneSpec& scene, Pot pot) {
+  pot.thrown_with.reset();
+  if (ThrowSettings settings = settings_of(scene); settings != settings_of(scene_for(pot, {})))
+    pot.thrown_with = std::move(settings);
+  return pot;
+}
+
+}  // namespace clay::history

@@ -1,0 +1,22 @@
+#pragma once
+// The scene in which a pot is thrown on: the tool and the clay that it remembers, or usual ones.
+
+#include "claystack/engine/clay.hpp"
+#include "claystack/engine/scene.hpp"
+
+#include <string>
+
+namespace clay::history {
+
+/// The usual settings of the clay, for a lump or a pot of this height.
+[[nodiscard]] SceneSpec usual_scene(double height_mm);
+
+/// For strokes on a pot: as `Pot::thrown_with` says, or the usual settings for its size. The scene
+/// gets a name.
+[[nodiscard]] SceneSpec scene_for(const Pot& pot, const std::string& name);
+
+/// The pot for a file: it remembers the scene of its last stroke, unless `scene_for` would find the
+/// same settings without that.
+[[nodiscard]] Pot remembering(const SceneSpec& scene, Pot pot);
+
+}  // namespace clay::history

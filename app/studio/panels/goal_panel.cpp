@@ -1,0 +1,108 @@
+// The goal: what the pot shall hold and measure, and the target profile.
+
+#include "app/studio/commands.hpp"
+#include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/widgets.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace clay::studio {
+namespace {
+
+/// A slider from 0; `none`: text shown for 0.
+bool slider(const char* label, double& value, double most, const char* format, const char* none) {
+  slider_label(label, value > 0.0 ? fmt::format(fmt::runtime(format), value) : none);
+  float shown = static_cast<float>(value);
+  const std::string id = fmt::format("##{}", label);
+  if (!ImGui::SliderFloat(id.c_str(), &shown, 0.0f, static_cast<float>(most), "",
+                          ImGuiSliderFlags_AlwaysClamp))
+    return false;
+  value = std::round(static_cast<double>(shown));
+  return true;
+}
+
+void choose_target(const ViewModel& model, Actions& actions) {
+  constexpr std::array<std::string_view, 6> kChoices = {
+      "goal.none", "goal.bowl", "goal.vase", "goal.bottle", "goal.cylinder", "goal.file"};
+  const Target* target = model.ui.target.get();
+  ImGui::TextUnformatted("Target profile");
+  ImGui::SetNextItemWidth(-1.0f);
+  if (!ImGui::BeginCombo("##target", target != nullptr ? target->name.c_str() : "None")) return;
+  for (const std::string_view id : kChoices)
+    if (ImGui::Selectable(find_command(id)->title)) actions.emplace_back(RunCommand{id});
+  ImGui::EndCombo();
+}
+
+}  // namespace
+
+void draw_goal(const ViewModel& model, Actions& actions) {
+  PotGoal goal = model.settings.goal;
+  const LengthUnit unit = model.settings.unit;
+  constexpr double kUsualMl = 1500.0, kUsualMm = 300.0;
+  slider("Holds", goal.holds_ml, kUsualMl, "{:.0f} ml", "any");
+  const auto length = [&](const char* label, double& mm) {
+    slider_label(label, mm > 0.0 ? length_text(mm, unit) : "any");
+    float shown = static_cast<float>(mm);
+    const std::string id = fmt::format("##{}", label);
+    if (ImGui::SliderFloat(id.c_str(), &shown, 0.0f, static_cast<float>(kUsualMm), "",
+                           ImGuiSliderFlags_AlwaysClamp))
+      mm = std::round(static_cast<double>(shown));
+  };
+  length("Height", goal.height_mm);
+  length("Diameter", goal.diameter_mm);
+  slider("Shrinks by firing", goal.shrinkage_percent, kMostShrinkagePercent, "{:.0f} %",
+         "not fired");
+  if (goal != model.settings.goal) actions.emplace_back(SetGoal{goal});
+  choose_target(model, actions);
+}
+
+void draw_target(const ViewModel& model, const ViewRect& rect) {
+  const Target* target = model.ui.target.get();
+  if (target == nullptr || !model.document.has_work() || !model.ui.shows<NoDialog>() ||
+      model.readings.fallen() || model.settings.tool.mode == ToolMode::trim_foot)
+    return;
+  const render::PotView& pot = target->view;
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->PushClipRect({rect.corner_px.x, rect.corner_px.y},
+                     {rect.corner_px.x + rect.size_px.x, rect.corner_px.y + rect.size_px.y});
+  // Smoothed edges would show every quad.
+  const ImDrawListFlags flags =
+      std::exchange(draw->Flags, draw->Flags & ~ImDrawListFlags_AntiAliasedFill);
+  const float em = ImGui::GetFontSize();
+  const ImVec4 ink = ImGui::GetStyleColorVec4(ImGuiCol_Text);
+  const ImU32 edge = ImGui::GetColorU32(ImVec4(ink.x, ink.y, ink.z, 0.75f));
+  const ImU32 face = ImGui::GetColorU32(ImVec4(ink.x, ink.y, ink.z, 0.13f));
+  const double row_mm = pot.height_mm / static_cast<double>(pot.rows.size());
+  const auto place = [&](double rho_mm, std::size_t row) {
+    const auto at = model.scene.pixel_of({rho_mm, row_mm * (static_cast<double>(row) + 0.5)});
+    return at ? std::optional(ImVec2(at->x, at->y)) : std::nullopt;
+  };
+  for (const double side : {1.0, -1.0}) {
+    std::optional<ImVec2> outer, inner;  // of the row below
+    bool bore = false;
+    for (std::size_t row = 0; row < pot.rows.size(); ++row) {
+      const auto out = place(side * static_cast<double>(pot.rows[row].outer_mm), row);
+      const auto in = place(side * static_cast<double>(pot.rows[row].inner_mm), row);
+      if (out && in && outer && inner) {
+        draw->AddQuadFilled(*inner, *outer, *out, *in, face);
+        draw->AddLine(*outer, *out, edge, 0.12f * em);
+        if (pot.rows[row].inner_mm > 0.0f)
+          draw->AddLine(bore ? *inner : *place(0.0, row), *in, edge, 0.12f * em);
+      }
+      bore = pot.rows[row].inner_mm > 0.0f;
+      outer = out;
+      inner = in;
+    }
+    if (outer && inner) draw->AddLine(*outer, *inner, edge, 0.12f * em);
+  }
+  draw->Flags = flags;
+  draw->PopClipRect();
+}
+
+}  // namespace clay::studio

@@ -1,0 +1,114 @@
+#pragma once
+// The tables of the parts of a scene that a pot remembers, for the files of both.
+
+#include "claystack/engine/clay.hpp"
+#include "claystack/engine/scene.hpp"
+#include "core/json/object_reader.hpp"
+#include "core/json/object_writer.hpp"
+#include "core/json/range.hpp"
+#include "core/text.hpp"
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace clay::files {
+
+inline constexpr Range kToolSizeMm = above(0).to(kMaxRadiusMm);
+inline constexpr std::array<std::string_view, 4> kShapeNames = {"sphere", "ellipse", "rib",
+                                                                "sampled"};
+inline constexpr std::array<std::string_view, 7> kToolModeNames = {
+    "press", "trim", "pinch", "smooth", "needle", "wire", "trim_foot"};
+inline constexpr std::array<std::string_view, 2> kSwitchNames = {"off", "on"};
+inline constexpr std::array<std::string_view, 2> kWheelTurnNames = {"clockwise",
+                                                                    "counterclockwise"};
+
+}  // namespace clay::files
+
+// In this namespace, where the writer and the reader look up the tables of their types.
+namespace clay {
+
+void describe(auto& io, Is<SphereSpec> auto& sphere) {
+  io.number("radius_mm", sphere.radius_mm, files::kToolSizeMm);
+}
+
+void describe(auto& io, Is<EllipseSpec> auto& ellipse) {
+  io.number("half_height_mm", ellipse.half_height_mm, files::kToolSizeMm);
+  io.number("half_width_mm", ellipse.half_width_mm, files::kToolSizeMm);
+}
+
+void describe(auto& io, Is<RibSpec> auto& rib) {
+  io.number("height_mm", rib.height_mm, files::kToolSizeMm);
+  io.number("radius_mm", rib.radius_mm, files::kToolSizeMm);
+}
+
+void describe(auto& io, Is<SampledSpec> auto& sampled) {
+  io.require({"t_mm", "f_mm"});
+  io.numbers("t_mm", sampled.t_mm, from(-kMaxRadiusMm).to(kMaxRadiusMm));
+  io.numbers("f_mm", sampled.f_mm, from(0).to(kMaxRadiusMm));
+  io.check([&](ObjectReader& reader) {
+    const auto& t = sampled.t_mm;
+    reader.expect(t.size() >= 2, "t_mm", "two numbers at least");
+    reader.expect(sampled.f_mm.size() == t.size(), "f_mm",
+                  "as many numbers as t_mm, " + std::to_string(t.size()));
+    for (std::size_t i = 1; i < t.size(); ++i)
+      reader.expect_element(t[i] > t[i - 1], "t_mm", i, "more than " + shortest(t[i - 1]));
+  });
+}
+
+void describe(auto& io, Is<ToolSpec> auto& tool) {
+  io.one_of("shape", tool.shape, files::kShapeNames);
+  io.choice("mode", tool.mode, files::kToolModeNames);
+  io.number("gap_mm", tool.gap_mm, from(1e-3).to(1e3));
+  io.check([&](ObjectReader& reader) {
+    if (tool.mode == ToolMode::pinch) reader.require({"gap_mm"});
+  });
+}
+
+void describe(auto& io, Is<RemovalSpec> auto& removal) {
+  io.number("rate_per_s", removal.rate_per_s, from(0).to(1e6));
+  io.number("yield_depth_mm", removal.yield_depth_mm, from(1e-3).to(1e3));
+  io.number("min_wall_mm", removal.min_wall_mm, from(1e-3).to(1e3));
+  io.number("paper_fraction", removal.paper_fraction, from(0).below(1));
+}
+
+void describe(auto& io, Is<FlowSpec> auto& flow) {
+  io.number("sigma_mm", flow.sigma_mm, from(0).to(1e9));
+  io.number("reach_mm", flow.reach_mm, from(0).to(1e9));
+  io.number("inside_share", flow.inside_share, from(0).to(1));
+}
+
+void describe(auto& io, Is<ForceSpec> auto& force) {
+  io.number("stiffness_n_per_mm2", force.stiffness_n_per_mm2, from(0).to(1e6));
+  io.number("limit_n", force.limit_n, from(0).to(10));
+  io.number("friction", force.friction, from(0).to(2));
+  io.choice("wheel", force.counterclockwise, files::kWheelTurnNames);
+  io.number("paper_stiffness_n_per_mm", force.paper_stiffness_n_per_mm, from(0).to(1e6));
+}
+
+void describe(auto& io, Is<StabilitySpec> auto& stability) {
+  io.number("max_stress_kpa", stability.max_stress_kpa, above(0).to(1e6));
+}
+
+void describe(auto& io, Is<ClaySpec> auto& clay) {
+  io.choice("lift", clay.lift, files::kSwitchNames);
+  io.choice("shift", clay.shift, files::kSwitchNames);
+  io.choice("rim", clay.rim, files::kSwitchNames);
+  io.choice("hoop", clay.hoop, files::kSwitchNames);
+  io.choice("heave", clay.heave, files::kSwitchNames);
+  io.choice("smear", clay.smear, files::kSwitchNames);
+  io.number("wheel_rpm", clay.wheel_rpm, from(0).to(1e3));
+  io.number("floor_mm", clay.floor_mm, from(0).to(1e6));
+}
+
+void describe(auto& io, Is<ThrowSettings> auto& settings) {
+  io.require({"tool"});
+  io.part("tool", settings.tool);
+  io.part("removal", settings.removal);
+  io.part("flow", settings.flow);
+  io.part("force", settings.force);
+  io.part("stability", settings.stability);
+  io.part("clay", settings.clay);
+}
+
+}  // namespace clay
