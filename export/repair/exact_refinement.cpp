@@ -5,18 +5,20 @@
 #include "export/proof/pair_test.hpp"
 #include "export/repair/intersecting_pairs.hpp"
 #include "export/repair/sheet_count.hpp"
-#include "export/solid/cgal_versions.hpp"
+#include "export/repair/triangle_crossing.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_face_base_2.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
-#include <CGAL/intersections.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <set>
+#include <stdexcept>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -25,11 +27,24 @@ namespace {
 
 using Point2 = ExactKernel::Point_2;
 using Number = ExactKernel::FT;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, ExactKernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<ExactKernel>;
+/// Of a vertex in the soup.
+struct Number32 {
+  std::uint32_t is = UINT32_MAX;  ///< that value: not known
+};
+/// The sheets that cover a face.
+struct Cover {
+  int sheets = 0;
+  bool known = false;
+  std::array<int, 3> steps{};  ///< how many more lie on the other side of each edge
+};
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Number32, ExactKernel>;
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<
+    Cover, ExactKernel, CGAL::Constrained_triangulation_face_base_2<ExactKernel>>;
 using Planar = CGAL::Constrained_Delaunay_triangulation_2<
     ExactKernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
     CGAL::Exact_intersections_tag>;
+using PlanarVertex = Planar::Vertex_handle;
+using PlanarFace = Planar::Face_handle;
 
 /// Finds equal exact points.
 class PointRegister {
@@ -92,9 +107,6 @@ class Projection {
   int axis_ = 0;
 };
 
-/// What two triangles of different planes have in common: a segment, or a point, twice.
-using Common = std::optional<std::pair<ExactPoint, ExactPoint>>;
-
 /// Coplanar triangles that overlap, with everything that cuts them.
 struct Sheet {
   std::vector<std::uint32_t> triangles;
@@ -127,6 +139,7 @@ class Refinement {
           if (!result_.at_cut[v]) known.add_known(v);
           result_.at_cut[v] = true;
         }
+    find_inner_sides();
     for (const Sheet& sheet : sheets) cut(sheet, known);
     keep_untouched();
     return std::move(result_);
@@ -164,7 +177,11 @@ class Refinement {
       parent[std::max(a, b)] = std::min(a, b);
     }
     std::map<std::uint32_t, Sheet> by_root;
-    for (const auto& entry : parent) by_root[root(entry.first)].triangles.push_back(entry.first);
+    plane_of_.assign(mesh_.triangles.size(), kNoPart);
+    for (const auto& entry : parent) {
+      plane_of_[entry.first] = root(entry.first);
+      by_root[plane_of_[entry.first]].triangles.push_back(entry.first);
+    }
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (flat[i]) continue;
       by_root[root(pairs[i].first)].cuts.push_back(i);
@@ -176,8 +193,7 @@ class Refinement {
     return sheets;
   }
 
-  /// Most of the time goes into these exact points. Pairs that only touch in a shared edge or
-  /// vertex are not listed, and need no cut.
+  /// Pairs that only touch in a shared edge or vertex are not listed, and need no cut.
   void find_common(const std::vector<TrianglePair>& pairs) {
     constexpr std::size_t kPartPairs = 256;
     common_.resize(pairs.size());
@@ -185,74 +201,144 @@ class Refinement {
       const std::size_t end = std::min(pairs.size(), (part + 1) * kPartPairs);
       for (std::size_t i = part * kPartPairs; i < end; ++i) {
         step_of_loop();
-        if (!flat_[i]) common_[i] = common_of(pairs[i].first, pairs[i].second);
+        const auto& [t, u] = pairs[i];
+        if (!flat_[i]) common_[i] = common_of(mesh_, t, u, plane_of_[t], plane_of_[u]);
       }
     });
   }
 
-  [[nodiscard]] ExactKernel::Triangle_3 exact(std::uint32_t t) const {
-    return {corner(t, 0), corner(t, 1), corner(t, 2)};
+  [[nodiscard]] std::uint32_t number_of(const CrossingPoint& point, PointRegister& known) {
+    if (point.is_vertex()) return point.name[0];
+    const auto [at, fresh] = number_of_.try_emplace(point.name, 0U);
+    if (!fresh) return at->second;
+    const ExactPoint from = exact_point(mesh_.points[point.from]);
+    const ExactPoint origin = corner(point.triangle, 0);
+    const ExactKernel::Vector_3 way = exact_point(mesh_.points[point.to]) - from;
+    const ExactKernel::Vector_3 normal =
+        CGAL::normal(origin, corner(point.triangle, 1), corner(point.triangle, 2));
+    return at->second = known.number_of(from + ((origin - from) * normal) / (way * normal) * way);
   }
 
   void cut(const Sheet& sheet, PointRegister& known) {
     const std::uint32_t first = sheet.triangles.front();
     const Projection projection(corner(first, 0), corner(first, 1), corner(first, 2));
-    Planar plane;
-    for (const std::uint32_t t : sheet.triangles) {
-      std::array<Planar::Vertex_handle, 3> at;
-      for (std::size_t c = 0; c < 3; ++c) at.at(c) = plane.insert(projection.flat(corner(t, c)));
-      for (std::size_t c = 0; c < 3; ++c) plane.insert_constraint(at.at(c), at.at((c + 1) % 3));
-    }
+    std::vector<std::uint32_t> vertices;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> lines;
+    const auto add_line = [&](std::uint32_t a, std::uint32_t b) {
+      vertices.insert(vertices.end(), {a, b});
+      if (a != b) lines.push_back(std::minmax(a, b));
+    };
+    for (const std::uint32_t t : sheet.triangles)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Side side = side_of(t, c);
+        vertices.push_back(mesh_.triangles[t].at(c));
+        if (!inner_.contains({side.low, side.high})) lines.emplace_back(side.low, side.high);
+      }
     for (const std::size_t i : sheet.cuts) {
       stop_if_cancelled();
-      if (!common_[i]) continue;
-      const auto& [from, to] = *common_[i];
-      if (from == to)
-        plane.insert(projection.flat(from));
-      else
-        plane.insert_constraint(projection.flat(from), projection.flat(to));
+      if (common_[i].points == 0) continue;
+      const std::uint32_t from = number_of(common_[i].ends[0], known);
+      add_line(from, common_[i].points == 1 ? from : number_of(common_[i].ends[1], known));
+    }
+    sort_and_drop_equal(vertices);
+    sort_and_drop_equal(lines);
+    std::vector<std::pair<Point2, Number32>> points;
+    for (const std::uint32_t v : vertices)
+      points.emplace_back(projection.flat(result_.point(v)), Number32{v});
+    Planar plane;
+    plane.insert(points.begin(), points.end());
+    std::unordered_map<std::uint32_t, PlanarVertex> at;
+    for (const auto v : plane.finite_vertex_handles()) at.emplace(v->info().is, v);
+    for (const auto& [a, b] : lines) {
+      stop_if_cancelled();
+      plane.insert_constraint(at.at(a), at.at(b));
     }
     for (const auto v : plane.finite_vertex_handles())
-      v->info() = known.number_of(projection.lifted(v->point()));
-    take_faces(plane, projection, sheet);
-  }
-
-  [[nodiscard]] Common common_of(std::uint32_t t, std::uint32_t u) const {
-    const auto common = CGAL::intersection(exact(t), exact(u));
-    if (!common) return std::nullopt;
-    if (const auto* point = cgal::get_if<ExactPoint>(*common)) return std::pair(*point, *point);
-    if (const auto* segment = cgal::get_if<ExactKernel::Segment_3>(*common))
-      return std::pair(segment->source(), segment->target());
-    return std::nullopt;
-  }
-
-  void take_faces(const Planar& plane, const Projection& projection, const Sheet& sheet) {
-    struct Member {
-      std::array<Point2, 3> corners;
-      CGAL::Orientation turn;
-      int sheets;
-      CGAL::Bbox_2 box;
-    };
-    std::vector<Member> members;
-    for (const std::uint32_t t : sheet.triangles) {
-      std::array<Point2, 3> at{projection.flat(corner(t, 0)), projection.flat(corner(t, 1)),
-                               projection.flat(corner(t, 2))};
-      members.push_back({at, CGAL::orientation(at[0], at[1], at[2]), sheets_[t],
-                         at[0].bbox() + at[1].bbox() + at[2].bbox()});
-    }
-    for (const auto face : plane.finite_face_handles()) {
-      const Point2 middle = CGAL::centroid(face->vertex(0)->point(), face->vertex(1)->point(),
-                                           face->vertex(2)->point());
-      const CGAL::Bbox_2 near = middle.bbox();
-      int sheets = 0;
-      for (const Member& m : members) {
-        bool inside = members.size() == 1 || CGAL::do_overlap(near, m.box);
-        for (std::size_t c = 0; c < 3 && inside && members.size() > 1; ++c)
-          inside = CGAL::orientation(m.corners.at(c), m.corners.at((c + 1) % 3), middle) == m.turn;
-        if (inside) sheets += m.turn == CGAL::LEFT_TURN ? m.sheets : -m.sheets;
+      if (v->info().is == UINT32_MAX) v->info().is = known.number_of(projection.lifted(v->point()));
+    for (const std::uint32_t t : sheet.triangles)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Side side = side_of(t, c);
+        if (!inner_.contains({side.low, side.high}))
+          note_side(plane, at.at(side.low), at.at(side.high), side.sheets);
       }
+    cover_faces(plane);
+    take_faces(plane);
+  }
+
+  template <class Item>
+  static void sort_and_drop_equal(std::vector<Item>& items) {
+    std::sort(items.begin(), items.end());
+    items.erase(std::unique(items.begin(), items.end()), items.end());
+  }
+
+  struct Side {
+    std::uint32_t low, high;
+    int sheets;  ///< how many more lie left of it than right, seen from low to high
+  };
+  [[nodiscard]] Side side_of(std::uint32_t t, std::size_t c) const {
+    const std::uint32_t a = mesh_.triangles[t].at(c), b = mesh_.triangles[t].at((c + 1) % 3);
+    return a < b ? Side{a, b, sheets_[t]} : Side{b, a, -sheets_[t]};
+  }
+
+  /// Sides between triangles of one sheet that cancel bound nothing. Without them, the many
+  /// overlapping triangles of a flat face are cut only where its border is.
+  void find_inner_sides() {
+    struct Users {
+      std::uint32_t plane;
+      int sheets;
+    };
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Users> users;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Side side = side_of(t, c);
+        if (!result_.at_cut[side.low] || !result_.at_cut[side.high]) continue;
+        auto& [plane, sheets] =
+            users.try_emplace({side.low, side.high}, Users{plane_of_[t], 0}).first->second;
+        if (plane != plane_of_[t]) plane = kNoPart;
+        sheets += side.sheets;
+      }
+    for (const auto& [ends, of_side] : users)
+      if (of_side.plane != kNoPart && of_side.sheets == 0) inner_.insert(ends);
+  }
+
+  /// Left of a line through the vertices from a to b there are `sheets` more than right of it.
+  static void note_side(Planar& plane, PlanarVertex a, PlanarVertex b, int sheets) {
+    PlanarVertex next;
+    for (PlanarVertex v = a; v != b; v = next) {
+      PlanarFace face;
+      int edge = 0;
+      if (!plane.includes_edge(v, b, next, face, edge)) throw std::logic_error("lost edge");
+      const int more = face->vertex(Planar::ccw(edge)) == v ? -sheets : sheets;
+      const auto across = static_cast<std::size_t>(plane.mirror_index(face, edge));
+      face->info().steps.at(static_cast<std::size_t>(edge)) += more;
+      face->neighbor(edge)->info().steps.at(across) -= more;
+    }
+  }
+
+  /// From the outside, which no sheet covers.
+  static void cover_faces(Planar& plane) {
+    std::vector<PlanarFace> open{plane.infinite_face()};
+    open.back()->info().known = true;
+    while (!open.empty()) {
+      const PlanarFace face = open.back();
+      open.pop_back();
+      for (int edge = 0; edge < 3; ++edge) {
+        const PlanarFace next = face->neighbor(edge);
+        if (next->info().known) continue;
+        next->info().known = true;
+        next->info().sheets =
+            face->info().sheets + face->info().steps.at(static_cast<std::size_t>(edge));
+        open.push_back(next);
+      }
+    }
+  }
+
+  void take_faces(const Planar& plane) {
+    for (const auto face : plane.finite_face_handles()) {
+      const int sheets = face->info().sheets;
       if (sheets == 0) continue;
-      Triangle triangle{face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()};
+      Triangle triangle{face->vertex(0)->info().is, face->vertex(1)->info().is,
+                        face->vertex(2)->info().is};
       if (sheets < 0) std::swap(triangle[1], triangle[2]);
       result_.triangles.push_back(triangle);
       result_.sheets.push_back(std::abs(sheets));
@@ -276,8 +362,11 @@ class Refinement {
   TriangleMesh mesh_;
   std::vector<int> sheets_;
   std::vector<bool> touched_;
-  std::vector<bool> flat_;      ///< by pair: both lie in one plane
-  std::vector<Common> common_;  ///< by pair; empty in one plane
+  std::vector<bool> flat_;               ///< by pair: both lie in one plane
+  std::vector<std::uint32_t> plane_of_;  ///< by triangle that is cut: the first of its sheet
+  std::vector<Common> common_;           ///< by pair; empty in one plane
+  std::set<std::pair<std::uint32_t, std::uint32_t>> inner_;          ///< sides, low vertex first
+  std::map<std::array<std::uint32_t, 4>, std::uint32_t> number_of_;  ///< by name of a crossing
   ExactSoup result_;
 };
 
