@@ -1,5 +1,6 @@
 #pragma once
 #include "core/cancel.hpp"
+#include "core/threads.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -29,7 +30,8 @@ void for_each_part(std::size_t parts, const Work& work) {
       }
     }
   };
-  const std::size_t cores = std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
+  const std::size_t cores =
+      kThreads ? std::max<std::size_t>(std::thread::hardware_concurrency(), 1) : 1;
   {
     std::vector<std::jthread> helpers;
     try {

@@ -1,6 +1,8 @@
 #pragma once
 // Threads that work for another one: on the newest question, or again and again.
 
+#include "core/threads.hpp"
+
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -9,6 +11,7 @@
 #include <optional>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace clay {
 
@@ -97,14 +100,19 @@ class NewestWorker {
 };
 
 /// Calls its work at once, then once per period and after each wake(). The work is never called by
-/// two threads at a time.
+/// two threads at a time. Where a program cannot start threads, run_all() calls the work instead.
 class PeriodicWorker {
  public:
   /// `last`: the call that close() asks for; none follows.
   using Work = std::function<void(bool last)>;
 
   PeriodicWorker(Work work, std::chrono::milliseconds period)
-      : work_(std::move(work)), period_(period), thread_([this] { run(); }) {}
+      : work_(std::move(work)), period_(period) {
+    if constexpr (kThreads)
+      thread_ = std::thread([this] { run(); });
+    else
+      without_thread().push_back(this);
+  }
   ~PeriodicWorker() { close(); }
   PeriodicWorker(const PeriodicWorker&) = delete;
   PeriodicWorker& operator=(const PeriodicWorker&) = delete;
@@ -125,9 +133,25 @@ class PeriodicWorker {
     }
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
+    if (!kThreads && std::erase(without_thread(), this) > 0) work_(true);
+  }
+
+  /// Without threads: calls the work of every worker that is due or woken.
+  static void run_all() {
+    const auto now = std::chrono::steady_clock::now();
+    for (PeriodicWorker* worker : std::vector(without_thread())) {
+      if (!std::exchange(worker->woken_, false) && now < worker->due_) continue;
+      worker->due_ = now + worker->period_;
+      worker->work_(false);
+    }
   }
 
  private:
+  static std::vector<PeriodicWorker*>& without_thread() {
+    static std::vector<PeriodicWorker*> workers;
+    return workers;
+  }
+
   void run() {
     std::unique_lock lock(mutex_);
     for (bool last = false; !last;) {
@@ -145,7 +169,8 @@ class PeriodicWorker {
   std::mutex mutex_;  // of what follows
   std::condition_variable wake_;
   bool woken_ = false, closing_ = false;
-  std::thread thread_;  // last: it uses all members above
+  std::chrono::steady_clock::time_point due_;  // without threads: the next call
+  std::thread thread_;                         // last: it uses all members above
 };
 
 }  // namespace clay

@@ -2,6 +2,7 @@
 #include "app/cli/json_output.hpp"
 #include "app/cli/memory_room.hpp"
 #include "claystack/core/atomic_file.hpp"
+#include "core/number_text.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -122,7 +122,7 @@ Result<void> check_distinct(const std::vector<std::string>& outputs,
 std::function<std::string(const std::string&)> in_range(double low, double high) {
   return [=](const std::string& text) -> std::string {
     double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     // Not (value < low): NaN must fail.
     if (error == std::errc() && end == text.data() + text.size() && value >= low && value <= high)
       return {};

@@ -11,12 +11,12 @@
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/export/job.hpp"
+#include "core/number_text.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -61,7 +61,7 @@ solid::Smoothing smoothing_of(std::string_view name) {
 Result<double> part_of(const std::string& text, double most) {
   double percent = 0.0;
   const char* end = text.data() + text.size();
-  const auto [stop, problem] = std::from_chars(text.data(), end, percent);
+  const auto [stop, problem] = from_chars(text.data(), end, percent);
   const std::string_view rest(stop, static_cast<std::size_t>(end - stop));
   if (problem != std::errc() || rest != "%" || !(percent >= 0.0 && percent <= 100.0 * most))
     return failure(ErrorKind::bad_input,
@@ -80,7 +80,7 @@ struct Unit {
 Result<double> quantity_of(const std::string& text, const std::vector<Unit>& units) {
   double number = 0.0;
   const char* end = text.data() + text.size();
-  const auto [stop, problem] = std::from_chars(text.data(), end, number);
+  const auto [stop, problem] = from_chars(text.data(), end, number);
   std::string_view name(stop, static_cast<std::size_t>(end - stop));
   if (name.starts_with(' ')) name.remove_prefix(1);
   const auto unit = std::ranges::find_if(

@@ -9,11 +9,11 @@
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
+#include "core/number_text.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -38,7 +38,7 @@ Result<void> set_axis(ImportOptions& options) {
     return {};
   }
   const char* end = options.axis.data() + options.axis.size();
-  const auto [stop, problem] = std::from_chars(options.axis.data(), end, section.axis_mm);
+  const auto [stop, problem] = from_chars(options.axis.data(), end, section.axis_mm);
   if (problem != std::errc() || stop != end || !(std::abs(section.axis_mm) <= 1e6))
     return failure(
         ErrorKind::bad_input,

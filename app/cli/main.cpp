@@ -81,7 +81,9 @@ void add_commands(CLI::App& app, Console& console, int& exit) {
 #ifdef CLAYSTACK_STUDIO
   add_studio_command(app, exit);
 #endif
+#ifdef CLAYSTACK_BATCH
   add_batch_command(app, console, exit);
+#endif
   add_doctor_command(app, console, exit);
   for (CLI::App* command : app.get_subcommands({})) {
     if (command->get_name() == "studio") continue;  // passes all its arguments to another program

@@ -37,6 +37,18 @@ std::string stem_of_now() {
   return fmt::format("{}-{}", std::string_view(text, length), getpid());
 }
 
+/// Renames a file to a name that no file has. False: errno tells why.
+bool move_to_new(const fs::path& from, const fs::path& to) {
+  if (link(from.c_str(), to.c_str()) == 0) return unlink(from.c_str()) == 0;
+  // File systems without hard links: those of cameras' cards, and of a web page.
+  if (errno != EPERM && errno != EMLINK && errno != EOPNOTSUPP) return false;
+  if (access(to.c_str(), F_OK) == 0) {
+    errno = EEXIST;
+    return false;
+  }
+  return rename(from.c_str(), to.c_str()) == 0;
+}
+
 /// The file is named after it is locked and has its header, so that no other process treats it as
 /// abandoned.
 Result<fs::path> give_name(int descriptor, const fs::path& temporary, const fs::path& folder,
@@ -44,8 +56,7 @@ Result<fs::path> give_name(int descriptor, const fs::path& temporary, const fs::
   for (int twin = 0; twin < 100; ++twin) {
     const fs::path path =
         folder / (twin == 0 ? fmt::format("{}.work", stem) : fmt::format("{}-{}.work", stem, twin));
-    if (link(temporary.c_str(), path.c_str()) == 0) {
-      (void)unlink(temporary.c_str());
+    if (move_to_new(temporary, path)) {
       if (fsync(descriptor) != 0) {
         const Error error = system_error(path, "sync");
         (void)unlink(path.c_str());

@@ -1,12 +1,12 @@
 #include "app/import/csv_columns.hpp"
 #include "app/import/readers.hpp"
 
+#include "core/number_text.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 namespace clay::importing {
@@ -19,7 +19,7 @@ std::optional<double> number_of(std::string field) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;
   const char* end = text.data() + text.size();
-  const auto [stop, problem] = std::from_chars(text.data(), end, value);
+  const auto [stop, problem] = from_chars(text.data(), end, value);
   if (problem != std::errc() || stop != end) return std::nullopt;
   return value;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/gtc/type_ptr.hpp>
 
 namespace clay::render {
@@ -19,8 +20,11 @@ GLuint generated(Generate generate) {
 class Shader {
  public:
   Shader(GLenum kind, const std::string& text) : name_(glCreateShader(kind)) {
-    const char* source = text.c_str();
-    glShaderSource(name_, 1, &source, nullptr);
+    const std::array sources = {
+        glsl_version(),
+        epoxy_is_desktop_gl() ? "\n" : "\nprecision highp float;\nprecision highp int;\n",
+        text.c_str()};
+    glShaderSource(name_, static_cast<GLsizei>(sources.size()), sources.data(), nullptr);
     glCompileShader(name_);
   }
   Shader(const Shader&) = delete;
@@ -51,6 +55,10 @@ Renderbuffer make_storage(GLenum format, int width, int height, int samples) {
 }
 
 }  // namespace
+
+const char* glsl_version() {
+  return epoxy_is_desktop_gl() ? "#version 330 core" : "#version 300 es";
+}
 
 Buffer make_buffer() { return Buffer(generated(glGenBuffers)); }
 VertexArray make_vertex_array() { return VertexArray(generated(glGenVertexArrays)); }

@@ -55,6 +55,9 @@ Buffer make_buffer();
 VertexArray make_vertex_array();
 Texture make_texture();
 
+/// The first line of the shaders for this context.
+[[nodiscard]] const char* glsl_version();
+
 /// Compiles and links. An error of kind `device`, with the driver's text, on failure; `name`
 /// identifies the program.
 Result<Program> make_program(std::string_view name, const std::string& vertex,

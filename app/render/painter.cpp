@@ -10,7 +10,7 @@
 namespace clay::render {
 namespace {
 
-constexpr int kOldest = 33;  // OpenGL 3.3
+constexpr int kOldest = 33, kOldestES = 30;  // OpenGL 3.3, OpenGL ES 3.0 (a web page's WebGL 2)
 
 GLuint bound_framebuffer() {
   GLint bound = 0;
@@ -32,7 +32,7 @@ Painter::~Painter() = default;
 
 Result<Painter> Painter::create() {
   const int version = epoxy_gl_version();
-  if (!epoxy_is_desktop_gl() || version < kOldest)
+  if (version < (epoxy_is_desktop_gl() ? kOldest : kOldestES))
     return failure(ErrorKind::device, fmt::format("expected OpenGL 3.3 or later, found {}.{}",
                                                   version / 10, version % 10));
   return ScenePainter::create().map([](ScenePainter scene) {

@@ -3,7 +3,7 @@
 namespace clay::render {
 namespace {
 
-constexpr const char* kFrame = R"(#version 330 core
+constexpr const char* kFrame = R"(
 layout(std140) uniform Frame {
   mat4 view_projection;
   vec4 eye, to_lamp, to_rim_lamp;

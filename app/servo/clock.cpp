@@ -22,7 +22,7 @@ std::int64_t MonotonicClock::now_ns() noexcept {
 
 void MonotonicClock::sleep_until_ns(std::int64_t time_ns) noexcept {
   if (time_ns <= now_ns()) return;
-  const timespec until{time_ns / kNsPerS, time_ns % kNsPerS};
+  const timespec until{time_ns / kNsPerS, static_cast<long>(time_ns % kNsPerS)};
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
 }

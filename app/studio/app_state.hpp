@@ -27,9 +27,9 @@ struct AppState {
   AppState(Host& given, Settings remembered, std::function<void(std::string_view)> log_line)
       : host(given),
         settings(std::move(remembered)),
-        stroke(document, given.clock(), given.real_time()),
+        stroke(document, given.clock(), given.threads()),
         readings(given.real_time()),
-        guide(given.real_time()),
+        guide(given.threads()),
         log(std::move(log_line)) {}
 
   Host& host;

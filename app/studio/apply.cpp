@@ -546,6 +546,7 @@ bool save_document(AppState& state, const std::filesystem::path& path) {
   state.stroke.release();
   if (!succeeded(state, state.document.save(path))) return false;
   remember(state.settings, path);
+  state.host.file_written(path.string());
   state.log("saved: " + path.string());
   note(state, Grade::note, "Saved " + path.string(), kSavedNoteS);
   return true;

@@ -1,166 +1,142 @@
 #include "app/studio/exporter.hpp"
 
-#include "app/cli/memory_room.hpp"
-#include "app/cli/packed_pot.hpp"
-#include "app/cli/pot_copy.hpp"
-
-#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
 #include <string_view>
-#include <system_error>
+#include <thread>
 #include <utility>
 
 namespace clay::studio {
-std::vector<std::string> paths_of(const ExportChoices& choices) {
-  std::vector<std::string> paths;
-  const auto add = [&](std::string_view ending) {
-    const std::filesystem::path name = choices.name + std::string(ending);
-    paths.push_back((std::filesystem::path(choices.folder) / name).string());
-  };
-  for (const solid::MeshFormat format : choices.meshes) add(solid::facts_of(format).ending);
-  if (choices.section) add(".svg");
-  if (choices.pot) add(".pot.json");
-  return paths;
-}
+namespace {
 
-Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot& pot) {
-  solid::ExportRequest request;
-  for (const std::string& path : paths_of(choices)) {
-    if (const auto encoding = cli::pot_encoding_of(path)) {
-      if (auto room = cli::expect_room_to_write(pot.stack.size(), *encoding, path); !room)
-        return tl::make_unexpected(room.error());
-      request.files.push_back(
-          {.path = path, .kind = solid::FileKind::given, .bytes = write_pot(pot, *encoding)});
-      continue;
-    }
-    auto file = solid::file_request(path);
-    if (!file) return tl::make_unexpected(file.error());
-    request.files.push_back(std::move(*file));
-  }
-  solid::ExportOptions& options = request.options;
-  options.tolerance_mm = choices.tolerance_mm;
-  options.smoothing = choices.smoothing;
-  options.name = options.source = choices.name;
-  const bool mesh = !choices.meshes.empty();
-  if (mesh || choices.section) options.shrinkage = 0.01 * choices.shrinkage_percent;
-  if (!mesh) return request;
-  if (choices.min_wall_mm > 0.0) options.walls.min_wall_mm = choices.min_wall_mm;
-  if (choices.process.empty()) return request;
-  return solid::read_process(choices.process).map([&](solid::ProcessLimits process) {
-    options.walls.process = std::move(process);
-    return std::move(request);
-  });
-}
+struct Job {
+  ExportKind kind;
+  history::SharedPot pot;
+  ExportChoices choices;
+  std::stop_source stop;
+};
 
-std::vector<std::string> standing_files(const ExportChoices& choices) {
-  std::vector<std::string> paths = paths_of(choices);
-  std::erase_if(paths, [](const std::string& path) {
-    std::error_code ignored;
-    return !std::filesystem::exists(path, ignored);
-  });
-  return paths;
-}
+}  // namespace
 
-Exporter::Exporter() : thread_([this] { run(); }) {}
+struct Exporter::State {
+  State() : thread([this] { run(); }) {}
+  void put(Job job);
+  void run();
+  Outcome done(const Job& job);
+
+  std::mutex mutex;  // protects the members below
+  std::condition_variable wake, idle;
+  std::optional<Job> next;
+  std::optional<Kind> running;
+  std::stop_source stop{std::nostopstate};  // stops the running job
+  std::string stage;
+  std::optional<Outcome> outcome;
+  bool closing = false;
+  // Used by the thread alone: the picture of a pot serves all its previews.
+  history::SharedPot pictured;
+  std::optional<std::string> thumbnail;
+  std::thread thread;
+};
+
+Exporter::Exporter() : state_(std::make_unique<State>()) {}
 
 Exporter::~Exporter() {
   {
-    const std::lock_guard lock(mutex_);
-    closing_ = true;
-    next_.reset();
-    stop_.request_stop();
+    const std::lock_guard lock(state_->mutex);
+    state_->closing = true;
+    state_->next.reset();
+    state_->stop.request_stop();
   }
-  wake_.notify_one();
-  thread_.join();
+  state_->wake.notify_one();
+  state_->thread.join();
 }
 
 void Exporter::preview(history::SharedPot pot, const ExportChoices& choices) {
-  put({Kind::preview, std::move(pot), choices, {}});
+  state_->put({Kind::preview, std::move(pot), choices, {}});
 }
 
 void Exporter::write(history::SharedPot pot, const ExportChoices& choices) {
-  put({Kind::files, std::move(pot), choices, {}});
+  state_->put({Kind::files, std::move(pot), choices, {}});
 }
 
 /// A preview does not cancel a job that writes files.
-void Exporter::put(Job job) {
+void Exporter::State::put(Job job) {
   {
-    const std::lock_guard lock(mutex_);
-    const bool writes = running_ == Kind::files || (next_ && next_->kind == Kind::files);
+    const std::lock_guard lock(mutex);
+    const bool writes = running == Kind::files || (next && next->kind == Kind::files);
     if (job.kind == Kind::preview && writes) return;
-    stop_.request_stop();
-    outcome_.reset();
-    next_ = std::move(job);
+    stop.request_stop();
+    outcome.reset();
+    next = std::move(job);
   }
-  wake_.notify_one();
+  wake.notify_one();
 }
 
 void Exporter::cancel() {
-  const std::lock_guard lock(mutex_);
-  next_.reset();
-  stop_.request_stop();
+  const std::lock_guard lock(state_->mutex);
+  state_->next.reset();
+  state_->stop.request_stop();
 }
 
 bool Exporter::busy() const {
-  const std::lock_guard lock(mutex_);
-  return running_ || next_;
+  const std::lock_guard lock(state_->mutex);
+  return state_->running || state_->next;
 }
 
 std::string Exporter::stage() const {
-  const std::lock_guard lock(mutex_);
-  return stage_;
+  const std::lock_guard lock(state_->mutex);
+  return state_->stage;
 }
 
 std::optional<Exporter::Kind> Exporter::running() const {
-  const std::lock_guard lock(mutex_);
-  return running_ ? running_ : next_ ? std::optional(next_->kind) : std::nullopt;
+  const std::lock_guard lock(state_->mutex);
+  const State& state = *state_;
+  return state.running ? state.running
+         : state.next  ? std::optional(state.next->kind)
+                       : std::nullopt;
 }
 
 std::optional<Exporter::Outcome> Exporter::take() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(outcome_, std::nullopt);
+  const std::lock_guard lock(state_->mutex);
+  return std::exchange(state_->outcome, std::nullopt);
 }
 
 void Exporter::wait() {
-  std::unique_lock lock(mutex_);
-  idle_.wait(lock, [this] { return !running_ && !next_; });
+  std::unique_lock lock(state_->mutex);
+  state_->idle.wait(lock, [this] { return !state_->running && !state_->next; });
 }
 
-void Exporter::run() {
-  std::unique_lock lock(mutex_);
+void Exporter::State::run() {
+  std::unique_lock lock(mutex);
   while (true) {
-    wake_.wait(lock, [this] { return closing_ || next_; });
-    if (closing_) return;
-    const Job job = *std::exchange(next_, std::nullopt);
-    running_ = job.kind;
-    stop_ = job.stop;
+    wake.wait(lock, [this] { return closing || next; });
+    if (closing) return;
+    const Job job = *std::exchange(next, std::nullopt);
+    running = job.kind;
+    stop = job.stop;
     lock.unlock();
-    Outcome outcome = done(job);
+    Outcome result = done(job);
     lock.lock();
-    running_.reset();
-    stop_ = std::stop_source(std::nostopstate);
-    stage_.clear();
+    running.reset();
+    stop = std::stop_source(std::nostopstate);
+    stage.clear();
     // A cancelled preview has no result to report.
-    if (job.kind == Kind::files || !outcome.cancelled) outcome_ = std::move(outcome);
-    if (!next_) idle_.notify_all();
+    if (job.kind == Kind::files || !result.cancelled) outcome = std::move(result);
+    if (!next) idle.notify_all();
   }
 }
 
-Exporter::Outcome Exporter::done(const Job& job) {
-  const auto show = [this](std::string_view stage) {
-    const std::lock_guard lock(mutex_);
-    stage_ = stage;
+Exporter::Outcome Exporter::State::done(const Job& job) {
+  const auto show = [this](std::string_view now) {
+    const std::lock_guard lock(mutex);
+    stage = now;
   };
-  if (pictured_ != job.pot) thumbnail_.reset();
-  pictured_ = job.pot;
-  auto result = request_of(job.choices, *job.pot).and_then([&](solid::ExportRequest request) {
-    request.options.cancelled = [token = job.stop.get_token()] { return token.stop_requested(); };
-    request.options.expect_memory = [](std::uint64_t bytes) {
-      return cli::expect_room("writing meshes", bytes);
-    };
-    cli::pack_pot(*job.pot, request, thumbnail_);
-    return job.kind == Kind::files ? solid::export_files(*job.pot, request, show)
-                                   : solid::preview_export(*job.pot, request, show);
-  });
+  if (pictured != job.pot) thumbnail.reset();
+  pictured = job.pot;
+  auto result = run_export(
+      *job.pot, job.choices, job.kind, thumbnail,
+      [token = job.stop.get_token()] { return token.stop_requested(); }, show);
   const bool cancelled = !result && job.stop.stop_requested();
   return {job.kind, job.pot, job.choices, std::move(result), cancelled, paths_of(job.choices)};
 }

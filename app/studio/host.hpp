@@ -21,14 +21,19 @@ class Host {
   [[nodiscard]] virtual float content_scale() const = 0;
   /// Clock of the servo.
   [[nodiscard]] virtual servo::Clock& clock() = 0;
-  /// True if that clock runs in real time. Otherwise the servo advances within each frame up to the
-  /// time of the frame, and every run gives the same result.
+  /// True if that clock runs in real time. Otherwise every run gives the same result: background
+  /// jobs are waited for.
   [[nodiscard]] virtual bool real_time() const = 0;
+  /// True if the servo and the planner of the guide have threads of their own. Otherwise the servo
+  /// advances within each frame up to the time of the frame.
+  [[nodiscard]] virtual bool threads() const { return real_time(); }
   /// Time of this frame on the same clock.
   [[nodiscard]] virtual std::int64_t frame_ns() = 0;
   virtual void set_title(const std::string& title) = 0;
   virtual void set_clipboard(const std::string& text) = 0;
   [[nodiscard]] virtual std::string clipboard() = 0;
+  /// The user has saved or exported this file. A web page offers it as a download.
+  virtual void file_written(const std::string&) {}
 };
 
 }  // namespace clay::studio

@@ -68,7 +68,7 @@ const std::array kFacts = {
     Fact{"triangles",
          [](const AppState& s) {
            return fmt::format("{}",
-                              s.ui.exporting.preview ? s.ui.exporting.preview->size.triangles : 0);
+                              s.ui.exporting.preview ? s.ui.exporting.preview->triangles : 0);
          }},
     Fact{"exported",
          [](const AppState& s) { return fmt::format("{}", s.ui.exporting.written.size()); }},

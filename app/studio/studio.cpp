@@ -62,7 +62,7 @@ Result<std::unique_ptr<Studio>> Studio::create(Host& host, Settings settings,
   studio->painter_.emplace(std::move(*painter));
   studio->context_ = ImGui::CreateContext();
   connect_imgui(host);
-  if (!ImGui_ImplOpenGL3_Init("#version 330 core"))
+  if (!ImGui_ImplOpenGL3_Init(render::glsl_version()))
     return failure(ErrorKind::device, "the window's controls: expected OpenGL 3.3");
   studio->last_s_ = seconds(host.frame_ns());
   return studio;

@@ -81,16 +81,10 @@ using Dialog = std::variant<NoDialog, GalleryDialog, ShortcutsDialog, UnsavedDia
 /// is closed.
 struct ExportState {
   ExportChoices choices;
-  std::optional<solid::ExportReport> preview;
+  std::optional<ExportFigures> preview;
   std::string problem;               ///< why there is no preview, or no file
   std::vector<std::string> written;  ///< files of the last export
   std::string result;                ///< outcome as text
-};
-
-/// A problem at a place of the pot.
-struct Mark {
-  glm::dvec2 place_mm{0.0};  ///< (rho, y)
-  std::string text;
 };
 
 /// The last report about an arm, in the banner and the log.

@@ -5,7 +5,6 @@
 #include "app/servo/words.hpp"
 #include "app/studio/app_state.hpp"
 #include "app/studio/panels/timeline.hpp"
-#include "claystack/export/job.hpp"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -208,28 +207,18 @@ void update_thumbs(AppState& state) {
   ui.thumbs_missing = missing + 1 != wanted.end();
 }
 
-/// The view keeps the pot as it is on the wheel; the solid in the file is larger.
-glm::dvec2 on_pot(const solid::ProfilePoint& place, double shrinkage) {
-  return glm::dvec2(place.rho, place.y) / solid::enlargement(shrinkage);
-}
-
 void mark_problems(AppState& state, const Exporter::Outcome& outcome) {
-  state.ui.marks.clear();
+  state.ui.marks = outcome.done->marks;
   state.ui.marked = outcome.pot;
-  for (const solid::Problem& problem : solid::problems_of(*outcome.done))
-    if (problem.at)
-      state.ui.marks.push_back(
-          {on_pot(*problem.at, outcome.done->prepared.shrinkage), problem.text});
 }
 
-std::string result_text(const solid::ExportReport& report, std::size_t count) {
+std::string result_text(const ExportFigures& figures, std::size_t count) {
   std::string text = fmt::format("{} file{} written", count, count == 1 ? "" : "s");
   std::uint64_t bytes = 0;
-  for (const solid::FileReport& file : report.files)
-    if (file.kind == solid::FileKind::mesh) bytes += file.bytes;
-  if (report.has_solid())
+  for (const ExportFigures::Mesh& mesh : figures.meshes) bytes += mesh.bytes;
+  if (figures.has_solid)
     text += fmt::format("; {} triangles, {:.2f} MB of meshes, each proved and read back",
-                        report.size.triangles, 1e-6 * static_cast<double>(bytes));
+                        figures.triangles, 1e-6 * static_cast<double>(bytes));
   return text;
 }
 
@@ -246,11 +235,14 @@ void take_files(AppState& state, Exporter::Outcome outcome) {
   }
   exporting.written = outcome.paths;
   exporting.result = result_text(*outcome.done, outcome.paths.size());
-  if (outcome.done->has_solid()) {
+  if (outcome.done->has_solid) {
     mark_problems(state, outcome);
     exporting.preview = std::move(*outcome.done);
   }
-  for (const std::string& path : outcome.paths) state.log("exported: " + path);
+  for (const std::string& path : outcome.paths) {
+    state.host.file_written(path);
+    state.log("exported: " + path);
+  }
   if (!state.ui.shows<ExportDialog>()) note(state, Grade::note, exporting.result, kExportNoteS);
   state.settings.folder = outcome.choices.folder;
   state.settings.process = outcome.choices.process;
@@ -266,7 +258,7 @@ void take_preview(AppState& state, Exporter::Outcome outcome) {
   }
   mark_problems(state, outcome);
   exporting.preview = std::move(*outcome.done);
-  state.log(fmt::format("export previewed: {} triangles", exporting.preview->size.triangles));
+  state.log(fmt::format("export previewed: {} triangles", exporting.preview->triangles));
 }
 
 /// The choices that change the solid.

@@ -202,7 +202,7 @@ Result<std::size_t> drc_triangles(std::string_view bytes, std::string_view name)
           return metadata ? draco_counts(without_metadata(bytes, *metadata), name)
                           : draco_counts(bytes, name);
         })
-        .map([](const DracoCounts& counts) { return std::size_t{counts.triangles}; });
+        .map([](const DracoCounts& counts) { return static_cast<std::size_t>(counts.triangles); });
   });
 }
 

@@ -1,11 +1,11 @@
 // Judges a STEP file of this program by its text alone: topology, incidence, orientation, volume.
 
 #include "export/formats/step.hpp"
+#include "core/number_text.hpp"
 #include "export/formats/step_text.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -90,7 +90,7 @@ class StepJudge {
   static double number(const StepValue& value) {
     double result = 0.0;
     const char* end = value.word.data() + value.word.size();
-    if (std::from_chars(value.word.data(), end, result).ptr != end || value.word.empty())
+    if (from_chars(value.word.data(), end, result).ptr != end || value.word.empty())
       throw BadStep{"expected a number, found " + value.word};
     return result;
   }

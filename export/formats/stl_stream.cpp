@@ -1,6 +1,7 @@
 #include "export/formats/stl_stream.hpp"
 
 #include "core/cancel.hpp"
+#include "core/threads.hpp"
 #include "export/formats/stl_layout.hpp"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ class BlockWriter {
  public:
   explicit BlockWriter(FileStore& store, std::size_t facets)
       : store_(store),
-        launch_(facets < kFacetsWorthAThread ? std::launch::deferred : std::launch::async) {
+        launch_(launch_policy(facets >= kFacetsWorthAThread)) {
     for (std::vector<char>& block : blocks_)
       block.resize(stl::file_bytes(std::min(facets, kBlockFacets)));
     stl::store_prologue(blocks_[0].data(), facets);
@@ -165,8 +166,7 @@ Result<void> verify_stl(const RevolveLayout& rule, const FileStore& store) {
     const Stretch lower{&shell, 0, half, facet};
     const Stretch upper{&shell, half, rule.segments(), facet + each * half};
     facet += each * rule.segments();
-    const auto policy =
-        each * rule.segments() < kFacetsWorthAThread ? std::launch::deferred : std::launch::async;
+    const auto policy = launch_policy(each * rule.segments() >= kFacetsWorthAThread);
     auto second = std::async(policy, [&rule, &store, upper, question = CancelScope::current()] {
       const CancelScope scope(question);
       return verify_stretch(rule, upper, store);

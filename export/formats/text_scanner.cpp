@@ -1,10 +1,10 @@
 #include "export/formats/text_scanner.hpp"
 
 #include "core/cancel.hpp"
+#include "core/number_text.hpp"
 #include "export/formats/mesh_limits.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace clay::solid::inline formats {
@@ -35,7 +35,7 @@ template <class Number>
 std::optional<Number> parse(std::string_view word) noexcept {
   word = without_plus(word);
   Number value{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
   return value;
 }

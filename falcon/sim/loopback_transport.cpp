@@ -26,7 +26,7 @@ void LoopbackTransport::wait_until(std::int64_t time_us) noexcept {
     virtual_us_ = std::max(virtual_us_, time_us);
     return;
   }
-  const timespec until{time_us / 1'000'000, time_us % 1'000'000 * 1'000};
+  const timespec until{time_us / 1'000'000, static_cast<long>(time_us % 1'000'000 * 1'000)};
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
 }

@@ -79,29 +79,27 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
     choices.shrinkage_percent = std::round(10.0 * static_cast<double>(percent)) / 10.0;
 }
 
-std::string size_text(const solid::ExportReport& report, double factor, LengthUnit unit) {
-  return fmt::format("{} wide, {} high", length_text(factor * report.size.diameter_mm, unit),
-                     length_text(factor * report.size.height_mm, unit));
+std::string size_text(const ExportFigures& figures, double factor, LengthUnit unit) {
+  return fmt::format("{} wide, {} high", length_text(factor * figures.diameter_mm, unit),
+                     length_text(factor * figures.height_mm, unit));
 }
 
-void draw_figures(const ViewModel& model, const solid::ExportReport& report) {
+void draw_figures(const ViewModel& model, const ExportFigures& figures) {
   const Palette& colours = model.colours();
   const LengthUnit unit = model.settings.unit;
-  value_row(colours, "Triangles", fmt::format("{}", report.size.triangles));
-  for (const solid::FileReport& file : report.files)
-    if (file.kind == solid::FileKind::mesh)
-      value_row(colours, std::string(solid::facts_of(file.format).title).c_str(),
-                fmt::format("{:.3f} MB", 1e-6 * static_cast<double>(file.bytes)));
-  value_row(colours, "Size in the file", size_text(report, 1.0, unit));
-  if (report.prepared.shrinkage > 0.0)
-    value_row(colours, "Fired size", size_text(report, 1.0 - report.prepared.shrinkage, unit));
-  if (!report.collapsed)
+  value_row(colours, "Triangles", fmt::format("{}", figures.triangles));
+  for (const ExportFigures::Mesh& mesh : figures.meshes)
+    value_row(colours, std::string(solid::facts_of(mesh.format).title).c_str(),
+              fmt::format("{:.3f} MB", 1e-6 * static_cast<double>(mesh.bytes)));
+  value_row(colours, "Size in the file", size_text(figures, 1.0, unit));
+  if (figures.shrinkage > 0.0)
+    value_row(colours, "Fired size", size_text(figures, 1.0 - figures.shrinkage, unit));
+  if (!figures.fallen)
     value_row(colours, "Thinnest wall",
-              fmt::format("{:.2f} mm, at a height of {:.1f} mm", report.thinnest_mm(),
-                          report.walls.thinnest.from.y));
+              fmt::format("{:.2f} mm, at a height of {:.1f} mm", figures.thinnest_mm,
+                          figures.thinnest_at_mm));
   ImGui::PushStyleColor(ImGuiCol_Text, colours.warning);
-  for (const solid::Problem& problem : solid::problems_of(report))
-    ImGui::TextWrapped("%s", problem.text.c_str());
+  for (const std::string& problem : figures.problems) ImGui::TextWrapped("%s", problem.c_str());
   ImGui::PopStyleColor();
 }
 

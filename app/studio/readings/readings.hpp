@@ -5,9 +5,8 @@
 #include "app/studio/document.hpp"
 #include "app/studio/readings/clay_figures.hpp"
 #include "app/studio/readings/curves.hpp"
-#include "app/studio/readings/pot_check.hpp"
+#include "app/studio/readings/pot_checker.hpp"
 #include "app/studio/stroke_controller.hpp"
-#include "core/worker.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -28,8 +27,8 @@ struct Wanted {
 
 class Readings {
  public:
-  /// Without `threads` checks run within `update`, so that scripts are reproducible.
-  explicit Readings(bool threads) : checker_(&check_pot, threads) {}
+  /// Without `background` checks run within `update`, so that scripts are reproducible.
+  explicit Readings(bool background) : checker_(background) {}
 
   /// Call once a frame, with the time of the servo's clock. Checks of pots at rest are logged.
   void update(const Document& document, StrokeController& stroke, const Wanted& wanted,
@@ -66,7 +65,7 @@ class Readings {
   bool changed_ = false;  // since the last check
   mutable std::vector<SectionRow> section_;
   mutable std::size_t section_size_ = 0;
-  NewestWorker<PotQuestion, PotCheck> checker_;
+  PotChecker checker_;
 };
 
 }  // namespace clay::studio

@@ -1,0 +1,14 @@
+// Replaces realtime.cpp where a program has one thread and no scheduler to ask: in a web page.
+
+#include "app/servo/servo.hpp"
+
+namespace clay::servo {
+
+Realtime request_realtime(int) {
+  Realtime realtime;
+  realtime.asked = true;
+  realtime.missing = "no real-time scheduling on this system";
+  return realtime;
+}
+
+}  // namespace clay::servo

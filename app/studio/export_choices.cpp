@@ -1,0 +1,111 @@
+#include "app/studio/export_choices.hpp"
+
+#include "app/cli/memory_room.hpp"
+#include "app/cli/packed_pot.hpp"
+#include "app/cli/pot_copy.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace clay::studio {
+namespace {
+
+/// The view keeps the pot as it is on the wheel; the solid in the file is larger.
+glm::dvec2 on_pot(const solid::ProfilePoint& place, double shrinkage) {
+  return glm::dvec2(place.rho, place.y) / solid::enlargement(shrinkage);
+}
+
+}  // namespace
+
+std::vector<std::string> paths_of(const ExportChoices& choices) {
+  std::vector<std::string> paths;
+  const auto add = [&](std::string_view ending) {
+    const std::filesystem::path name = choices.name + std::string(ending);
+    paths.push_back((std::filesystem::path(choices.folder) / name).string());
+  };
+  for (const solid::MeshFormat format : choices.meshes) add(solid::facts_of(format).ending);
+  if (choices.section) add(".svg");
+  if (choices.pot) add(".pot.json");
+  return paths;
+}
+
+Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot& pot) {
+  solid::ExportRequest request;
+  for (const std::string& path : paths_of(choices)) {
+    if (const auto encoding = cli::pot_encoding_of(path)) {
+      if (auto room = cli::expect_room_to_write(pot.stack.size(), *encoding, path); !room)
+        return tl::make_unexpected(room.error());
+      request.files.push_back(
+          {.path = path, .kind = solid::FileKind::given, .bytes = write_pot(pot, *encoding)});
+      continue;
+    }
+    auto file = solid::file_request(path);
+    if (!file) return tl::make_unexpected(file.error());
+    request.files.push_back(std::move(*file));
+  }
+  solid::ExportOptions& options = request.options;
+  options.tolerance_mm = choices.tolerance_mm;
+  options.smoothing = choices.smoothing;
+  options.name = options.source = choices.name;
+  const bool mesh = !choices.meshes.empty();
+  if (mesh || choices.section) options.shrinkage = 0.01 * choices.shrinkage_percent;
+  if (!mesh) return request;
+  if (choices.min_wall_mm > 0.0) options.walls.min_wall_mm = choices.min_wall_mm;
+  if (choices.process.empty()) return request;
+  return solid::read_process(choices.process).map([&](solid::ProcessLimits process) {
+    options.walls.process = std::move(process);
+    return std::move(request);
+  });
+}
+
+std::vector<std::string> standing_files(const ExportChoices& choices) {
+  std::vector<std::string> paths = paths_of(choices);
+  std::erase_if(paths, [](const std::string& path) {
+    std::error_code ignored;
+    return !std::filesystem::exists(path, ignored);
+  });
+  return paths;
+}
+
+ExportFigures figures_of(const solid::ExportReport& report) {
+  ExportFigures figures{.has_solid = report.has_solid(),
+                        .triangles = report.size.triangles,
+                        .meshes = {},
+                        .diameter_mm = report.size.diameter_mm,
+                        .height_mm = report.size.height_mm,
+                        .shrinkage = report.prepared.shrinkage,
+                        .fallen = report.collapsed.has_value(),
+                        .thinnest_mm = report.thinnest_mm(),
+                        .thinnest_at_mm = report.walls.thinnest.from.y,
+                        .problems = {},
+                        .marks = {}};
+  for (const solid::FileReport& file : report.files)
+    if (file.kind == solid::FileKind::mesh) figures.meshes.push_back({file.format, file.bytes});
+  for (const solid::Problem& problem : solid::problems_of(report)) {
+    figures.problems.push_back(problem.text);
+    if (problem.at) figures.marks.push_back({on_pot(*problem.at, figures.shrinkage), problem.text});
+  }
+  return figures;
+}
+
+Result<ExportFigures> run_export(const Pot& pot, const ExportChoices& choices, ExportKind kind,
+                                 std::optional<std::string>& thumbnail,
+                                 const std::function<bool()>& cancelled,
+                                 const std::function<void(std::string_view)>& show_stage) {
+  return request_of(choices, pot)
+      .and_then([&](solid::ExportRequest request) {
+        request.options.cancelled = cancelled;
+        request.options.expect_memory = [](std::uint64_t bytes) {
+          return cli::expect_room("writing meshes", bytes);
+        };
+        cli::pack_pot(pot, request, thumbnail);
+        return kind == ExportKind::files ? solid::export_files(pot, request, show_stage)
+                                         : solid::preview_export(pot, request, show_stage);
+      })
+      .map(&figures_of);
+}
+
+}  // namespace clay::studio

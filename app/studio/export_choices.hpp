@@ -1,0 +1,76 @@
+#pragma once
+// What the export dialog asks for and what it shows: values that the window, its export thread and the
+// worker of a web page exchange.
+
+#include "claystack/core/result.hpp"
+#include "claystack/engine/clay.hpp"
+#include "claystack/export/job.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clay::studio {
+
+inline constexpr double kFinestMm = 0.001, kCoarsestMm = 1.0;  // tolerance [mm]
+inline constexpr double kThickestDemandMm = 20.0;
+
+/// The settings of the export dialog.
+struct ExportChoices {
+  std::vector<solid::MeshFormat> meshes = {solid::MeshFormat::three_mf};
+  bool section = false, pot = false;
+  std::string folder, name;
+  double tolerance_mm = 0.02;
+  solid::Smoothing smoothing = solid::Smoothing::fair;
+  std::string process;       ///< as for --process; empty: none
+  double min_wall_mm = 0.0;  ///< 0: the limit of the process, if there is one
+  double shrinkage_percent = 0.0;
+  friend bool operator==(const ExportChoices&, const ExportChoices&) = default;
+};
+
+/// A problem at a place of the pot.
+struct Mark {
+  glm::dvec2 place_mm{0.0};  ///< (rho, y), on the pot as it is on the wheel
+  std::string text;
+};
+
+/// The results of an export. Sizes are those of the file, enlarged for shrinkage.
+struct ExportFigures {
+  struct Mesh {
+    solid::MeshFormat format = solid::MeshFormat::stl_binary;
+    std::uint64_t bytes = 0;
+  };
+  bool has_solid = false;  ///< a mesh was written; without one the figures are those of no solid
+  std::size_t triangles = 0;
+  std::vector<Mesh> meshes;
+  double diameter_mm = 0.0, height_mm = 0.0, shrinkage = 0.0;
+  bool fallen = false;  ///< walls are not measured
+  double thinnest_mm = 0.0, thinnest_at_mm = 0.0;
+  std::vector<std::string> problems;
+  std::vector<Mark> marks;  ///< problems with a place
+};
+[[nodiscard]] ExportFigures figures_of(const solid::ExportReport& report);
+
+/// The request for this pot. Errors: an unknown or unreadable process.
+[[nodiscard]] Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot& pot);
+/// Paths of the output files, in the order of the request.
+[[nodiscard]] std::vector<std::string> paths_of(const ExportChoices& choices);
+/// Those of the output files that exist already.
+[[nodiscard]] std::vector<std::string> standing_files(const ExportChoices& choices);
+
+enum class ExportKind {
+  preview,  ///< computes the figures without writing
+  files
+};
+/// Runs the export. `thumbnail`: picture of the pot for a 3MF, made if it is empty and necessary.
+Result<ExportFigures> run_export(const Pot& pot, const ExportChoices& choices, ExportKind kind,
+                                 std::optional<std::string>& thumbnail,
+                                 const std::function<bool()>& cancelled,
+                                 const std::function<void(std::string_view)>& show_stage);
+
+}  // namespace clay::studio

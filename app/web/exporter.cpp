@@ -1,0 +1,104 @@
+// Replaces app/studio/exporter.cpp in a page: the worker exports, and the window puts the files where
+// file_written offers them as downloads.
+
+#include "app/studio/exporter.hpp"
+
+#include "app/web/job_message.hpp"
+#include "app/web/page_worker.hpp"
+#include "claystack/core/atomic_file.hpp"
+
+#include <utility>
+
+namespace clay::studio {
+namespace {
+
+struct Job {
+  ExportKind kind;
+  history::SharedPot pot;
+  ExportChoices choices;
+};
+
+Result<ExportFigures> store(web::ExportAnswer answer, const std::vector<std::string>& paths) {
+  for (std::size_t i = 0; i < answer.files.size() && i < paths.size(); ++i)
+    if (auto stored = publish(paths[i], answer.files[i]); !stored)
+      return tl::make_unexpected(stored.error());
+  return std::move(answer.done);
+}
+
+Result<ExportFigures> result_in(const std::string& message, const std::vector<std::string>& paths) {
+  std::optional<web::ExportAnswer> answer;
+  if (!message.empty()) answer = web::export_in(message);
+  if (answer) return store(std::move(*answer), paths);
+  return failure(ErrorKind::io, "The export stopped: the browser may have too little memory");
+}
+
+}  // namespace
+
+struct Exporter::State {
+  web::PageWorker worker{web::PageWorker::Slot::exporting};
+  std::optional<Job> running, next;
+  std::optional<Outcome> outcome;
+
+  [[nodiscard]] bool writes() const {
+    return (running && running->kind == Kind::files) || (next && next->kind == Kind::files);
+  }
+  /// A preview does not cancel a job that writes files.
+  void put(Job job) {
+    if (job.kind == Kind::preview && writes()) return;
+    outcome.reset();
+    next = std::move(job);
+    post_next();
+  }
+  void post_next() {
+    if (running || !next) return;
+    running = std::exchange(next, std::nullopt);
+    worker.post(web::message_of(*running->pot, running->choices, running->kind));
+  }
+  void receive() {
+    const auto message = worker.take();
+    if (!message || !running) return;
+    const Job job = *std::exchange(running, std::nullopt);
+    const auto paths = paths_of(job.choices);
+    if (job.kind == Kind::files || !next)
+      outcome = Outcome{job.kind, job.pot, job.choices, result_in(*message, paths), false, paths};
+    post_next();
+  }
+};
+
+Exporter::Exporter() : state_(std::make_unique<State>()) {}
+Exporter::~Exporter() = default;
+
+void Exporter::preview(history::SharedPot pot, const ExportChoices& choices) {
+  state_->put({Kind::preview, std::move(pot), choices});
+}
+
+void Exporter::write(history::SharedPot pot, const ExportChoices& choices) {
+  state_->put({Kind::files, std::move(pot), choices});
+}
+
+void Exporter::cancel() {
+  state_->next.reset();
+  if (!state_->running) return;
+  state_->worker.stop();
+  const Job job = *std::exchange(state_->running, std::nullopt);
+  if (job.kind == Kind::files)
+    state_->outcome = Outcome{job.kind, job.pot, job.choices,
+                              failure(ErrorKind::io, "cancelled"), true, paths_of(job.choices)};
+}
+
+bool Exporter::busy() const { return state_->running || state_->next; }
+
+std::string Exporter::stage() const { return state_->worker.stage(); }
+
+std::optional<Exporter::Kind> Exporter::running() const {
+  return state_->running ? std::optional(state_->running->kind) : std::nullopt;
+}
+
+std::optional<Exporter::Outcome> Exporter::take() {
+  state_->receive();
+  return std::exchange(state_->outcome, std::nullopt);
+}
+
+void Exporter::wait() {}  // an answer comes between two frames only
+
+}  // namespace clay::studio

@@ -1,0 +1,144 @@
+// The page's program: the window in a canvas. The script page/page.js sends the events of the browser
+// and calls claystack_frame for each frame.
+
+#include "app/studio/studio.hpp"
+#include "app/web/page_worker.hpp"
+#include "app/web/web_host.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/files.hpp"
+#include "core/worker.hpp"
+
+#include <emscripten.h>
+#include <emscripten/html5.h>
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace clay::web {
+namespace {
+
+EM_JS(void, page_log, (const char* text, int size), { Module["page"].log(UTF8ToString(text, size)); });
+EM_JS(void, page_fail, (const char* text), { Module["page"].fail(UTF8ToString(text)); });
+
+constexpr const char* kCanvas = "#canvas";
+constexpr int kFramesAfterEvent = 3;
+
+std::unique_ptr<WebHost> host;
+std::unique_ptr<studio::Studio> window;
+int frames_wanted = kFramesAfterEvent;
+bool damaged = true;
+
+void take(studio::Input input) {
+  if (!window) return;
+  window->take(std::move(input));
+  frames_wanted = kFramesAfterEvent;
+}
+
+/// The studio draws into canvases of its own, so the page needs neither samples nor depth.
+bool create_context() {
+  EmscriptenWebGLContextAttributes wish;
+  emscripten_webgl_init_context_attributes(&wish);
+  wish.majorVersion = 2;
+  wish.alpha = wish.antialias = wish.depth = wish.stencil = false;
+  const auto context = emscripten_webgl_create_context(kCanvas, &wish);
+  return context > 0 && emscripten_webgl_make_context_current(context) == EMSCRIPTEN_RESULT_SUCCESS;
+}
+
+void begin(std::string_view theme) {
+  if (!create_context()) return page_fail("This browser does not offer WebGL 2");
+  host = std::make_unique<WebHost>();
+  auto loaded = studio::load_settings(studio::settings_path());
+  std::error_code ignored;
+  if (!std::filesystem::exists(studio::settings_path(), ignored))
+    loaded.settings.theme = theme == "light" ? studio::Theme::light : studio::Theme::dark;
+  loaded.settings.folder = std::filesystem::path(studio::settings_path().root_path() / "home" / "web_user").string();
+  auto made = studio::Studio::create(*host, loaded.settings, [](std::string_view line) {
+    page_log(line.data(), static_cast<int>(line.size()));
+  });
+  if (!made) return page_fail(made.error().message.c_str());
+  window = std::move(*made);
+  studio::AppState& state = window->state();
+  state.settings_file = studio::SettingsFile(studio::settings_path(), state.settings);
+  state.document.keep_journals();
+  state.recoverable = history::recoverable();
+  if (!loaded.note.empty()) state.ui.notices.show(studio::Grade::warning, loaded.note);
+  if (!state.recoverable.empty())
+    state.log(fmt::format("recovery offered: {}", state.recoverable.size()));
+  state.log("window open");
+}
+
+}  // namespace
+}  // namespace clay::web
+
+using namespace clay;
+using namespace clay::web;
+
+extern "C" {
+/// Returns true if the next frame is wanted at once.
+EMSCRIPTEN_KEEPALIVE bool claystack_frame(double page_ms) {
+  if (!window) return false;
+  PeriodicWorker::run_all();
+  host->begin_frame(page_ms);
+  window->frame(std::exchange(damaged, false) ? studio::Painting::always
+                                              : studio::Painting::if_changed);
+  if (frames_wanted > 0) --frames_wanted;
+  return frames_wanted > 0 || window->wakeful();
+}
+EMSCRIPTEN_KEEPALIVE void claystack_resize(int width_px, int height_px, float scale) {
+  if (!window) return;
+  if (scale != host->content_scale()) window->state().ui.restyle = true;
+  host->resize({width_px, height_px}, scale);
+  damaged = true;
+  frames_wanted = kFramesAfterEvent;
+}
+EMSCRIPTEN_KEEPALIVE void claystack_pointer(float x_px, float y_px) {
+  take(studio::PointerMoved{{x_px, y_px}});
+}
+EMSCRIPTEN_KEEPALIVE void claystack_button(int button, bool down, unsigned mods) {
+  take(studio::ButtonChanged{static_cast<studio::MouseButton>(button), down, mods});
+}
+EMSCRIPTEN_KEEPALIVE void claystack_scroll(float steps) { take(studio::Scrolled{steps}); }
+EMSCRIPTEN_KEEPALIVE void claystack_key(int key, bool down, bool repeated, unsigned mods) {
+  take(studio::KeyChanged{key, down, repeated, mods});
+}
+EMSCRIPTEN_KEEPALIVE void claystack_text(unsigned character) {
+  take(studio::TextTyped{static_cast<char32_t>(character)});
+}
+EMSCRIPTEN_KEEPALIVE void claystack_paste(const char* text) {
+  if (host) host->paste(text);
+}
+EMSCRIPTEN_KEEPALIVE void claystack_open(const char* path) {
+  take(studio::FilesDropped{{path}});
+}
+/// The page is hidden: a stroke that is under way ends.
+EMSCRIPTEN_KEEPALIVE void claystack_hide() {
+  if (!window) return;
+  window->state().stroke.release();
+  PeriodicWorker::run_all();
+}
+/// Writes the pot on the wheel in its compact form. False: there is none.
+EMSCRIPTEN_KEEPALIVE bool claystack_write_pot(const char* path) {
+  if (!window || !window->state().document.has_work()) return false;
+  return publish(path, write_pot(window->state().document.pot(), PotEncoding::cbor)).has_value();
+}
+EMSCRIPTEN_KEEPALIVE void claystack_notice(const char* text) {
+  if (!window) return;
+  window->state().ui.notices.show(studio::Grade::warning, text);
+  frames_wanted = kFramesAfterEvent;
+}
+EMSCRIPTEN_KEEPALIVE void claystack_answered(int worker, const char* message, int size) {
+  PageWorker::receive(worker, {message, static_cast<std::size_t>(size)});
+  frames_wanted = kFramesAfterEvent;
+}
+EMSCRIPTEN_KEEPALIVE void claystack_stage(int worker, const char* text) {
+  PageWorker::show_stage(worker, text);
+  frames_wanted = kFramesAfterEvent;
+}
+}
+
+int main(int argc, char** argv) {
+  begin(argc > 1 ? argv[1] : "dark");
+  return 0;
+}

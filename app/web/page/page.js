@@ -1,0 +1,363 @@
+// Connects the page with the module: events, frames, files, workers, storage.
+'use strict';
+
+const kHome = '/home/web_user';
+const kIdleMs = 500;       // interval of frames without input
+const kStoreMs = 1000;     // works and settings are stored at most this late
+const kMostLinkBytes = 8192;
+const kMeshes = /\.(stl|obj|ply|off|glb|drc|3mf|step|stp)$/i;
+const kShift = 1, kControl = 2, kAlt = 4;
+
+const by = id => document.getElementById(id);
+const canvas = by('canvas');
+let studio = null;
+
+function say(text) { by('message').textContent = text; }
+function status(text) { by('status').textContent = text; }
+
+// ---- frames ------------------------------------------------------------------------------------
+
+let asked = false, idle = 0;
+function ask() {
+  if (asked || !studio || document.hidden) return;
+  asked = true;
+  clearTimeout(idle);
+  requestAnimationFrame(now => {
+    asked = false;
+    const more = studio._claystack_frame(now);
+    changed = true;
+    if (more) ask();
+    else idle = setTimeout(ask, kIdleMs);
+  });
+}
+
+function resize() {
+  const scale = window.devicePixelRatio || 1;
+  const box = canvas.getBoundingClientRect();
+  canvas.width = Math.max(1, Math.round(box.width * scale));
+  canvas.height = Math.max(1, Math.round(box.height * scale));
+  studio._claystack_resize(canvas.width, canvas.height, scale);
+  ask();
+}
+
+// ---- pointer: mouse, pen, touch ----------------------------------------------------------------
+
+function mods(event) {
+  return (event.shiftKey ? kShift : 0) | (event.ctrlKey || event.metaKey ? kControl : 0) |
+         (event.altKey ? kAlt : 0);
+}
+
+function point(event) {
+  const box = canvas.getBoundingClientRect();
+  studio._claystack_pointer((event.clientX - box.left) * canvas.width / box.width,
+                            (event.clientY - box.top) * canvas.height / box.height);
+}
+
+const kButtons = [0, 2, 1];  // left, middle, right: those of the program
+const down = new Set();
+function button(index, pressed, event) {
+  if (pressed === down.has(index)) return;
+  if (pressed) down.add(index); else down.delete(index);
+  studio._claystack_button(index, pressed, mods(event));
+  ask();
+}
+
+function listenToPointer() {
+  canvas.addEventListener('pointerdown', event => {
+    canvas.focus();
+    if (event.button > 2 || (event.pointerType === 'touch' && !event.isPrimary)) return;
+    canvas.setPointerCapture(event.pointerId);
+    point(event);
+    button(kButtons[event.button], true, event);
+    event.preventDefault();
+  });
+  canvas.addEventListener('pointermove', event => {
+    if (event.pointerType === 'touch' && !event.isPrimary) return;
+    for (const part of event.getCoalescedEvents?.().slice(-1) ?? []) event = part;
+    point(event);
+    ask();
+  });
+  const up = event => {
+    if (event.button > 2 || (event.pointerType === 'touch' && !event.isPrimary)) return;
+    point(event);
+    button(kButtons[Math.max(0, event.button)], false, event);
+  };
+  canvas.addEventListener('pointerup', up);
+  canvas.addEventListener('pointercancel', event => { for (const b of [...down]) button(b, false, event); });
+  canvas.addEventListener('wheel', event => {
+    studio._claystack_scroll(event.deltaY > 0 ? -1 : event.deltaY < 0 ? 1 : 0);
+    ask();
+    event.preventDefault();
+  }, {passive: false});
+  canvas.addEventListener('contextmenu', event => event.preventDefault());
+}
+
+// ---- keys --------------------------------------------------------------------------------------
+
+const kKeys = {Escape: 256, Enter: 257, Tab: 258, Backspace: 259, Insert: 260, Delete: 261,
+  ArrowRight: 262, ArrowLeft: 263, ArrowDown: 264, ArrowUp: 265, PageUp: 266, PageDown: 267,
+  Home: 268, End: 269, ' ': 32};
+
+/// The code of GLFW; -1: the program does not use the key.
+function codeOf(event) {
+  if (event.key in kKeys) return kKeys[event.key];
+  const f = /^F(\d+)$/.exec(event.key);
+  if (f) return 289 + Number(f[1]);
+  return event.key.length === 1 && event.key < '\x7f' ? event.key.toUpperCase().charCodeAt(0) : -1;
+}
+
+function listenToKeys() {
+  canvas.addEventListener('keydown', event => {
+    const code = codeOf(event), control = event.ctrlKey || event.metaKey;
+    if (control && code === 86) return;  // the event `paste` follows
+    if (code >= 0) studio._claystack_key(code, true, event.repeat, mods(event));
+    if (!control && !event.altKey && event.key.length === 1)
+      studio._claystack_text(event.key.codePointAt(0));
+    ask();
+    // Leaves the page's own keys to the browser: reload, developer tools, tabs.
+    if (code >= 0 && !(control && /^[rtnwl]$/i.test(event.key)) && !/^F(5|11|12)$/.test(event.key) &&
+        !(event.key === 'Tab' && event.shiftKey))
+      event.preventDefault();
+  });
+  canvas.addEventListener('keyup', event => {
+    const code = codeOf(event);
+    if (code >= 0) studio._claystack_key(code, false, false, mods(event));
+    ask();
+  });
+  document.addEventListener('paste', event => {
+    if (document.activeElement !== canvas) return;
+    withText(event.clipboardData.getData('text'), text => studio._claystack_paste(text));
+    for (const pressed of [true, false]) studio._claystack_key(86, pressed, false, kControl);
+    ask();
+  });
+}
+
+// ---- files -------------------------------------------------------------------------------------
+
+function withText(text, use) {
+  const place = studio.stringToNewUTF8(text);
+  try { return use(place); } finally { studio._free(place); }
+}
+
+function storeIn(name, bytes) {
+  const folder = '/opened';
+  if (!studio.FS.analyzePath(folder).exists) studio.FS.mkdir(folder);
+  const path = folder + '/' + name.replace(/[/\0]/g, '_');
+  studio.FS.writeFile(path, bytes);
+  return path;
+}
+
+function pickFile(then) {
+  const input = document.createElement('input');
+  input.type = 'file';
+  input.onchange = async () => {
+    const file = input.files[0];
+    then(file ? {name: file.name, bytes: new Uint8Array(await file.arrayBuffer())} : null);
+  };
+  input.oncancel = () => then(null);
+  input.click();
+}
+
+function open({name, bytes}) {
+  if (kMeshes.test(name)) return checkMesh({name, bytes});
+  withText(storeIn(name, bytes), path => studio._claystack_open(path));
+  ask();
+}
+
+function save(name, bytes) {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(new Blob([bytes]));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+}
+
+/// What the program calls (Module.page).
+const page = {
+  log(line) {
+    const text = document.createElement('p');
+    text.textContent = line;
+    by('events').append(text);
+    while (by('events').childElementCount > 50) by('events').firstChild.remove();
+  },
+  fail(text) { say(text); },
+  copy(text) { navigator.clipboard?.writeText(text).catch(() => {}); },
+  /// Works stay in the storage of the browser too; exports do not.
+  download(path) {
+    save(path.slice(path.lastIndexOf('/') + 1), studio.FS.readFile(path));
+    if (!path.endsWith('.work')) studio.FS.unlink(path);
+  },
+  pick() {
+    pickFile(file => withText(file ? storeIn(file.name, file.bytes) : '', path => {
+      studio._claystack_picked(path);
+      ask();
+    }));
+  },
+  post(slot, question) { worker(slot).postMessage({question}, [question.buffer]); },
+  stop(slot) {
+    workers[slot]?.terminate();
+    workers[slot] = null;
+  },
+};
+
+// ---- workers -----------------------------------------------------------------------------------
+
+const workers = [null, null];
+function answered(slot, bytes) {
+  const place = studio._malloc(bytes.length || 1);
+  studio.HEAPU8.set(bytes, place);
+  studio._claystack_answered(slot, place, bytes.length);
+  studio._free(place);
+  ask();
+}
+
+function worker(slot) {
+  if (workers[slot]) return workers[slot];
+  const made = new Worker('worker.js');
+  made.onmessage = ({data}) => {
+    if (data.answer) answered(slot, data.answer);
+    else if (data.stage) withText(data.stage, text => studio._claystack_stage(slot, text));
+    ask();
+  };
+  made.onerror = event => {
+    event.preventDefault();
+    page.log('error: worker: ' + event.message);
+    page.stop(slot);
+    answered(slot, new Uint8Array());
+  };
+  return workers[slot] = made;
+}
+
+function checkMesh(file) {
+  by('report-title').textContent = file.name;
+  by('report-verdict').textContent = 'Checking on this machine; the file is not sent anywhere...';
+  by('report-text').textContent = '';
+  by('report').showModal();
+  const made = new Worker('worker.js');
+  const done = (verdict, text) => {
+    made.terminate();
+    by('report-verdict').textContent = verdict;
+    by('report-text').textContent = text;
+  };
+  by('report').onclose = () => made.terminate();
+  made.onmessage = ({data}) => done(
+    data.status === 0 ? 'Sound: one closed solid without self-intersections'
+      : data.status === 1 ? 'Not sound: the report says why' : 'The file could not be read',
+    data.out || data.err);
+  made.onerror = event => done('The check stopped: the browser may have too little memory', event.message);
+  made.postMessage({words: ['check', '--json', file.name], files: [file]}, [file.bytes.buffer]);
+}
+
+// ---- links -------------------------------------------------------------------------------------
+
+async function through(stream, bytes) {
+  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+}
+
+async function copyLink() {
+  const path = '/link.pot.cbor';
+  if (!withText(path, place => studio._claystack_write_pot(place)))
+    return status('There is no pot on the wheel');
+  const packed = await through(new CompressionStream('deflate-raw'), studio.FS.readFile(path));
+  studio.FS.unlink(path);
+  const code = btoa(String.fromCharCode(...packed)).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
+  if (code.length > kMostLinkBytes)
+    return status(`The pot takes ${code.length} characters; a link holds ${kMostLinkBytes}. Save it instead.`);
+  history.replaceState(null, '', '#pot=' + code);
+  await navigator.clipboard?.writeText(location.href).catch(() => {});
+  status('The address of this page now holds the pot; it is copied');
+}
+
+async function openLink() {
+  const code = /^#pot=([\w-]+)$/.exec(location.hash)?.[1];
+  if (!code) return;
+  try {
+    if (code.length > kMostLinkBytes) throw new Error('too long');
+    const packed = Uint8Array.from(atob(code.replace(/-/g, '+').replace(/_/g, '/')), c => c.charCodeAt(0));
+    open({name: 'link.pot.cbor', bytes: await through(new DecompressionStream('deflate-raw'), packed)});
+  } catch (error) {
+    status('The link holds no pot: it was cut off or changed');
+  }
+}
+
+// ---- storage -----------------------------------------------------------------------------------
+
+let changed = false, storing = false, warned = false;
+function store() {
+  if (!changed || storing || !studio) return;
+  changed = false;
+  storing = true;
+  studio.FS.syncfs(false, error => {
+    storing = false;
+    if (!error) { warned = false; return; }
+    changed = true;
+    if (warned) return;
+    warned = true;
+    withText('The browser could not store the work: its storage may be full. What was stored before ' +
+             'remains. Save the work as a file (Ctrl+S). ' + (error.message ?? ''),
+             text => studio._claystack_notice(text));
+    ask();
+  });
+}
+
+// ---- start -------------------------------------------------------------------------------------
+
+function missing() {
+  try {
+    // A module with one empty function that has a `try` block.
+    const exceptions = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 8, 1, 6, 0, 6, 64, 25, 11, 11]);
+    if (!WebAssembly.validate(exceptions)) return 'WebAssembly with exceptions';
+  } catch { return 'WebAssembly'; }
+  if (!document.createElement('canvas').getContext('webgl2')) return 'WebGL 2';
+  return null;
+}
+
+async function start() {
+  const lack = missing();
+  if (lack) return say(`This browser does not offer ${lack}. Claystack needs a recent Chromium, Firefox or Safari.`);
+  const light = matchMedia('(prefers-color-scheme: light)').matches;
+  const made = await claystackPage({
+    canvas, page, arguments: [light ? 'light' : 'dark'],
+    preRun: [module => {
+      module.FS.mkdirTree(kHome);
+      module.FS.mount(module.IDBFS, {}, kHome);
+      module.addRunDependency('storage');
+      module.FS.syncfs(true, error => {
+        if (error) page.log('error: storage: ' + error);
+        module.removeRunDependency('storage');
+      });
+    }],
+    print: line => page.log(line), printErr: line => console.warn(line),
+  });
+  if (by('message').textContent !== 'Loading...') return;
+  studio = made;
+  say('');
+  listenToPointer();
+  listenToKeys();
+  new ResizeObserver(resize).observe(canvas);
+  window.addEventListener('resize', resize);
+  resize();
+  document.addEventListener('visibilitychange', () => {
+    if (document.hidden) {
+      studio._claystack_hide();
+      changed = true;
+      store();
+    }
+    ask();
+  });
+  window.addEventListener('dragover', event => event.preventDefault());
+  window.addEventListener('drop', async event => {
+    event.preventDefault();
+    const file = event.dataTransfer.files[0];
+    if (file) open({name: file.name, bytes: new Uint8Array(await file.arrayBuffer())});
+  });
+  by('open').onclick = () => pickFile(file => file && open(file));
+  by('check').onclick = () => pickFile(file => file && checkMesh(file));
+  by('link').onclick = copyLink;
+  by('about').onclick = () => by('about-text').showModal();
+  setInterval(store, kStoreMs);
+  canvas.focus();
+  openLink();
+}
+
+start().catch(error => say('Claystack could not start: ' + (error.message ?? error)));

@@ -1,0 +1,20 @@
+#pragma once
+// Whether the program can start threads. In a web page it cannot: work that natively has a thread of
+// its own is done by the caller, between frames or in a worker of the page.
+
+#include <future>
+
+namespace clay {
+
+#ifdef __EMSCRIPTEN__
+inline constexpr bool kThreads = false;
+#else
+inline constexpr bool kThreads = true;
+#endif
+
+/// For std::async: on another thread if that is worth it and possible, otherwise when waited for.
+[[nodiscard]] constexpr std::launch launch_policy(bool worth_a_thread) noexcept {
+  return kThreads && worth_a_thread ? std::launch::async : std::launch::deferred;
+}
+
+}  // namespace clay
