@@ -38,7 +38,7 @@ struct ExportCommand {
   solid::ExportRequest request;
   std::string smooth = "fair";
   std::string verify = "margins";
-  std::optional<std::string> step;
+  std::optional<std::string> step, glb;
   solid::Goal goal;
   bool fill_line = false;  ///< asked for
 
@@ -135,6 +135,8 @@ Result<void> check_options(const ExportCommand& command) {
           [&] { return need(command.walls.asked(), "--min-wall and --process", "a solid", solid); })
       .and_then([&] { return need(command.step.has_value(), "--step", "a .step", step); })
       .and_then(
+          [&] { return need(command.glb.has_value(), "--glb", "a .glb", format(MeshFormat::glb)); })
+      .and_then(
           [&] { return need(command.ascii, "--ascii", "an .stl", format(MeshFormat::stl_ascii)); })
       .and_then([&] {
         return need(command.request.options.normals, "--normals", "an .obj",
@@ -167,6 +169,7 @@ Result<void> complete_request(ExportCommand& command) {
   solid::ExportOptions& options = command.request.options;
   options.smoothing = smoothing_of(command.smooth);
   if (command.step == "lines") options.step_walls = solid::StepWalls::lines;
+  if (command.glb == "core") options.glb = solid::GlbMesh::core;
   options.full_verification = command.verify == "full";
   options.finish.glaze_mm = command.glaze_mm * solid::enlargement(options.shrinkage);
   options.walls = command.walls.demand();
@@ -367,6 +370,11 @@ void add_file_options(CLI::App* sub, const SharedCommand& command) {
                   "Walls in a .step: spline: one smooth surface for each wall, within the "
                   "tolerance; lines: cones, exactly (default: spline)")
       ->check(CLI::IsMember({"spline", "lines"}));
+  sub->add_option(
+         "--glb", command->glb,
+         "Mesh in a .glb: draco: compressed, within the tolerance; core: plain, for readers "
+         "without Draco (default: draco)")
+      ->check(CLI::IsMember({"draco", "core"}));
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");
   sub->add_flag("--normals", command->request.options.normals,
                 "Write .obj with normals, for shading");

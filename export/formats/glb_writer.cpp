@@ -35,30 +35,7 @@ TriangleMesh in_metres(const TriangleMesh& mesh) {
   return turned;
 }
 
-#ifdef CLAYSTACK_DRACO
-/// A vertex is rounded to float32 in metres before Draco's grid, and to float32 in mm by a reader
-/// after it; the grid keeps what is left of the error.
-Result<Packed> packed(const TriangleMesh& metres, DracoSettings settings) {
-  double farthest = 0.0;
-  for (const glm::dvec3& point : metres.points) farthest = std::max(farthest, glm::length(point));
-  constexpr double kRoundings = 3.0;
-  settings.max_error_mm =
-      settings.max_error_mm / kMmPerMetre - kRoundings * std::ldexp(farthest, -24);
-  if (!(settings.max_error_mm > 0.0))
-    return failure(ErrorKind::bad_input,
-                   "cannot write .glb: expected a vertex error above the rounding to float32");
-  return encode_draco(metres, settings).map([](EncodedDraco encoded) {
-    return Packed{std::move(encoded.bytes),
-                  encoded.points,
-                  3 * encoded.triangles,
-                  0,
-                  encoded.low,
-                  encoded.high,
-                  true};
-  });
-}
-#else
-Result<Packed> packed(const TriangleMesh& metres, const DracoSettings&) {
+Packed plain_of(const TriangleMesh& metres) {
   Packed plain;
   plain.points = metres.points.size();
   plain.indices = 3 * metres.triangles.size();
@@ -80,7 +57,39 @@ Result<Packed> packed(const TriangleMesh& metres, const DracoSettings&) {
     }
   return plain;
 }
+
+#ifdef CLAYSTACK_DRACO
+/// A vertex is rounded to float32 in metres before Draco's grid, and to float32 in mm by a reader
+/// after it; the grid keeps what is left of the error.
+Result<Packed> compressed(const TriangleMesh& metres, DracoSettings settings) {
+  double farthest = 0.0;
+  for (const glm::dvec3& point : metres.points) farthest = std::max(farthest, glm::length(point));
+  constexpr double kRoundings = 3.0;
+  settings.max_error_mm =
+      settings.max_error_mm / kMmPerMetre - kRoundings * std::ldexp(farthest, -24);
+  if (!(settings.max_error_mm > 0.0))
+    return failure(ErrorKind::bad_input,
+                   "cannot write .glb: expected a vertex error above the rounding to float32");
+  return encode_draco(metres, settings).map([](EncodedDraco encoded) {
+    return Packed{std::move(encoded.bytes),
+                  encoded.points,
+                  3 * encoded.triangles,
+                  0,
+                  encoded.low,
+                  encoded.high,
+                  true};
+  });
+}
 #endif
+
+Result<Packed> packed(const TriangleMesh& metres, const FileContents& contents) {
+#ifdef CLAYSTACK_DRACO
+  if (contents.glb == GlbMesh::draco) return compressed(metres, contents.draco);
+#else
+  (void)contents;
+#endif
+  return plain_of(metres);
+}
 
 /// float32 as the shortest decimals that read back as the same double.
 OrderedJson numbers(const glm::vec3& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
@@ -143,7 +152,7 @@ void append_chunk(std::string& file, std::uint32_t type, std::string bytes, char
 }  // namespace
 
 Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& contents) {
-  return packed(in_metres(mesh), contents.draco)
+  return packed(in_metres(mesh), contents)
       .and_then([&](const Packed& packed) -> Result<std::string> {
         std::string file(kGlbHeaderBytes, '\0');
         append_chunk(

@@ -64,8 +64,10 @@ Result<FileReport> RevolveFiles::write(MeshFormat format, FileStore& store) {
     case MeshFormat::stl_binary:
       return stream(store);
     case MeshFormat::drc:
-    case MeshFormat::glb:
       return write_on_grid(format, store);
+    case MeshFormat::glb:
+      return options_.glb == GlbMesh::draco ? write_on_grid(format, store)
+                                            : write_whole(format, store);
     case MeshFormat::three_mf:
       return write_3mf(store);
     default:
@@ -122,7 +124,9 @@ FileContents RevolveFiles::contents_of(MeshFormat format) {
 /// Printed digits read back as the same float32. A reader that uses doubles gets up to half a unit
 /// in the last place more error; binary numbers have no more than their own.
 Result<FileReport> RevolveFiles::write_whole(MeshFormat format, FileStore& store) {
-  const double rounding = (facts_of(format).decimal ? 2.0 : 1.0) * float_rounding_mm(rule_);
+  // A GLB is in metres: rounded in mm, in metres, and in mm again by a reader.
+  const double roundings = format == MeshFormat::glb ? 3.0 : facts_of(format).decimal ? 2.0 : 1.0;
+  const double rounding = roundings * float_rounding_mm(rule_);
   return prove_rounded(rounding).and_then([&](Proof proof) {
     const TriangleMesh& solid = mesh();
     const FileContents contents = contents_of(format);

@@ -111,6 +111,23 @@ TEST_F(ExportOptions, NormalsAreForObj) {
   EXPECT_EQ(claystack("check " + obj).status, 0);
 }
 
+TEST_F(ExportOptions, APlainGlbNeedsNoExtension) {
+  const std::string glb = folder.file("b.glb");
+  const auto packed = claystack("export --json " + pot + " " + glb).json().at("files").at(0);
+  const auto plain = claystack("export --json --glb core --verify full " + pot + " " + glb)
+                         .json()
+                         .at("files")
+                         .at(0);
+  EXPECT_EQ(read_text(glb).find("extensionsRequired"), std::string::npos);
+  EXPECT_GT(plain.at("bytes").get<int>(), 5 * packed.at("bytes").get<int>());
+  EXPECT_LT(plain.at("max_error_mm").get<double>(), 1e-4);
+  EXPECT_TRUE(plain.at("full_verification").at("sound"));
+  const Ran assimp = shell("assimp info " + glb);
+  EXPECT_NE(assimp.out.find("Faces:"), std::string::npos) << assimp.out << assimp.err;
+  EXPECT_EQ(claystack("check " + glb).status, 0);
+  EXPECT_EQ(run("--glb core").status, 2);
+}
+
 TEST_F(ExportOptions, WallTableContainsTheMinimum) {
   const std::string csv = folder.file("walls.csv");
   const auto json = run(csv + " --json").json();

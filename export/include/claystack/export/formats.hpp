@@ -97,11 +97,15 @@ std::string encode_ply(const TriangleMesh& mesh, std::string_view object_name,
                        std::span<const float> wall_mm = {});
 
 /// What a file holds beside the surface; each format takes what it has a place for.
+/// How a GLB holds its mesh: as plain float32, which every reader of glTF takes, or by Draco.
+enum class GlbMesh { core, draco };
+
 struct FileContents {
   std::string_view name = "pot";        ///< of the solid or object
   std::span<const float> wall_mm = {};  ///< thickness at each point [mm]; empty: unknown
   DracoSettings draco = {};
-  bool one_body = false;  ///< the mesh has one shell; spares the search for several (3MF)
+  GlbMesh glb = GlbMesh::draco;  ///< without Draco in this build it is always `core`
+  bool one_body = false;         ///< the mesh has one shell; spares the search for several (3MF)
   /// Metadata of the 3MF model, as `claystack:KEY`.
   std::vector<std::pair<std::string, std::string>> notes = {};
   std::string_view pot = {};            ///< a pot file, CBOR (3MF)

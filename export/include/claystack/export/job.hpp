@@ -91,6 +91,7 @@ struct ExportOptions {
   ClayFigures clay;
   double fill_line_mm = kFillLineMm;  ///< below the brim of the pot in use
   StepWalls step_walls = StepWalls::spline;
+  GlbMesh glb = GlbMesh::draco;
   bool normals = false;            ///< write normals for shading (obj only)
   bool allow_pieces = false;       ///< accept pieces that do not touch
   bool measure_left_out = false;   ///< run the skipped stages as well, and report the time saved
