@@ -35,14 +35,16 @@ Result<solid::MeshReport> checked(const TriangleMesh& mesh) {
 
 /// Repairs and decimates if requested.
 Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& command,
-                                   RepairSummary& summary) {
+                                   RepairSummary& summary, Progress& progress) {
   auto found = checked(mesh);
   if (!found) return tl::make_unexpected(found.error());
   summary.before = state_of(mesh, *found);
   summary.found = std::move(found->problems);
   summary.volume_before_mm3 = found->volume_mm3;
   if (command.repair && !summary.found.empty()) {
-    auto repaired = solid::repair_unsound_mesh(mesh, command.repair_options);
+    solid::RepairOptions options = command.repair_options;
+    options.progress = [&](std::string_view stage) { progress.stage(stage); };
+    auto repaired = solid::repair_unsound_mesh(mesh, options);
     if (!repaired) return tl::make_unexpected(repaired.error());
     mesh = std::move(repaired->mesh);
     summary.repaired = std::move(repaired->repaired);
@@ -52,6 +54,7 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& comman
   }
   summary.triangles_before = mesh.triangles.size();
   if (command.max_triangles && mesh.triangles.size() > *command.max_triangles) {
+    progress.stage("decimating");
     auto decimated = solid::decimate(mesh, *command.max_triangles);
     if (!decimated) return tl::make_unexpected(decimated.error());
     summary.decimation_error_mm = decimated->max_error_mm;
@@ -122,16 +125,18 @@ Result<void> measure_wall(const TriangleMesh& mesh, const solid::WallLimit& limi
 }
 
 Result<TriangleMesh> repair_and_write(TriangleMesh mesh, const CheckCommand& command,
-                                      RepairSummary& summary) {
+                                      RepairSummary& summary, Progress& progress) {
   // Without a name, a dry run takes the format of the input, if it can be written.
   auto format = solid::mesh_format_of(command.out.empty() ? command.file : command.out,
                                       solid::FormatUse::write);
   if (!format && (command.out.empty() || command.out == "-")) format = MeshFormat::stl_binary;
   if (!format) return tl::make_unexpected(format.error());
   summary.format = *format;
-  return repaired_mesh(std::move(mesh), command, summary).and_then([&](const TriangleMesh& result) {
-    return written(result, command, summary);
-  });
+  return repaired_mesh(std::move(mesh), command, summary, progress)
+      .and_then([&](const TriangleMesh& result) {
+        progress.stage("writing");
+        return written(result, command, summary);
+      });
 }
 
 /// Checks the claims of a Draco file by Claystack, whose checksum has been verified.
@@ -234,9 +239,9 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
     return verdict;
   }
   if (!mesh) return tl::make_unexpected(mesh.error());
-  progress.stage(command.changes_mesh() ? "repairing" : "checking");
+  progress.stage("checking");
   if (command.changes_mesh()) {
-    mesh = repair_and_write(std::move(*mesh), command, verdict.repair_summary.emplace());
+    mesh = repair_and_write(std::move(*mesh), command, verdict.repair_summary.emplace(), progress);
     if (!mesh) return failure(mesh.error().kind, command.file + ": " + mesh.error().message);
   }
   progress.stage("checking");

@@ -36,6 +36,8 @@ Result<void> make_session(const StrokesOptions& options, const Console& console)
   if (!options.session.ends_with(".session"))
     return failure(ErrorKind::bad_input,
                    options.session + ": expected a name that ends in .session");
+  if (auto distinct = check_distinct({options.session}, {options.scene, options.script}); !distinct)
+    return distinct;
   const auto scene = load_scene(options.scene);
   if (!scene) return tl::make_unexpected(scene.error());
   auto poses = poses_of(options, *scene);

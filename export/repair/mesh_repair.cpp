@@ -1,8 +1,10 @@
 #include "claystack/export/repair.hpp"
 
 #include "claystack/export/proof.hpp"
+#include "core/cancel.hpp"
 #include "export/repair/hole_filling.hpp"
 #include "export/repair/intersection_repair.hpp"
+#include "export/repair/order_keeping.hpp"
 #include "export/repair/repair_distance.hpp"
 #include "export/repair/shell_turning.hpp"
 #include "export/repair/soup_repair.hpp"
@@ -38,8 +40,14 @@ Result<TriangleMesh> wrapped_or_error(const TriangleMesh& soup, double offset_mm
 /// The stages in their order.
 Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& options,
                               RepairedMesh& report) {
+  const auto stage = [&](std::string_view name) {
+    stop_if_cancelled();
+    if (options.progress) options.progress(name);
+  };
+  stage("joining triangles");
   auto surface = make_surface(soup, report.repaired);
   if (!surface) return tl::make_unexpected(surface.error());
+  stage("filling holes");
   auto holes = fill_holes(*surface, options.cap_openings);
   if (!holes && options.thicken_mm) {
     note_repair(report.repaired, "wall made around an open surface", 1);
@@ -48,9 +56,11 @@ Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& opt
   if (!holes) return tl::make_unexpected(holes.error());
   report.holes = std::move(*holes);
   note_repair(report.repaired, "hole filled", report.holes.size());
+  stage("turning shells");
   note_repair(report.repaired, "shell turned", turn_shells(*surface));
   const TriangleMesh closed = mesh_of(*surface);
   if (closed.triangles.empty()) return nothing_left();
+  stage("resolving intersections");
   return resolve_intersections(closed, report.repaired);
 }
 
@@ -75,9 +85,11 @@ Result<RepairedMesh> repair_unsound(const TriangleMesh& mesh, const RepairOption
     sound = wrapped_or_error(soup, *options.wrap_mm, kWrapAlpha, sound.error());
   }
   if (!sound) return tl::make_unexpected(sound.error());
-  result.mesh = std::move(*sound);
   soup = mesh;
   drop_unusable(soup);
+  drop_unused_points(soup);  // their places may not be finite
+  result.mesh = in_order_of(soup, std::move(*sound));
+  if (options.progress) options.progress("measuring the change");
   result.change =
       surface_change(soup, result.mesh, kDistanceTolerance * glm::length(extent_of(result.mesh)));
   return result;

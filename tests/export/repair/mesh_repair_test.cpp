@@ -380,5 +380,52 @@ RC_GTEST_PROP(Repair, RepairsOrRefusesAnySoupDeterministically, ()) {
   RC_ASSERT(report.sound());
 }
 
+/// Of 20,000 triangles one vertex is pushed through the opposite wall.
+TEST(Repair, KeepsTheOrderOfTheRestOfAMesh) {
+  const TriangleMesh sound = [] {
+    TriangleMesh mesh = revolve({{{{0, 0},
+                                   {20, 0},
+                                   {20, 10},
+                                   {20, 20},
+                                   {20, 30},
+                                   {18, 30},
+                                   {18, 20},
+                                   {18, 10},
+                                   {18, 2},
+                                   {0, 2}}}},
+                                1'250);
+    for (glm::dvec3& p : mesh.points) p = glm::dvec3(glm::vec3(p));
+    return mesh;
+  }();
+  ASSERT_TRUE(check_mesh(sound).sound());
+  ASSERT_GE(sound.triangles.size(), 20'000U);
+  TriangleMesh crossed = sound;
+  const auto moved = static_cast<std::size_t>(
+      std::find_if(sound.points.begin(), sound.points.end(),
+                   [](const glm::dvec3& p) { return p.z == 10.0 && p.x > 19.9; }) -
+      sound.points.begin());
+  crossed.points[moved] *= glm::dvec3(0.875, 0.875, 1.0);
+  const MeshReport before = check_mesh(crossed);
+  ASSERT_GE(before.self_intersections, 1U);
+  ASSERT_LE(before.self_intersections, 20U);
+  const auto repaired = repair_mesh(crossed);
+  ASSERT_TRUE(repaired) << repaired.error().message;
+  EXPECT_TRUE(check_mesh(repaired->mesh).sound());
+  // All triangles farther than 3 mm from the fault, as their corners: the same in the same order.
+  const auto far_ones = [&](const TriangleMesh& mesh) {
+    std::vector<std::array<glm::dvec3, 3>> corners;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const std::array<glm::dvec3, 3> of{mesh.points[a], mesh.points[b], mesh.points[c]};
+      if (std::all_of(of.begin(), of.end(), [&](const glm::dvec3& p) {
+            return glm::length((p - sound.points[moved]) * glm::dvec3(1.0, 1.0, 0.0)) > 3.0;
+          }))
+        corners.push_back(of);
+    }
+    return corners;
+  };
+  EXPECT_GE(far_ones(crossed).size(), 19'000U);
+  EXPECT_EQ(far_ones(repaired->mesh), far_ones(crossed));
+}
+
 }  // namespace
 }  // namespace clay::solid

@@ -3,8 +3,10 @@
 #include "claystack/export/solid.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace clay::solid::inline repair {
@@ -44,6 +46,8 @@ struct RepairOptions {
   /// If no sound mesh is found otherwise, make a new surface at this distance [mm] around all
   /// triangles: closed, but details smaller than that are lost. Unset: that is an error.
   std::optional<double> wrap_mm = std::nullopt;
+  /// Called with a name at the start of each stage, as by `export_files`.
+  std::function<void(std::string_view)> progress = {};
 };
 
 struct RepairedMesh {
@@ -65,7 +69,8 @@ struct RepairedMesh {
 /// - intersections are resolved: triangles are cut where they meet, and the boundary of all points
 ///   with a winding number of at least 1 is kept. Overlapping bodies are united. Parts that touch
 ///   in an edge or a point are pulled apart.
-/// Triangles that take part in none of this keep their points. A sound mesh is returned unchanged.
+/// Triangles that take part in none of this keep their points, their first corner and their order;
+/// so do the points. A sound mesh is returned unchanged.
 /// Deterministic. Half-edges, holes and exact numbers are CGAL's. Error (kind `unsound`): the
 /// reason why no sound mesh was found, or the library failed.
 Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options = {});
