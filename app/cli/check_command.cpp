@@ -108,16 +108,8 @@ int check(CheckCommand& command, Console& console) {
   return verdict->passes(command.accept_prints) ? kDone : kUnsound;
 }
 
-}  // namespace
-
-void add_check_command(CLI::App& app, Console& console, int& exit) {
-  auto command = std::make_shared<CheckCommand>();
-  CLI::App* sub =
-      app.add_subcommand("check", "Check a pot or a mesh, and report each fault with its place");
-  sub->add_option("file", command->file,
-                  solid::format_endings(solid::FormatUse::read, ", ") +
-                      ", .pot.json or .pot.cbor; or - for standard input")
-      ->required();
+/// What is required of the file.
+void add_demands(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
   command->walls.add_to(*sub);
   sub->add_option("--wall-samples", command->wall_samples,
                   "Number of rays that sample the walls of a mesh; they may "
@@ -133,6 +125,9 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
          "shells intersect in a few places or are nested, and a slicer unites them (default: "
          "sound). Other checks must not fail")
       ->check(CLI::IsMember({"sound", "prints"}));
+}
+
+void add_repair_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
   sub->add_flag("--repair", command->repair,
                 "Repair the mesh until it is sound, and report what was repaired; where that is "
                 "not possible, report the reason and write nothing");
@@ -151,6 +146,10 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
          "With --repair, if all else fails: replace the surface by a wrap at this distance "
          "around it [mm], which loses smaller details; default: such a mesh is refused")
       ->check(CLI::Range(1e-3, 1e6));
+}
+
+/// The changed mesh.
+void add_output_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
   sub->add_flag("--dry-run", command->dry_run, "Report the changes without writing a file");
   sub->add_option("--max-triangles", command->max_triangles,
                   "Maximum number of triangles: decimates a closed mesh after any repair, and "
@@ -162,6 +161,21 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
           "; or - for a binary STL on standard output. Written even if nothing had to be changed; "
           "verdict and exit status are those of the "
           "result");
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Console& console, int& exit) {
+  auto command = std::make_shared<CheckCommand>();
+  CLI::App* sub =
+      app.add_subcommand("check", "Check a pot or a mesh, and report each fault with its place");
+  sub->add_option("file", command->file,
+                  solid::format_endings(solid::FormatUse::read, ", ") +
+                      ", .pot.json or .pot.cbor; or - for standard input")
+      ->required();
+  add_demands(sub, command);
+  add_repair_options(sub, command);
+  add_output_options(sub, command);
   sub->footer(
       "\nExamples:\n  claystack check bowl.stl --certificate bowl.stl.certificate.json\n"
       "  claystack check bowl.pot.json --min-wall 3 "

@@ -173,6 +173,12 @@ Result<Outputs> open_outputs(const ThrowOptions& options) {
   return outputs;
 }
 
+/// Before playing; the pot may grow by some rings.
+Result<void> expect_room_after_throw(const Wheel& wheel, PotEncoding encoding,
+                                     const std::string& path) {
+  return path.empty() ? Result<void>() : expect_room_to_write(wheel.stack().size(), encoding, path);
+}
+
 /// Writes all requested files, or none.
 Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encoding,
                            std::optional<TraceWriter>& trace, const SceneSpec& scene,
@@ -226,10 +232,7 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   if (!wheel) return tl::make_unexpected(wheel.error());
   const PotEncoding encoding =
       options.pot.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
-  // Before playing; the pot may grow by some rings.
-  if (!options.pot.empty())
-    if (auto room = expect_room_to_write(wheel->stack().size(), encoding, options.pot); !room)
-      return room;
+  if (auto room = expect_room_after_throw(*wheel, encoding, options.pot); !room) return room;
   auto outputs = open_outputs(options);
   if (!outputs) return tl::make_unexpected(outputs.error());
 
