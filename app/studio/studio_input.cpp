@@ -128,7 +128,9 @@ void Studio::apply(const Input& input) {
 void Studio::let_keys_navigate() {
   ImGuiIO& io = ImGui::GetIO();
   const bool menu = menu_open(), gallery = state_.ui.shows<GalleryDialog>();
-  if (menu || !state_.ui.shows<NoDialog>())
+  // A dialog with one text field has the keys in that from the start.
+  const bool typing = state_.ui.shows<OpenDialog>() || state_.ui.shows<SaveDialog>();
+  if (menu || (!state_.ui.shows<NoDialog>() && !typing))
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   else
     io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;

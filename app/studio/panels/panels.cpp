@@ -44,23 +44,11 @@ bool is_open(const Settings& settings, const Panel& panel) {
   return remembered == settings.open.end() ? panel.open : remembered->second;
 }
 
-/// Returns whether the keys are on its title, or in it.
-bool draw_recent(const ViewModel& model, Actions& actions) {
-  const bool open = ImGui::BeginMenu("Recent", !model.settings.recent.empty());
-  if (!open) return ImGui::IsItemFocused() && !model.settings.recent.empty();
+void draw_recent(const ViewModel& model, Actions& actions) {
+  if (!ImGui::BeginMenu("Recent", !model.settings.recent.empty())) return;
   for (const std::string& path : model.settings.recent)
     if (ImGui::MenuItem(path.c_str())) actions.emplace_back(OpenFile{path});
   ImGui::EndMenu();
-  return true;
-}
-
-/// Left and Right go from menu to menu.
-void go_to_next_menu(std::size_t menu, Actions& actions) {
-  const std::size_t count = menus().size();
-  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_RightArrow)))
-    actions.emplace_back(OpenMenu{(menu + 1) % count});
-  else if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_LeftArrow)))
-    actions.emplace_back(OpenMenu{(menu + count - 1) % count});
 }
 
 /// What is needed most, at the right end of the menu.
@@ -175,10 +163,8 @@ void draw_column(const ViewModel& model, Actions& actions, Column column, glm::v
 float draw_menu(const ViewModel& model, Actions& actions) {
   if (!ImGui::BeginMainMenuBar()) return 0.0f;
   if (model.ui.open_menu) ImGui::OpenPopup(menus()[*model.ui.open_menu].title);
-  for (std::size_t index = 0; index < menus().size(); ++index) {
-    const Menu& menu = menus()[index];
+  for (const Menu& menu : menus()) {
     if (!ImGui::BeginMenu(menu.title)) continue;
-    bool in_submenu = false;
     // Space between the title of a command and its keys.
     const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(2.5f * spacing.x, spacing.y));
@@ -188,9 +174,8 @@ float draw_menu(const ViewModel& model, Actions& actions) {
       if (ImGui::MenuItem(command.title, text_of(command.chord).c_str(), on,
                           command.enabled(model)))
         actions.emplace_back(RunCommand{command.id});
-      if (command.id == "file.open") in_submenu = draw_recent(model, actions);
+      if (command.id == "file.open") draw_recent(model, actions);
     }
-    if (!in_submenu) go_to_next_menu(index, actions);
     ImGui::PopStyleVar();
     ImGui::EndMenu();
   }

@@ -86,8 +86,7 @@ void draw_card(const ViewModel& model, history::NodeId node, bool done, const Ro
   Palette faded = colours;
   faded.clay.w = done ? 1.0f : 0.35f;
   if (const auto thumb = model.ui.thumbs.find(node); thumb != model.ui.thumbs.end())
-    draw_half_section(thumb->second, {low.x + 0.35f * em, low.y + 0.1f * em}, row.side - 0.7f * em,
-                      faded);
+    draw_half_section(thumb->second, {low.x + 0.5f * em, low.y}, row.side - em, faded);
   ImFont* small = model.ui.fonts.small != nullptr ? model.ui.fonts.small : ImGui::GetFont();
   const std::string name = node == 0 ? "Start" : fmt::format("{}", node);
   draw->AddText(small, small->FontSize, {low.x + 0.25f * em, high.y - 1.15f * em},

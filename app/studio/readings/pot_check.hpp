@@ -32,8 +32,8 @@ struct PotQuestion {
   Subject subject;
   std::string process;  ///< name or file, as for solid::read_process; empty: none
   double tolerance_mm = 0.02;
-  SharedTarget target;     ///< null: none
-  double shrinkage = 0.0;  ///< fraction of each length, for `PotCheck::maker`
+  SharedTarget target = nullptr;  ///< null: none
+  double shrinkage = 0.0;         ///< fraction of each length, for `PotCheck::maker`
 };
 
 struct Stretch {

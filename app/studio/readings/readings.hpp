@@ -20,7 +20,7 @@ namespace clay::studio {
 struct Wanted {
   bool check = false, ticks = false;
   std::string process;  ///< as in PotQuestion
-  SharedTarget target;
+  SharedTarget target = nullptr;
   double shrinkage = 0.0;
   friend bool operator==(const Wanted&, const Wanted&) = default;
 };
