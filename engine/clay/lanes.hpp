@@ -25,16 +25,20 @@ alignas(64) inline constexpr auto kLevels = [] {
   return levels;
 }();
 
+/// The halves of a whole number behind these exponents are 2^52 + low and 2^84 + 2^32 high.
+inline constexpr std::uint64_t kLowExponent = std::bit_cast<std::uint64_t>(0x1p52);
+inline constexpr std::uint64_t kHighExponent = std::bit_cast<std::uint64_t>(0x1p84);
+inline constexpr double kBothExponents = 0x1p84 + 0x1p52;
+
 /// Quanta >= 0 as a double, rounded to nearest like a conversion; unlike one it is done in lanes.
 CLAYSTACK_INLINE inline double lane_double(Quanta q) noexcept {
-  constexpr std::uint64_t kExponent = std::bit_cast<std::uint64_t>(0x1p52);
   const auto bits = static_cast<std::uint64_t>(q);
-  const double low = std::bit_cast<double>((bits & 0xffffffffu) | kExponent) - 0x1p52;
-  const double high = std::bit_cast<double>((bits >> 32) | kExponent) - 0x1p52;
-  return high * 0x1p32 + low;
+  const double low = std::bit_cast<double>((bits & 0xffffffffu) | kLowExponent);
+  const double high = std::bit_cast<double>((bits >> 32) | kHighExponent);
+  return (high - kBothExponents) + low;
 }
 
-/// The largest size of a number that four.hpp rounds to quanta.
+/// The largest size of a number that packs.hpp rounds to quanta.
 inline constexpr double kMostLaneQuanta = 0x1p50;
 
 /// A root to single precision: of a length that decides how far clay moves, not how much there is.

@@ -140,14 +140,6 @@ CLAYSTACK_INLINE inline bool any(Vector condition) noexcept {
   return some != 0;
 }
 
-/// Whether a row of bits, taken as a signed number, is below 0.
-template <class Vector>
-CLAYSTACK_INLINE inline bool any_negative(Vector bits) noexcept {
-  std::uint64_t all = bits[0];
-  for (std::size_t k = 1; k < kRowsOf<Vector>; ++k) all |= bits[k];
-  return all >> 63 != 0;
-}
-
 /// Of doubles or floats.
 template <class Vector>
 CLAYSTACK_INLINE inline Vector root(Vector x) noexcept {
@@ -197,11 +189,10 @@ CLAYSTACK_INLINE inline Doubles<n> rough_roots(Doubles<n> x) noexcept {
 template <class Vector>
 CLAYSTACK_INLINE inline Doubles<kRowsOf<Vector>> doubles_of(Vector q) noexcept {
   constexpr std::size_t n = kRowsOf<Vector>;
-  constexpr std::uint64_t kExponent = std::bit_cast<std::uint64_t>(0x1p52);
   const auto bits = reinterpret_cast<Bits<n>>(q);
-  const auto low = reinterpret_cast<Doubles<n>>((bits & 0xffffffffu) | kExponent) - 0x1p52;
-  const auto high = reinterpret_cast<Doubles<n>>((bits >> 32) | kExponent) - 0x1p52;
-  return high * 0x1p32 + low;
+  const auto low = reinterpret_cast<Doubles<n>>((bits & 0xffffffffu) | kLowExponent);
+  const auto high = reinterpret_cast<Doubles<n>>((bits >> 32) | kHighExponent);
+  return (high - kBothExponents) + low;
 }
 template <class Vector>
 CLAYSTACK_INLINE inline Vector nearest(Vector x) noexcept {

@@ -20,20 +20,25 @@ Stretch sum(std::span<const Stretch> parts) noexcept {
 }
 Stretch sum(std::span<const Ring> rings) noexcept { return stretch_of(rings); }
 
-/// Of whole packs. The halves of the volumes are summed apart, so that 64 bits do.
+/// Of an even number of packs, of which the second ones do not wait for the first. The halves of
+/// the volumes are summed apart, so that 64 bits do.
 template <std::size_t n>
 CLAYSTACK_INLINE inline void add_packs(const Ring* rings, std::size_t count,
                                        Stretch* stretch) noexcept {
   Bits<n> low{}, high{};
-  auto least = all_of<Quantas<n>>(stretch->least);
-  for (std::size_t k = 0; k < count; k += n) {
-    const RingPack<n> pack = load_rings<n>(rings + k);
+  auto least = all_of<Quantas<n>>(stretch->least), second = least;
+  const auto add = [&](const RingPack<n>& pack, Quantas<n>& smallest) CLAYSTACK_INLINE {
     const Quantas<n> volume = pack.outer2 - pack.inner2;
     const auto bits = reinterpret_cast<Bits<n>>(volume);
     low += bits & 0xffffffffu;
     high += bits >> 32;
-    least = volume < least ? volume : least;
+    smallest = volume < smallest ? volume : smallest;
+  };
+  for (std::size_t k = 0; k < count; k += 2 * n) {
+    add(load_rings<n>(rings + k), least);
+    add(load_rings<n>(rings + k + n), second);
   }
+  least = second < least ? second : least;
   for (std::size_t k = 0; k < n; ++k) {
     stretch->volume += (WideQuanta{high[k]} << 32) + WideQuanta{low[k]};
     stretch->least = std::min(stretch->least, Quanta{least[k]});
@@ -62,7 +67,7 @@ WideQuanta rest_of_stretch(std::span<const Part> parts, std::size_t i) noexcept 
 
 Stretch stretch_of(std::span<const Ring> rings) noexcept {
   Stretch stretch{0, rings.front().volume()};
-  const std::size_t packed = rings.size() / kWidestPack * kWidestPack;
+  const std::size_t packed = rings.size() / (2 * kWidestPack) * (2 * kWidestPack);
   in_packs([=, from = rings.data(), to = &stretch](auto n)
                CLAYSTACK_INLINE { add_packs<n>(from, packed, to); });
   for (const Ring& ring : rings.subspan(packed)) {

@@ -200,14 +200,16 @@ void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
   Squeezed s;
   s.load(squeeze, rings, slice);
   const Ring* const shifted = s.raw.data();
-  in_packs([=, to = &s, of = &slice, min_wall = squeeze.min_wall_mm](auto n)
-               CLAYSTACK_INLINE { squeeze_rows<n>(*to, *of, outside, min_wall); });
-  if (!outside && slice.ring < squeeze.floor_rings) [[unlikely]]
-    for (std::size_t k = 0; k < std::min(count, squeeze.floor_rings - slice.ring); ++k)
-      if (shifted[k].inner2 == 0) s.depth[k] += std::exchange(s.eps[k], 0.0);
+  const bool on_floor = !outside && slice.ring < squeeze.floor_rings;
   bool fits = false;
-  in_packs([=, from = &s, smallest = kSmallestOuter2, ok = &fits](auto n)
-               CLAYSTACK_INLINE { *ok = take_rows<n>(*from, count, outside, smallest); });
+  in_packs([=, to = &s, of = &slice, min_wall = squeeze.min_wall_mm, smallest = kSmallestOuter2,
+            ok = &fits](auto n) CLAYSTACK_INLINE {
+    squeeze_rows<n>(*to, *of, outside, min_wall);
+    if (!on_floor) *ok = take_rows<n>(*to, count, outside, smallest);
+  });
+  // On the floor row by row: what has no bore stays closed.
+  for (std::size_t k = 0; on_floor && k < std::min(count, squeeze.floor_rings - slice.ring); ++k)
+    if (shifted[k].inner2 == 0) s.depth[k] += std::exchange(s.eps[k], 0.0);
   for (std::size_t k = 0; k < count && !fits; ++k)
     s.removed[k] = outside ? take_outside(shifted[k], s.near[k], s.eps[k])
                            : take_inside(shifted[k], s.near[k], s.eps[k]);

@@ -21,34 +21,27 @@ CLAYSTACK_INLINE inline Number smooth(Number t) noexcept {
 /// Some rings. Loops over them are short: a machine has room for about a hundred operations that
 /// wait for another, and a root or a quotient in a long loop fills it.
 struct Rows {
-  static constexpr std::size_t kMost = 128;  // a multiple of eight
-  alignas(kPackBytes) double outer2[kMost], inner2[kMost];       ///< [quanta]
+  static constexpr std::size_t kMost = 128;                 // a multiple of eight
+  alignas(kPackBytes) double outer2[kMost], inner2[kMost];  ///< [quanta]
   double by[kMost];                   ///< how far the ring moves, less where it is not thin [mm]
   double thinness[kMost];             ///< (R^2 - r^2) / (R^2 + r^2): thickness over middle radius
   double outer[kMost], inner[kMost];  ///< [mm]
 };
 
 template <std::size_t n>
-CLAYSTACK_INLINE inline void load_rows(Rows& rows, const Ring* rings, std::size_t count) noexcept {
+CLAYSTACK_INLINE inline void load_rows(Rows& rows, const Ring* rings, const double* by,
+                                       std::size_t count) noexcept {
   for (std::size_t k = 0; k < count; k += n) {
     const RingPack<n> pack = load_rings<n>(rings + k, count - k);
-    store(rows.outer2 + k, doubles_of(pack.outer2));
-    store(rows.inner2 + k, doubles_of(pack.inner2));
-  }
-  const std::size_t end = (count + n - 1) / n * n;
-  if (end % (2 * n) != 0) store(rows.outer2 + end, all_of<Doubles<n>>(1.0));  // for roots of 2 n
-}
-template <std::size_t n>
-CLAYSTACK_INLINE inline void bend_rows(Rows& rows, const double* by, std::size_t count) noexcept {
-  for (std::size_t k = 0; k < count; k += n) {
-    const auto outer2 = load_doubles<n>(rows.outer2 + k), inner2 = load_doubles<n>(rows.inner2 + k);
+    const auto outer2 = doubles_of(pack.outer2), inner2 = doubles_of(pack.inner2);
+    store(rows.outer2 + k, outer2);
+    store(rows.inner2 + k, inner2);
     store(rows.by + k, load_doubles<n>(by + k) * pliancy(outer2, inner2));
-  }
-  for (std::size_t k = 0; k < count; k += n) {
-    const auto outer2 = load_doubles<n>(rows.outer2 + k), inner2 = load_doubles<n>(rows.inner2 + k);
     const Doubles<n> per_both = 1.0 / (outer2 + inner2);
     store(rows.thinness + k, (outer2 - inner2) * per_both);
   }
+  const std::size_t end = (count + n - 1) / n * n;
+  if (end % (2 * n) != 0) store(rows.outer2 + end, all_of<Doubles<n>>(1.0));  // for roots of 2 n
 }
 
 template <std::size_t n>
@@ -108,10 +101,11 @@ void Shift::bend(double h, const Band& band, const Shell& shell, std::size_t fir
   const double per_above = greater(shell.turn, 0.0) / shell.above_mm;
   const double flare = greater(-shell.turn, 0.0) / shell.above_mm;
   const double low = amplitude * shell.trail_below, high = amplitude * shell.trail_above;
-  const double start = (static_cast<double>(first) + 0.5) * h - band.peak_mm;
-  in_packs([=](auto n) CLAYSTACK_INLINE {
+  in_packs([=, peak = band.peak_mm](auto n) CLAYSTACK_INLINE {
     for (std::size_t k = 0; k < count; k += n) {
-      const Doubles<n> x = start + load_doubles<n>(&kLevels[k]) * h;
+      const std::size_t from = k / kBent * kBent;
+      const double start = (static_cast<double>(first + from) + 0.5) * h - peak;
+      const Doubles<n> x = start + load_doubles<n>(&kLevels[k - from]) * h;
       const Doubles<n> down = x * per_below, up = -x * per_above, in = 1.0 + lesser(down, up);
       const Doubles<n> side = x < 0.0 ? all_of<Doubles<n>>(low) : all_of<Doubles<n>>(high);
       store(by + k, side * (smooth(greater(in, 0.0)) + greater(x, 0.0) * flare));
@@ -127,8 +121,7 @@ void Shift::move(const ClayStack& stack, const Push& push, std::size_t first, st
   in_packs([=, r = &rows, rings = stack.rings().data() + first, changes = &changes_[first - from_],
             hoop = push.hoop ? 0.5 : 0.0, per_min_wall = 1.0 / push.min_wall_mm,
             outward = push.outward, most = largest2, total = &sum](auto n) CLAYSTACK_INLINE {
-    load_rows<n>(*r, rings, count);
-    bend_rows<n>(*r, by, count);
+    load_rows<n>(*r, rings, by, count);
     Quantas<n> raised{};
     const auto add = [&](std::size_t k, Quantas<n> more) CLAYSTACK_INLINE {
       if (k + n > count)

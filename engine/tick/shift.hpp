@@ -61,8 +61,7 @@ class Shift {
     for (std::size_t first = from_; first < to(); first += kRows) {
       alignas(kPackBytes) double by[kRows];
       const std::size_t count = std::min(kRows, to() - first);
-      for (std::size_t k = 0; k < count; k += kBent)
-        bend(stack.ring_height_mm(), band, shell, first + k, std::min(kBent, count - k), by + k);
+      bend(stack.ring_height_mm(), band, shell, first, count, by);
       limit(first, std::span<double>(by, count));
       move(stack, push, first, count, by);
     }
@@ -71,8 +70,8 @@ class Shift {
 
  private:
   static constexpr std::size_t kRows = 128;
-  static constexpr std::size_t kBent = 32;  // distances are rounded from the first of these on
   void begin(const ClayStack& stack, const Band& band, const Shell& shell) noexcept;
+  static constexpr std::size_t kBent = 32;  // distances are rounded from the first of these on
   /// To and from whole packs of rows.
   static void bend(double h, const Band& band, const Shell& shell, std::size_t first,
                    std::size_t count, double* by) noexcept;

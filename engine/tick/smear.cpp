@@ -97,7 +97,7 @@ class Smear {
     const double start = (static_cast<double>(2 * first + stride + 1) * 0.5 * h - middle_) * per_c_;
     alignas(kPackBytes) double amounts[kRows];
     alignas(kPackBytes) Quanta whole[kRows];
-    in_packs([=, p = &places, to = amounts, per_c = per_c_,
+    in_packs([=, p = &places, to = amounts, rounded = whole, per_c = per_c_,
               sign = outside_ ? 1.0 : -1.0](auto n) CLAYSTACK_INLINE {
       using D = Doubles<n>;
       for (std::size_t k = 0; k < count; k += n) {
@@ -111,14 +111,15 @@ class Smear {
             lesser(load_doubles<n>(p->give + k + apart), load_doubles<n>(p->get + k));
         const D flow = greater(lesser(up, most_up), D(-most_down));
         const D most = greater(lesser(flow, kMostLaneQuanta), -kMostLaneQuanta);
-        store(to + k, lesser(low, high) > 0.0 ? most : D{});  // none into a closed bore
+        const D amount = lesser(low, high) > 0.0 ? most : D{};  // none into a closed bore
+        store(to + k, amount);
+        store(rounded + k, quanta_below(amount));
       }
     });
-    if (sponge_) level(places, apart, {amounts, count});
-    in_packs([=, from = amounts, to = whole](auto n) CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count; k += n)
-        store(to + k, quanta_below(load_doubles<n>(from + k)));
-    });
+    if (sponge_) {
+      level(places, apart, {amounts, count});
+      for (std::size_t k = 0; k < count; ++k) whole[k] = static_cast<Quanta>(amounts[k]);
+    }
     writer_.smear(first, first + stride, {whole, count}, outside_);
   }
 
