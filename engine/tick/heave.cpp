@@ -4,30 +4,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace clay {
 namespace {
 
-constexpr double kSteepest = 0.5;  // of a ring's growth over its height
+constexpr double kSteepest = 0.5;  // of a growth over the way along the wall
+// The slope is that over such a way at least, or the limit would depend on the height of rings.
+constexpr double kSlopeWayMm = 0.17;
+constexpr std::size_t kMostApart = 64;  // rings
 constexpr std::size_t kRows = 64;
 
-/// Some neighbouring rings, and one more wall at either end.
+/// Some neighbouring rings, and the walls beside them that their slope is measured to.
 struct Block {
   static constexpr std::size_t kAll = kRows + 2 * kWidestPack;
-  alignas(kPackBytes) double outer2[kAll], inner2[kAll];         ///< [quanta]
-  alignas(kPackBytes) float outer[kAll], inner[kAll];            ///< [mm]
-  float per_outer[kAll], per_inner[kAll];    ///< [1/mm]
-  double wall[kAll + 2];                     ///< [mm]; from the one before the first ring on
-  alignas(kPackBytes) double outside_to[kAll], inside_to[kAll];  ///< whole quanta that lie up to a ring's lower face
-  alignas(kPackBytes) RawRings<kAll> changes;                    ///< of R^2 and r^2, by a ring's share
-  alignas(kPackBytes) double clear[kAll];                        ///< of the tool [mm]
-  double lack[kAll];                         ///< above 0: does not take its share
-  std::size_t first_lack, lacks_end;         ///< outside of these rings all take their shares
+  alignas(kPackBytes) double outer2[kAll], inner2[kAll];       ///< [quanta]
+  alignas(kPackBytes) float per_outer[kAll], per_inner[kAll];  ///< [1/mm]
+  alignas(kPackBytes) double walls[kAll + 2 * kMostApart];     ///< [mm]; see `wall`
+  alignas(kPackBytes) double outside_to[kAll],
+      inside_to[kAll];                         ///< whole quanta that lie up to a ring's lower face
+  alignas(kPackBytes) RawRings<kAll> changes;  ///< of R^2 and r^2, by a ring's share
+  alignas(kPackBytes) double clear[kAll];      ///< of the tool [mm]
+  double lack[kAll];                           ///< above 0: does not take its share
+  std::size_t first_lack, lacks_end;           ///< outside of these rings all take their shares
 
-  template <std::size_t n>
-  [[nodiscard]] CLAYSTACK_INLINE Doubles<n> wall_of(std::size_t k) const noexcept {
-    return doubles<n>(load<Floats<n>>(outer + k)) - doubles<n>(load<Floats<n>>(inner + k));
-  }
+  /// Of the first ring; those of up to kMostApart rings lie before it, and after the last.
+  [[nodiscard]] double* wall() noexcept { return walls + kMostApart; }
 };
 
 /// Rings from..last and, beyond the last, the last again.
@@ -38,11 +40,31 @@ CLAYSTACK_INLINE inline RingPack<n> load_up_to(const Ring* rings, std::size_t fr
   return load_rings<n>(rings + i, last + 1 - i);
 }
 
+template <std::size_t n>
+CLAYSTACK_INLINE inline Doubles<n> thickness(Floats<n> outer, Floats<n> inner) noexcept {
+  return doubles<n>(outer) - doubles<n>(inner);
+}
+
+/// Walls of the rings from `first` on, as `measure` has them.
+template <std::size_t n>
+CLAYSTACK_INLINE inline void measure_walls(double* walls, const Ring* rings, std::size_t first,
+                                           std::size_t last, std::size_t count) noexcept {
+  for (std::size_t k = 0; k < count; k += n) {
+    const RingPack<n> pack = load_up_to<n>(rings, first + k, last);
+    const Doubles<n> outer2 = doubles_of(pack.outer2) * kMm2PerQuantum;
+    const Doubles<n> inner2 = doubles_of(pack.inner2) * kMm2PerQuantum;
+    store(walls + k, thickness<n>(root(floats(outer2)), root(floats(inner2))));
+  }
+}
+
 /// Lengths of the rings from `first` on to single precision, of which a machine takes twice as many
-/// at once.
+/// at once. Beyond an end of the stack a wall is compared with that of the end ring.
 template <std::size_t n>
 CLAYSTACK_INLINE inline void measure(Block& b, const Ring* rings, std::size_t first,
-                                     std::size_t last, std::size_t count) noexcept {
+                                     std::size_t last, std::size_t count,
+                                     std::size_t apart) noexcept {
+  const std::size_t before = apart < first ? apart : first;
+  measure_walls<n>(b.wall() - before, rings, first - before, last, before);
   for (std::size_t k = 0; k < count; k += 2 * n) {
     const RingPack<n> low = load_up_to<n>(rings, first + k, last);
     const RingPack<n> high = load_up_to<n>(rings, first + k + n, last);
@@ -56,11 +78,14 @@ CLAYSTACK_INLINE inline void measure(Block& b, const Ring* rings, std::size_t fi
     store(b.outer2 + k + n, high_outer2);
     store(b.inner2 + k, low_inner2);
     store(b.inner2 + k + n, high_inner2);
-    store(b.outer + k, outer);
-    store(b.inner + k, inner);
+    store(b.wall() + k, thickness<n>(low_half<n>(outer), low_half<n>(inner)));
+    store(b.wall() + k + n, thickness<n>(high_half<n>(outer), high_half<n>(inner)));
     store(b.per_outer + k, TwiceFloats<n>(1.0f / outer));
     store(b.per_inner + k, TwiceFloats<n>(1.0f / (inner + 1e-30f)));
   }
+  measure_walls<n>(b.wall() + count, rings, first + count, last, apart);
+  for (std::size_t k = before; k < apart; ++k)
+    b.wall()[-1 - static_cast<std::ptrdiff_t>(k)] = b.wall()[-static_cast<std::ptrdiff_t>(before)];
 }
 
 /// A heap on its way from the band: what of it lies up to each face of a ring, in whole quanta. Up
@@ -85,15 +110,8 @@ struct Way {
   }
 };
 
-/// Rows moved by one, the first or the last from their neighbours. In registers: a load of rows
-/// that have just been written apart would wait until the writes are done.
-template <class Vector>
-CLAYSTACK_INLINE inline Vector before(Vector pack, Vector previous) noexcept {
-  if constexpr (kRowsOf<Vector> == 4)
-    return __builtin_shufflevector(previous, pack, 3, 4, 5, 6);
-  else
-    return __builtin_shufflevector(previous, pack, 1, 2);
-}
+/// Rows moved by one, the last from the next rows. In registers: a load of rows that have just been
+/// written apart would wait until the writes are done.
 template <class Vector>
 CLAYSTACK_INLINE inline Vector after(Vector pack, Vector next) noexcept {
   if constexpr (kRowsOf<Vector> == 4)
@@ -106,20 +124,27 @@ CLAYSTACK_INLINE inline Vector after(Vector pack, Vector next) noexcept {
 /// root, by what is more than each surface moves. A share leaves a bore open.
 template <std::size_t n>
 CLAYSTACK_INLINE inline void divide(Block& b, std::size_t count, const Way& way, double sign,
-                                    double spare, double largest2) noexcept {
+                                    std::size_t apart, double spare, double largest2) noexcept {
   using D = Doubles<n>;
-  D previous_wall = all_of<D>(b.wall[0]), wall = b.wall_of<n>(0);
-  Way::Faces<n> faces = way.faces<n>(0);
+  const std::size_t rows = (count + n - 1) / n * n;
+  for (std::size_t k = 0; k <= rows; k += n) {
+    const Way::Faces<n> faces = way.faces<n>(k);
+    store(b.outside_to + k, faces.outside_to);
+    store(b.inside_to + k, faces.inside_to);
+  }
+  D outside_to = load<D>(b.outside_to), inside_to = load<D>(b.inside_to);
   D first_lack = all_of<D>(way.last), last_lack = all_of<D>(-1.0);
   for (std::size_t k = 0; k < count; k += n) {
-    const D next_wall = b.wall_of<n>(k + n);
-    const Way::Faces<n> next = way.faces<n>(k + n);
-    const D outside = sign * (after(faces.outside_to, next.outside_to) - faces.outside_to);
-    const D inside = sign * (after(faces.inside_to, next.inside_to) - faces.inside_to);
+    const D next_outside = load<D>(b.outside_to + k + n),
+            next_inside = load<D>(b.inside_to + k + n);
+    const D outside = sign * (after(outside_to, next_outside) - outside_to);
+    const D inside = sign * (after(inside_to, next_inside) - inside_to);
     const D per_outer = doubles<n>(load<Floats<n>>(b.per_outer + k));
     const D per_inner = doubles<n>(load<Floats<n>>(b.per_inner + k));
     const D moved = kMm2PerQuantum * (0.5 * outside * per_outer + inside * per_inner);
-    const D slope = lesser(before(wall, previous_wall), after(wall, next_wall)) + spare - wall;
+    const double* const wall = b.wall() + k;
+    const D thinner = lesser(load<D>(wall - apart), load<D>(wall + apart));
+    const D slope = thinner + spare - load<D>(wall);
     const D over = moved - lesser(slope, load<D>(b.clear + k));
     const D bore = inside > 0.0 ? inside + 1.0 - load<D>(b.inner2 + k) : D{};
     const D wide = load<D>(b.outer2 + k) + outside - largest2;
@@ -129,19 +154,11 @@ CLAYSTACK_INLINE inline void divide(Block& b, std::size_t count, const Way& way,
     last_lack = greater(last_lack, lack > 0.0 ? row : last_lack);
     store(b.lack + k, lack);
     store(b.changes.data() + k, RingPack<n>{quanta_of(outside), -quanta_of(inside)});
-    store(b.outside_to + k, faces.outside_to);
-    store(b.inside_to + k, faces.inside_to);
-    store(b.wall + k + 1, wall);
-    previous_wall = wall;
-    wall = next_wall;
-    faces = next;
+    outside_to = next_outside;
+    inside_to = next_inside;
   }
-  const std::size_t rows = (count + n - 1) / n * n;
   b.first_lack = static_cast<std::size_t>(least_of(first_lack));
   b.lacks_end = static_cast<std::size_t>(-least_of(D(-last_lack)) + 1.0);
-  b.wall[rows + 1] = wall[0];
-  b.outside_to[rows] = faces.outside_to[0];
-  b.inside_to[rows] = faces.inside_to[0];
 }
 
 /// One end of a band and the way from there.
@@ -155,6 +172,9 @@ class Heaving {
         writer_(writer),
         heap_(heap),
         h_(stack.ring_height_mm()),
+        apart_(static_cast<std::size_t>(
+            std::clamp(kSlopeWayMm / h_, 1.0, static_cast<double>(kMostApart)))),
+        steepest_mm_(kSteepest * static_cast<double>(apart_) * h_),
         hip_y_(hip_y),
         from_mm_(heap.up ? band.high_mm : band.low_mm),
         per_reach_(1.0 / heap.reach_mm) {}
@@ -237,42 +257,40 @@ class Heaving {
     find_clearance(first, count);
     const Way way{start, step, static_cast<double>(count), static_cast<double>(heap_.outside),
                   static_cast<double>(heap_.inside)};
-    // Beyond an end of the stack there is nothing to be compared with: the end ring itself.
     const Ring* const rings = stack_.rings().data();
-    const Ring& below = rings[first > 0 ? first - 1 : 0];
-    block_.wall[0] =
-        rough_root(mm2_from_quanta(below.outer2)) - rough_root(mm2_from_quanta(below.inner2));
-    in_packs([=, b = &block_, last = std::min(first + count, stack_.size() - 1),
-              sign = heap_.up ? 1.0 : -1.0, spare = kSteepest * h_, most = largest2](auto n)
-                 CLAYSTACK_INLINE {
-                   measure<n>(*b, rings, first, last, (count + n - 1) / n * n + 1);
-                   divide<n>(*b, count, way, sign, spare, most);
-                 });
+    in_packs([=, b = &block_, last = std::min(first + count + apart_ - 1, stack_.size() - 1),
+              sign = heap_.up ? 1.0 : -1.0, apart = apart_, spare = steepest_mm_,
+              most = largest2](auto n) CLAYSTACK_INLINE {
+      measure<n>(*b, rings, first, last, count, apart);
+      divide<n>(*b, count, way, sign, apart, spare, most);
+    });
   }
 
-  /// How far ring i may grow before it stands in the tool [mm]; of one that is not beside it: a
+  /// How far each ring may grow before it stands in the tool [mm]; one that is not beside it: a
   /// long way.
-  [[nodiscard]] double clear_of_tool(std::size_t i) const noexcept {
+  void find_clearance(std::size_t first, std::size_t count) noexcept {
+    std::fill_n(block_.clear, in_packs_of(count), kFar);
+    const double low = (hip_y_ + tool_.low()) / h_, high = (hip_y_ + tool_.high()) / h_;
+    const double from = std::max(low - 1.0, static_cast<double>(first));
+    const double to = std::min(high + 1.0, static_cast<double>(first + count));
+    if (!(from < to)) return;
+    const auto begin = static_cast<std::size_t>(from), end = static_cast<std::size_t>(to);
+    std::visit(
+        [&](const auto& profile) {
+          for (std::size_t i = begin; i < end; ++i) block_.clear[i - first] = clear_of(profile, i);
+        },
+        tool_.profile());
+  }
+  template <class Profile>
+  [[nodiscard]] double clear_of(const Profile& profile, std::size_t i) const noexcept {
     const double t = (static_cast<double>(i) + 0.5) * h_ - hip_y_;
     if (!(t >= tool_.low() && t <= tool_.high())) return kFar;
-    const double f = tool_.radius(t), d = contact_.axis_distance_mm;
+    const double f = profile.radius(t), d = contact_.axis_distance_mm;
     const Ring& ring = stack_.rings()[i];
     const double near = contact_.side == Side::compressive
                             ? d - f - rough_root(mm2_from_quanta(ring.outer2))
                             : rough_root(mm2_from_quanta(ring.inner2)) - (d + f);
     return std::max(near, 0.0);
-  }
-
-  void find_clearance(std::size_t first, std::size_t count) noexcept {
-    Block& b = block_;
-    std::fill_n(b.clear, in_packs_of(count), kFar);
-    const double low = (hip_y_ + tool_.low()) / h_, high = (hip_y_ + tool_.high()) / h_;
-    const double from = std::max(low - 1.0, static_cast<double>(first));
-    const double to = std::min(high + 1.0, static_cast<double>(first + count));
-    if (from < to)
-      for (std::size_t k = static_cast<std::size_t>(from) - first;
-           k < static_cast<std::size_t>(to) - first; ++k)
-        b.clear[k] = clear_of_tool(first + k);
   }
 
   /// As much of what is carried as ring i takes.
@@ -282,11 +300,12 @@ class Heaving {
       carry_.outside += carry_.inside - ring.inner2;
       carry_.inside = ring.inner2;
     }
-    const double least = std::min(block_.wall[k], block_.wall[k + 2]);
-    const double room = least + kSteepest * h_ - block_.wall[k + 1];
+    double* const wall = block_.wall() + k;
+    const double least = std::min(*(wall - apart_), wall[apart_]);
+    const double room = least + steepest_mm_ - *wall;
     if (!(room > 0.0)) return;
-    const double R = static_cast<double>(block_.outer[k]);
-    const double r = static_cast<double>(block_.inner[k]), clear = block_.clear[k];
+    const double R = rough_root(block_.outer2[k] * kMm2PerQuantum);
+    const double r = rough_root(block_.inner2[k] * kMm2PerQuantum), clear = block_.clear[k];
     double out = 0.0, in = 0.0;
     const Portion taken = fitting(room, clear, R, r, out, in);
     const Quanta inside = writer_.put_inside(i, taken.inside);
@@ -294,7 +313,7 @@ class Heaving {
     carry_.inside -= inside;
     carry_.outside -= outside;
     placed_ += inside + outside;
-    block_.wall[k + 1] += out + in;
+    *wall += out + in;
   }
 
   /// The part of what is carried for which there is room, in the same proportion.
@@ -327,7 +346,10 @@ class Heaving {
   const Contact& contact_;
   StackWriter& writer_;
   const Heap& heap_;
-  double h_, hip_y_, from_mm_, per_reach_;
+  double h_;
+  std::size_t apart_;   ///< rings between which a slope is measured
+  double steepest_mm_;  ///< growth over them
+  double hip_y_, from_mm_, per_reach_;
   bool reached_end_ = false;  ///< the whole heap is shared out
   Portion carry_;
   Quanta placed_ = 0;

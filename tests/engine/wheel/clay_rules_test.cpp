@@ -37,6 +37,35 @@ TEST(ClayRules, CollaringThickensTheWallByHalfTheHoopStrain) {
   expect_balanced(wheel);
 }
 
+/// A ball that presses and rises along a thick wall, in rings of this height. R every 0.5 mm.
+std::vector<double> heaved_profile(double ring_height_mm) {
+  SceneSpec scene = cylinder_scene({});
+  scene.lump.ring_height_mm = ring_height_mm;
+  scene.lump.rings = static_cast<std::size_t>(60.0 / ring_height_mm + 0.5);
+  scene.lump.max_rings = 2 * scene.lump.rings;
+  scene.lump.inner_radius_mm = 20.0;
+  Wheel wheel = Wheel::build(scene).value();
+  Hand hand(wheel);
+  hand.place_at(56.0, 20.0);
+  hand.move_to(48.5, 30.0, 10.0);
+  hand.move_to(52.0, 40.0, 10.0);
+  std::vector<double> radii;
+  for (double y = 0.5; y < 59.0; y += 0.5) radii.push_back(ring_at(wheel, y).outer_mm());
+  return radii;
+}
+
+/// Heave compares walls over a way, not from ring to ring: else its limit would fall with the
+/// height of the rings, and more and more clay would go elsewhere.
+TEST(ClayRules, AHeavedWallHasALimitAsRingsGetLower) {
+  const auto difference = [](double h) {
+    const auto coarse = heaved_profile(h), fine = heaved_profile(0.5 * h);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < fine.size(); ++k) sum += std::abs(coarse[k] - fine[k]);
+    return sum / static_cast<double>(fine.size());
+  };
+  EXPECT_LT(difference(0.05), 0.006);
+}
+
 TEST(ClayRules, WithoutHoopAShiftKeepsTheClayOfEachRing) {
   ClaySpec clay = no_rules();
   clay.shift = clay.heave = true;
