@@ -38,7 +38,7 @@ CLAYSTACK_INLINE inline double lane_double(Quanta q) noexcept {
   return (high - kBothExponents) + low;
 }
 
-/// The largest size of a number that four.hpp rounds to quanta.
+/// The largest size of a number that packs.hpp rounds to quanta.
 inline constexpr double kMostLaneQuanta = 0x1p50;
 
 /// A root to single precision: of a length that decides how far clay moves, not how much there is.

@@ -140,14 +140,6 @@ CLAYSTACK_INLINE inline bool any(Vector condition) noexcept {
   return some != 0;
 }
 
-/// Whether a row of bits, taken as a signed number, is below 0.
-template <class Vector>
-CLAYSTACK_INLINE inline bool any_negative(Vector bits) noexcept {
-  std::uint64_t all = bits[0];
-  for (std::size_t k = 1; k < kRowsOf<Vector>; ++k) all |= bits[k];
-  return all >> 63 != 0;
-}
-
 /// Of doubles or floats.
 template <class Vector>
 CLAYSTACK_INLINE inline Vector root(Vector x) noexcept {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSteepest = 0.5;  // of a growth over the way along the wall
 // The slope is that over such a way at least, or the limit would depend on the height of rings.
-constexpr double kSlopeWayMm = 0.3;
+constexpr double kSlopeWayMm = 0.17;
 constexpr std::size_t kMostApart = 64;  // rings
 constexpr std::size_t kRows = 64;
 

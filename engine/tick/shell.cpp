@@ -34,29 +34,27 @@ Wall wall_at(const ClayStack& stack, double up_mm) noexcept {
 
 constexpr std::size_t kRows = 32;
 
-/// Of R^2: the r^2 from which a ring is pliant [quanta].
-template <class Number>
-CLAYSTACK_INLINE inline Number pliant_from(Number outer2) noexcept {
-  return (outer2 >> 3) + (outer2 >> 5);
-}
-
-/// Whether these rings are pliant, all of them.
-bool all_pliant(const Ring* rings, std::size_t count) noexcept {
-  constexpr std::size_t kAtOnce = 16;
-  bool stiff = false;
-  in_packs([=, some = &stiff](auto n) CLAYSTACK_INLINE {
-    for (std::size_t first = 0; first < count && !*some; first += kAtOnce) {
-      const std::size_t end = first + kAtOnce < count ? first + kAtOnce : count;
-      Bits<n> over{};
-      for (std::size_t k = first; k < end; k += n) {
-        const RingPack<n> pack = load_rings<n>(rings + k, end - k);
-        over |= reinterpret_cast<Bits<n>>(pack.inner2) -
-                pliant_from(reinterpret_cast<Bits<n>>(pack.outer2));
-      }
-      *some = any_negative(over);
+/// How stiff rings are, from 0 (pliant) to 1 (solid).
+struct Stiffness {
+  double sum;  ///< at least that of the rings
+  double most;
+};
+Stiffness stiffness_of(const Ring* rings, std::size_t count) noexcept {
+  Stiffness stiffness{};
+  in_packs([=, to = &stiffness](auto n) CLAYSTACK_INLINE {
+    Doubles<n> sum{}, most{};
+    for (std::size_t k = 0; k < count; k += n) {
+      const RingPack<n> pack = load_rings<n>(rings + k, count - k);
+      const Doubles<n> stiff = 1.0 - pliancy(doubles_of(pack.outer2), doubles_of(pack.inner2));
+      sum += stiff;
+      most = greater(most, stiff);
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      to->sum += sum[k];
+      to->most = greater(to->most, double{most[k]});
     }
   });
-  return !stiff;
+  return stiffness;
 }
 
 /// What each of these rings adds to a stop: nothing where it is pliant.
@@ -65,8 +63,9 @@ CLAYSTACK_INLINE inline void stops_of(const Ring* rings, std::size_t count, doub
   for (std::size_t k = 0; k < count; ++k) {
     const Ring ring = rings[k];
     const double pliant = pliancy(lane_double(ring.outer2), lane_double(ring.inner2));
-    const auto from = static_cast<Quanta>(pliant_from(static_cast<std::uint64_t>(ring.outer2)));
-    stops[k] = ring.inner2 < from ? per_stop * (1.0 - pliant) : 0.0;
+    const auto outer2 = static_cast<std::uint64_t>(ring.outer2);
+    const auto thin = static_cast<Quanta>((outer2 >> 3) + (outer2 >> 5));
+    stops[k] = ring.inner2 < thin ? per_stop * (1.0 - pliant) : 0.0;
   }
 }
 
@@ -79,12 +78,14 @@ double free_length(const ClayStack& stack, double end_mm, bool up, double most, 
   const double level = std::clamp(end_mm / h, 0.0, static_cast<double>(rings.size()));
   const std::size_t first = std::min(static_cast<std::size_t>(level), rings.size() - 1);
   const std::size_t there = up ? rings.size() - first : first + 1;
-  // Most walls have no stop there: two rings more than the loop below would see are enough.
+  // Most walls have no stop there. The loop below sees two rings less; nearly a stop is left to it.
   const auto rings_seen = static_cast<std::size_t>(most / h) + 3;
-  if (const std::size_t seen = std::min(rings_seen, there);
-      (up || seen == rings_seen) &&
-      all_pliant(rings.data() + (up ? first : first + 1 - seen), seen))
-    return most;
+  if (const std::size_t seen = std::min(rings_seen, there); up || seen == rings_seen) {
+    const Ring* const from = rings.data() + (up ? first : first + 1 - seen);
+    const Stiffness stiffness = stiffness_of(from, seen);
+    const bool seeks_foot = foot_mm != nullptr && stiffness.most >= 1.0;
+    if (stiffness.sum * h * per_stop < 0.999999 && !seeks_foot) return most;
+  }
   const double within = level - static_cast<double>(first);
   double piece = h * (up ? 1.0 - within : within);  // of the ring that the end lies in
   double stops[kRows], length = 0.0, stopped = 0.0;

@@ -5,6 +5,7 @@
 #include "app/bench/hands/dice.hpp"
 #include "claystack/engine/wheel.hpp"
 #include "core/fnv1a.hpp"
+#include "tests/engine/wheel/rule_samples.hpp"
 
 #include <gtest/gtest.h>
 
@@ -111,6 +112,31 @@ TEST_P(Lanes, TwoAndFourLanesGiveTheSameBitsWithClayRules) {
   EXPECT_TRUE(throw_with(GetParam(), four_lanes, ClaySpec{}) ==
               throw_with(GetParam(), false, ClaySpec{}));
 }
+/// Both sides, pinches, cuts, jumps past both ends, a floor, very low and very high rings.
+TEST(LanesOfRules, GiveTheSameBitsForAnyMotion) {
+  const auto thrown_with = [](const SceneSpec& scene, bool four) {
+    const bool supported = std::exchange(four_lanes, four);
+    Wheel wheel = Wheel::build(scene).value();
+    Thrown thrown;
+    for (const Pose& pose : random_poses(5, 1500))
+      thrown.forces_n.push_back(wheel.step(pose).force_n());
+    four_lanes = supported;
+    thrown.rings.assign(wheel.stack().rings().begin(), wheel.stack().rings().end());
+    return thrown;
+  };
+  for (const double h : {0.07, 0.5, 3.0})
+    for (const bool sponge : {false, true}) {
+      SceneSpec scene = small_scene();
+      scene.lump.ring_height_mm = h;
+      scene.lump.rings = static_cast<std::size_t>(75.0 / h);
+      scene.lump.max_rings = 2 * scene.lump.rings;
+      scene.clay = ClaySpec{};
+      scene.clay->floor_mm = 5.0;
+      if (sponge) scene.tool.mode = ToolMode::smooth;
+      EXPECT_TRUE(thrown_with(scene, four_lanes) == thrown_with(scene, false)) << h << sponge;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, Lanes,
                          testing::Values(ToolShapeSpec{SphereSpec{12}},
                                          ToolShapeSpec{EllipseSpec{14, 6}},
