@@ -148,12 +148,12 @@ TEST_F(Exporting, ReportsAThinWallWithItsPlace) {
   exporter.preview(pot, choices);
   const auto previewed = outcome();
   ASSERT_TRUE(previewed.done) << previewed.done.error().message;
-  const auto problems = solid::problems_of(*previewed.done);
-  ASSERT_EQ(failures_of(*previewed.done), 1u);
-  EXPECT_NE(problems[0].text.find("thin wall"), std::string::npos);
-  ASSERT_TRUE(problems[0].at);
-  EXPECT_GE(problems[0].at->y, 0.0);
-  EXPECT_LE(problems[0].at->y, pot->stack.height_mm() + 1e-9);
+  ASSERT_FALSE(previewed.done->marks.empty());
+  const Mark& mark = previewed.done->marks[0];
+  EXPECT_EQ(mark.text, previewed.done->problems.at(0));
+  EXPECT_NE(mark.text.find("thin wall"), std::string::npos);
+  EXPECT_GE(mark.place_mm.y, 0.0);
+  EXPECT_LE(mark.place_mm.y, pot->stack.height_mm() + 1e-9);
 }
 
 TEST_F(Exporting, ListsExistingFiles) {
