@@ -1,6 +1,6 @@
-// Predicates and intervals of CGAL as the page compiles them, without rounding upwards, against exact
-// rational numbers: points on a line or plane, moved by at most two units in the last place. Prints
-// the number of cases, of exact zeros, and of wrong results; exit status 1 if one is wrong.
+// Predicates and intervals of CGAL as the page compiles them, without rounding upwards, against
+// exact rational numbers: points on a line or plane, moved by at most two units in the last place.
+// Prints the number of cases, of exact zeros, and of wrong results; exit status 1 if one is wrong.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Interval_nt.h>
