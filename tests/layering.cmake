@@ -11,7 +11,7 @@ set(rooms
   export/section export/solid export/walls export/formats export/proof export/smoothing
   export/check export/repair export/fallen export/job
   falcon/device falcon/device/usb falcon/safety falcon/sim
-  app/chart app/history app/strokes app/servo app/import app/render app/bench app/cli app/studio app/python)
+  app/chart app/history app/strokes app/servo app/import app/render app/bench app/cli app/studio app/web app/python)
 # A component may include the public headers of these.
 set(core_uses core)
 set(engine_uses core engine)

@@ -1,6 +1,6 @@
 #pragma once
-// The shader programs, in the GLSL that is common to OpenGL 3.3 and OpenGL ES 3.0; make_program adds
-// the first lines. All light is linear until the last line of a fragment shader.
+// The shader programs, in the GLSL that is common to OpenGL 3.3 and OpenGL ES 3.0; make_program
+// adds the first lines. All light is linear until the last line of a fragment shader.
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>

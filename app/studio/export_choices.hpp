@@ -1,6 +1,6 @@
 #pragma once
-// What the export dialog asks for and what it shows: values that the window, its export thread and the
-// worker of a web page exchange.
+// What the export dialog asks for and what it shows: values that the window, its export thread and
+// the worker of a web page exchange.
 
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"

@@ -8,18 +8,14 @@
 #include <utility>
 
 namespace clay::studio {
-namespace {
-
-struct Job {
-  ExportKind kind;
-  history::SharedPot pot;
-  ExportChoices choices;
-  std::stop_source stop;
-};
-
-}  // namespace
 
 struct Exporter::State {
+  struct Job {
+    Kind kind;
+    history::SharedPot pot;
+    ExportChoices choices;
+    std::stop_source stop;
+  };
   State() : thread([this] { run(); }) {}
   void put(Job job);
   void run();

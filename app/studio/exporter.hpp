@@ -1,6 +1,6 @@
 #pragma once
-// Exports the pot from the window: the same job as `claystack export`, on a separate thread or in the
-// worker of a web page.
+// Exports the pot from the window: the same job as `claystack export`, on a separate thread or in
+// the worker of a web page.
 
 #include "app/history/work.hpp"
 #include "app/studio/export_choices.hpp"

@@ -67,8 +67,7 @@ const std::array kFacts = {
          }},
     Fact{"triangles",
          [](const AppState& s) {
-           return fmt::format("{}",
-                              s.ui.exporting.preview ? s.ui.exporting.preview->triangles : 0);
+           return fmt::format("{}", s.ui.exporting.preview ? s.ui.exporting.preview->triangles : 0);
          }},
     Fact{"exported",
          [](const AppState& s) { return fmt::format("{}", s.ui.exporting.written.size()); }},

@@ -1,5 +1,5 @@
-// Replaces app/studio/exporter.cpp in a page: the worker exports, and the window puts the files where
-// file_written offers them as downloads.
+// Replaces app/studio/exporter.cpp in a page: the worker exports, and the window puts the files
+// where file_written offers them as downloads.
 
 #include "app/studio/exporter.hpp"
 
@@ -11,12 +11,6 @@
 
 namespace clay::studio {
 namespace {
-
-struct Job {
-  ExportKind kind;
-  history::SharedPot pot;
-  ExportChoices choices;
-};
 
 Result<ExportFigures> store(web::ExportAnswer answer, const std::vector<std::string>& paths) {
   for (std::size_t i = 0; i < answer.files.size() && i < paths.size(); ++i)
@@ -35,6 +29,11 @@ Result<ExportFigures> result_in(const std::string& message, const std::vector<st
 }  // namespace
 
 struct Exporter::State {
+  struct Job {
+    Kind kind;
+    history::SharedPot pot;
+    ExportChoices choices;
+  };
   web::PageWorker worker{web::PageWorker::Slot::exporting};
   std::optional<Job> running, next;
   std::optional<Outcome> outcome;
@@ -80,10 +79,11 @@ void Exporter::cancel() {
   state_->next.reset();
   if (!state_->running) return;
   state_->worker.stop();
-  const Job job = *std::exchange(state_->running, std::nullopt);
+  const State::Job job = *std::exchange(state_->running, std::nullopt);
   if (job.kind == Kind::files)
-    state_->outcome = Outcome{job.kind, job.pot, job.choices,
-                              failure(ErrorKind::io, "cancelled"), true, paths_of(job.choices)};
+    state_->outcome = Outcome{job.kind,    job.pot,
+                              job.choices, failure(ErrorKind::io, "cancelled"),
+                              true,        paths_of(job.choices)};
 }
 
 bool Exporter::busy() const { return state_->running || state_->next; }

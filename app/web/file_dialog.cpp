@@ -1,5 +1,5 @@
-// Replaces app/studio/file_dialog.cpp in a page: the browser's picker copies the chosen file into the
-// file system of the page. There are no folders to choose: saved files are downloads.
+// Replaces app/studio/file_dialog.cpp in a page: the browser's picker copies the chosen file into
+// the file system of the page. There are no folders to choose: saved files are downloads.
 
 #include "app/studio/file_dialog.hpp"
 

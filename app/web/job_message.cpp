@@ -28,9 +28,7 @@ std::string text_of(const json& value) {
   json::to_cbor(value, text);
   return text;
 }
-json value_in(std::string_view message) {
-  return json::from_cbor(message.begin(), message.end());
-}
+json value_in(std::string_view message) { return json::from_cbor(message.begin(), message.end()); }
 
 json json_of(const glm::dvec2& place) { return {place.x, place.y}; }
 glm::dvec2 place_in(const json& value) { return {value[0].get<double>(), value[1].get<double>()}; }
@@ -41,7 +39,9 @@ std::optional<double> number_in(const json& value) {
 }
 
 json pot_json(const Pot& pot) { return binary(write_pot(pot, PotEncoding::cbor)); }
-Pot pot_in(const json& value) { return parse_pot(bytes_in(value), "the pot of the window").value(); }
+Pot pot_in(const json& value) {
+  return parse_pot(bytes_in(value), "the pot of the window").value();
+}
 
 json json_of(const ExportChoices& choices) {
   json meshes = json::array();
@@ -153,9 +153,8 @@ std::string message_of(const PotQuestion& question) {
 }
 
 std::string message_of(const Pot& pot, const ExportChoices& choices, studio::ExportKind kind) {
-  return text_of({{"export", static_cast<int>(kind)},
-                  {"choices", json_of(choices)},
-                  {"pot", pot_json(pot)}});
+  return text_of(
+      {{"export", static_cast<int>(kind)}, {"choices", json_of(choices)}, {"pot", pot_json(pot)}});
 }
 
 Question question_in(std::string_view message) {
@@ -251,9 +250,9 @@ std::optional<ExportAnswer> export_in(std::string_view message) {
   const json value = value_in(message);
   if (!value.contains("files")) return std::nullopt;
   const json& done = value["done"];
-  ExportAnswer answer{done.is_null() ? Result<ExportFigures>(
-                                           tl::make_unexpected(error_in(value["error"])))
-                                     : Result<ExportFigures>(figures_in(done)),
+  ExportAnswer answer{done.is_null()
+                          ? Result<ExportFigures>(tl::make_unexpected(error_in(value["error"])))
+                          : Result<ExportFigures>(figures_in(done)),
                       {}};
   for (const json& file : value["files"]) answer.files.push_back(bytes_in(file));
   return answer;

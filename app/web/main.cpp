@@ -1,5 +1,5 @@
-// The page's program: the window in a canvas. The script page/page.js sends the events of the browser
-// and calls claystack_frame for each frame.
+// The page's program: the window in a canvas. The script page/page.js sends the events of the
+// browser and calls claystack_frame for each frame.
 
 #include "app/studio/studio.hpp"
 #include "app/web/page_worker.hpp"
@@ -19,7 +19,8 @@
 namespace clay::web {
 namespace {
 
-EM_JS(void, page_log, (const char* text, int size), { Module["page"].log(UTF8ToString(text, size)); });
+EM_JS(void, page_log, (const char* text, int size),
+      { Module["page"].log(UTF8ToString(text, size)); });
 EM_JS(void, page_fail, (const char* text), { Module["page"].fail(UTF8ToString(text)); });
 
 constexpr const char* kCanvas = "#canvas";
@@ -42,6 +43,8 @@ bool create_context() {
   emscripten_webgl_init_context_attributes(&wish);
   wish.majorVersion = 2;
   wish.alpha = wish.antialias = wish.depth = wish.stencil = false;
+  // Otherwise the first draw call of a frame clears what a blit has put there before it.
+  wish.preserveDrawingBuffer = true;
   const auto context = emscripten_webgl_create_context(kCanvas, &wish);
   return context > 0 && emscripten_webgl_make_context_current(context) == EMSCRIPTEN_RESULT_SUCCESS;
 }
@@ -53,7 +56,8 @@ void begin(std::string_view theme) {
   std::error_code ignored;
   if (!std::filesystem::exists(studio::settings_path(), ignored))
     loaded.settings.theme = theme == "light" ? studio::Theme::light : studio::Theme::dark;
-  loaded.settings.folder = std::filesystem::path(studio::settings_path().root_path() / "home" / "web_user").string();
+  loaded.settings.folder =
+      std::filesystem::path(studio::settings_path().root_path() / "home" / "web_user").string();
   auto made = studio::Studio::create(*host, loaded.settings, [](std::string_view line) {
     page_log(line.data(), static_cast<int>(line.size()));
   });
@@ -109,9 +113,7 @@ EMSCRIPTEN_KEEPALIVE void claystack_text(unsigned character) {
 EMSCRIPTEN_KEEPALIVE void claystack_paste(const char* text) {
   if (host) host->paste(text);
 }
-EMSCRIPTEN_KEEPALIVE void claystack_open(const char* path) {
-  take(studio::FilesDropped{{path}});
-}
+EMSCRIPTEN_KEEPALIVE void claystack_open(const char* path) { take(studio::FilesDropped{{path}}); }
 /// The page is hidden: a stroke that is under way ends.
 EMSCRIPTEN_KEEPALIVE void claystack_hide() {
   if (!window) return;

@@ -7,9 +7,8 @@
 namespace clay::web {
 namespace {
 
-EM_JS(void, page_post, (int slot, const char* bytes, int size), {
-  Module["page"].post(slot, HEAPU8.slice(bytes, bytes + size));
-});
+EM_JS(void, page_post, (int slot, const char* bytes, int size),
+      { Module["page"].post(slot, HEAPU8.slice(bytes, bytes + size)); });
 EM_JS(void, page_stop, (int slot), { Module["page"].stop(slot); });
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The worker's side of the page: answers the questions of the window. It is part of the module of the
-// program claystack, whose commands the page runs as well.
+// The worker's side of the page: answers the questions of the window. It is part of the module of
+// the program claystack, whose commands the page runs as well.
 
 #include "app/web/job_message.hpp"
 

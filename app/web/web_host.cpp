@@ -15,7 +15,8 @@ EM_JS(void, page_download, (const char* path), { Module["page"].download(UTF8ToS
 
 void WebHost::begin_frame(double page_ms) noexcept {
   if (last_ms_ >= 0.0)
-    frame_ns_ += static_cast<std::int64_t>(1e6 * std::clamp(page_ms - last_ms_, 0.0, kLongestFrameMs));
+    frame_ns_ +=
+        static_cast<std::int64_t>(1e6 * std::clamp(page_ms - last_ms_, 0.0, kLongestFrameMs));
   last_ms_ = page_ms;
 }
 

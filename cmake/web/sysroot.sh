@@ -54,6 +54,15 @@ for package in "$here"/packages/*; do
   esac
 done
 
+# The notices of all that the page contains.
+for notice in "$top"/unpacked/usr/share/doc/*/copyright "$top"/sources/*/debian/copyright \
+    /usr/share/doc/emscripten/copyright /usr/share/doc/libc++-18-dev/copyright; do
+  [ -f "$notice" ] || continue
+  name=${notice%/debian/copyright}
+  printf '\n==== %s\n\n' "$(basename "${name%/copyright}")"
+  cat "$notice"
+done >"$root/licences.txt"
+
 cmake -G Ninja -S "$here/libraries" -B "$top/libraries" -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_TOOLCHAIN_FILE="$here/toolchain.cmake" -DSYSROOT="$root" -DSOURCES="$top/sources" \
   -DCMAKE_INSTALL_PREFIX="$root"

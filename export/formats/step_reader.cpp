@@ -1,7 +1,7 @@
 // Judges a STEP file of this program by its text alone: topology, incidence, orientation, volume.
 
-#include "export/formats/step.hpp"
 #include "core/number_text.hpp"
+#include "export/formats/step.hpp"
 #include "export/formats/step_text.hpp"
 
 #include <algorithm>

@@ -60,8 +60,9 @@ class StepData {
   }
   /// A frame on the axis at this height; its own axis points up or down.
   Ref frame(double height, double up = 1.0) {
-    return add("AXIS2_PLACEMENT_3D('',", point(0.0, 0.0, height), ",", direction(0.0, 0.0, up), ",",
-               direction(1.0, 0.0, 0.0), ")");
+    // One after the other: compilers differ in the order of arguments, and it numbers the entities.
+    const Ref across = direction(1.0, 0.0, 0.0), along = direction(0.0, 0.0, up);
+    return add("AXIS2_PLACEMENT_3D('',", point(0.0, 0.0, height), ",", along, ",", across, ")");
   }
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
@@ -266,10 +267,9 @@ void add_product(StepData& data, const Ref& shape, const std::string& name) {
   const Ref product = data.add("PRODUCT(", name, ",", name, ",'',(",
                                data.add("PRODUCT_CONTEXT('',", context, ",'mechanical')"), "))");
   data.add("PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,(", product, "))");
-  const Ref definition = data.add(
-      "PRODUCT_DEFINITION('design','',",
-      data.add("PRODUCT_DEFINITION_FORMATION('','',", product, ")"), ",",
-      data.add("PRODUCT_DEFINITION_CONTEXT('part definition',", context, ",'design')"), ")");
+  const Ref part = data.add("PRODUCT_DEFINITION_CONTEXT('part definition',", context, ",'design')");
+  const Ref formation = data.add("PRODUCT_DEFINITION_FORMATION('','',", product, ")");
+  const Ref definition = data.add("PRODUCT_DEFINITION('design','',", formation, ",", part, ")");
   data.add("SHAPE_DEFINITION_REPRESENTATION(",
            data.add("PRODUCT_DEFINITION_SHAPE('','',", definition, ")"), ",", shape, ")");
 }

@@ -51,8 +51,7 @@ void for_each_facet(const RevolveLayout& rule, const Shell& shell, std::size_t f
 class BlockWriter {
  public:
   explicit BlockWriter(FileStore& store, std::size_t facets)
-      : store_(store),
-        launch_(launch_policy(facets >= kFacetsWorthAThread)) {
+      : store_(store), launch_(launch_policy(facets >= kFacetsWorthAThread)) {
     for (std::vector<char>& block : blocks_)
       block.resize(stl::file_bytes(std::min(facets, kBlockFacets)));
     stl::store_prologue(blocks_[0].data(), facets);

@@ -18,7 +18,7 @@ namespace clay::studio {
 namespace {
 
 constexpr std::size_t kMostWorksShown = 3;
-constexpr float kLeastCardEm = 10.0f, kPictureEm = 9.0f;
+constexpr float kLeastCardEm = 10.0f, kPictureEm = 9.0f, kLeastLumpEm = 30.0f;
 
 /// Sections of the finished samples, computed when they are first shown.
 const render::PotView& section_of(const Sample& sample) {
@@ -67,7 +67,8 @@ void draw_lump(const ViewModel& model, Actions& actions) {
   const ImGuiID kg_id = ImGui::GetID("kg"), radius_id = ImGui::GetID("radius");
   float kg = kept.GetFloat(kg_id, 1.0f);
   double radius_mm = static_cast<double>(kept.GetFloat(radius_id, 50.0f));
-  ImGui::Columns(3, "lump", false);
+  const bool wide = ImGui::GetContentRegionAvail().x >= kLeastLumpEm * ImGui::GetFontSize();
+  ImGui::Columns(wide ? 3 : 1, "lump", false);
   slider_label("Clay mass", fmt::format("{:.2f} kg", kg));
   if (ImGui::SliderFloat("##clay", &kg, static_cast<float>(kLeastClayKg),
                          static_cast<float>(kMostClayKg), "",

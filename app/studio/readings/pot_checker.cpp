@@ -7,11 +7,11 @@
 namespace clay::studio {
 
 struct PotChecker::State {
+  explicit State(bool background) : worker(&check_pot, background) {}
   NewestWorker<PotQuestion, PotCheck> worker;
 };
 
-PotChecker::PotChecker(bool background)
-    : state_(std::make_unique<State>(State{{&check_pot, background}})) {}
+PotChecker::PotChecker(bool background) : state_(std::make_unique<State>(background)) {}
 PotChecker::~PotChecker() = default;
 
 void PotChecker::ask(PotQuestion question) { state_->worker.ask(std::move(question)); }

@@ -26,12 +26,6 @@ history::SharedPot thrown() {
   return work.pot().value();
 }
 
-std::size_t failures_of(const solid::ExportReport& report) {
-  std::size_t count = 0;
-  for (const solid::Problem& problem : solid::problems_of(report)) count += problem.fails ? 1 : 0;
-  return count;
-}
-
 class Exporting : public ::testing::Test {
  protected:
   Exporter::Outcome outcome() {
@@ -78,8 +72,8 @@ TEST_F(Exporting, WritesTheBytesOfTheCommand) {
                 base + ".svg --tolerance 0.05 --process porcelain --shrinkage 12%");
   // Its wall is too thin for porcelain: the command writes the files and reports the fault.
   ASSERT_EQ(ran.status, 1) << ran.err;
-  ASSERT_EQ(failures_of(*done.done), 1u) << "and a warning about the overhang";
-  EXPECT_NE(ran.err.find(solid::problems_of(*done.done)[0].text), std::string::npos);
+  ASSERT_EQ(done.done->problems.size(), 2u) << "the wall, and a warning about the overhang";
+  EXPECT_NE(ran.err.find(done.done->problems[0]), std::string::npos);
   for (const char* ending : {".stl", ".obj", ".3mf", ".svg", ".pot.json"})
     EXPECT_EQ(read_text(folder.file("two") + ending), read_text(base + ending)) << ending;
   EXPECT_EQ(claystack("check " + folder.file("two.stl")).status, 0);
@@ -93,11 +87,11 @@ TEST_F(Exporting, PreviewReportsTheFilesInAdvance) {
   EXPECT_EQ(files(), 0u);
   exporter.write(pot, choices);
   ASSERT_TRUE(outcome().done);
-  const auto& reports = previewed.done->files;
-  ASSERT_EQ(reports.size(), 3u);
-  EXPECT_EQ(reports[0].bytes, std::filesystem::file_size(folder.file("two.stl")));
-  EXPECT_EQ(reports[1].bytes, std::filesystem::file_size(folder.file("two.obj")));
-  EXPECT_EQ(reports[2].bytes, std::filesystem::file_size(folder.file("two.3mf")));
+  const auto& meshes = previewed.done->meshes;
+  ASSERT_EQ(meshes.size(), 3u);
+  EXPECT_EQ(meshes[0].bytes, std::filesystem::file_size(folder.file("two.stl")));
+  EXPECT_EQ(meshes[1].bytes, std::filesystem::file_size(folder.file("two.obj")));
+  EXPECT_EQ(meshes[2].bytes, std::filesystem::file_size(folder.file("two.3mf")));
 }
 
 TEST_F(Exporting, NewestPreviewWins) {
@@ -154,12 +148,12 @@ TEST_F(Exporting, ReportsAThinWallWithItsPlace) {
   exporter.preview(pot, choices);
   const auto previewed = outcome();
   ASSERT_TRUE(previewed.done) << previewed.done.error().message;
-  const auto problems = solid::problems_of(*previewed.done);
-  ASSERT_EQ(failures_of(*previewed.done), 1u);
-  EXPECT_NE(problems[0].text.find("thin wall"), std::string::npos);
-  ASSERT_TRUE(problems[0].at);
-  EXPECT_GE(problems[0].at->y, 0.0);
-  EXPECT_LE(problems[0].at->y, pot->stack.height_mm() + 1e-9);
+  ASSERT_FALSE(previewed.done->marks.empty());
+  const Mark& mark = previewed.done->marks[0];
+  EXPECT_EQ(mark.text, previewed.done->problems.at(0));
+  EXPECT_NE(mark.text.find("thin wall"), std::string::npos);
+  EXPECT_GE(mark.place_mm.y, 0.0);
+  EXPECT_LE(mark.place_mm.y, pot->stack.height_mm() + 1e-9);
 }
 
 TEST_F(Exporting, ListsExistingFiles) {
