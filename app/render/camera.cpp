@@ -27,9 +27,15 @@ Axes axes_of(const Camera& camera) noexcept {
   return {{ca, 0.0, -sa}, {-sa * se, ce, -ca * se}, {sa * ce, se, ca * ce}};
 }
 
+/// Of the part that is not covered.
+double free_height_px(const Camera& camera, Viewport viewport) noexcept {
+  return (1.0 - camera.covered) * viewport.height_px;
+}
+
 /// At the target's distance.
 double mm_per_px(const Camera& camera, Viewport viewport) noexcept {
-  return 2.0 * camera.distance_mm * std::tan(0.5 * camera.fov_rad) / viewport.height_px;
+  return 2.0 * camera.distance_mm * std::tan(0.5 * camera.fov_rad) /
+         free_height_px(camera, viewport);
 }
 
 }  // namespace
@@ -52,8 +58,13 @@ glm::dmat4 view_matrix(const Camera& camera) noexcept {
 }
 
 glm::dmat4 projection_matrix(const Camera& camera, double aspect) noexcept {
-  return glm::perspective(camera.fov_rad, aspect, kNearest * camera.distance_mm,
-                          kFarthest * camera.distance_mm);
+  const double free = 1.0 - camera.covered;
+  glm::dmat4 projection =
+      glm::perspective(camera.fov_rad, aspect / free, kNearest * camera.distance_mm,
+                       kFarthest * camera.distance_mm);
+  for (int i = 0; i < 4; ++i)
+    projection[i][1] = free * projection[i][1] + camera.covered * projection[i][3];
+  return projection;
 }
 
 Camera orbited(Camera camera, glm::dvec2 drag_px, Viewport viewport) noexcept {
@@ -84,9 +95,10 @@ std::optional<glm::dvec2> pixel_of(const Camera& camera, Viewport viewport,
   const glm::dvec3 way = point_mm - eye_mm(camera);
   const double depth = -glm::dot(way, axes.back);
   if (!(depth > 0.0)) return std::nullopt;
-  const double px = 0.5 * viewport.height_px / (std::tan(0.5 * camera.fov_rad) * depth);
+  const double half_px = 0.5 * free_height_px(camera, viewport);
+  const double px = half_px / (std::tan(0.5 * camera.fov_rad) * depth);
   return glm::dvec2{0.5 * viewport.width_px + px * glm::dot(way, axes.right),
-                    0.5 * viewport.height_px - px * glm::dot(way, axes.up)};
+                    half_px - px * glm::dot(way, axes.up)};
 }
 
 glm::dvec3 profile_direction(const Camera& camera) noexcept { return axes_of(camera).right; }
@@ -95,9 +107,10 @@ std::optional<glm::dvec2> profile_point(const Camera& camera, Viewport viewport,
                                         glm::dvec2 pixel) noexcept {
   const Axes axes = axes_of(camera);
   const glm::dvec3 eye = eye_mm(camera);
-  const double per_px = 2.0 * std::tan(0.5 * camera.fov_rad) / viewport.height_px;
+  const double half_px = 0.5 * free_height_px(camera, viewport);
+  const double per_px = std::tan(0.5 * camera.fov_rad) / half_px;
   const glm::dvec3 ray = (pixel.x - 0.5 * viewport.width_px) * per_px * axes.right +
-                         (0.5 * viewport.height_px - pixel.y) * per_px * axes.up - axes.back;
+                         (half_px - pixel.y) * per_px * axes.up - axes.back;
   const glm::dvec3 normal = glm::normalize(glm::dvec3{axes.back.x, 0.0, axes.back.z});
   const double closing = glm::dot(ray, normal);
   if (std::abs(closing) < kGrazing * glm::length(ray)) return std::nullopt;

@@ -14,7 +14,10 @@ struct Camera {
   double elevation_rad = 0.0;  ///< of the camera above the target; within +-kSteepest
   double distance_mm = 400.0;
   glm::dvec3 target_mm{0.0};
-  double fov_rad = 0.5;  ///< vertical field of view
+  double fov_rad = 0.5;  ///< vertical field of view, of the free part of the picture
+  /// The share of the picture, at its foot, that something else covers. The rest shows what a
+  /// picture of its size would show, and the covered part continues it.
+  double covered = 0.0;
   friend bool operator==(const Camera&, const Camera&) = default;
 };
 

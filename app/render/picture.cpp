@@ -60,19 +60,21 @@ Camera framed(const PotView& pot, double aspect, Camera camera) noexcept {
   camera.distance_mm = 1.0;
   const glm::dmat4 view = view_matrix(camera);
   const double across = kFilled * std::tan(0.5 * camera.fov_rad);
+  const double free_aspect = aspect / (1.0 - camera.covered);
   double distance = 0.0;
   for (const glm::dvec3& p : points) {
     const glm::dvec4 seen = view * glm::dvec4(p, 1.0);
     const double nearer = seen.z + 1.0;  // than the target
     distance = std::max({distance, nearer + std::abs(seen.y) / across,
-                         nearer + std::abs(seen.x) / (across * aspect)});
+                         nearer + std::abs(seen.x) / (across * free_aspect)});
   }
   camera.distance_mm = distance;
   return camera;
 }
 
-Camera framed(const PotView& pot, double aspect) noexcept {
+Camera framed(const PotView& pot, double aspect, double covered) noexcept {
   Camera camera;
+  camera.covered = covered;
   camera.azimuth_rad = kDefaultAzimuth;
   camera.elevation_rad = kDefaultElevation;
   camera.fov_rad = kDefaultFov;

@@ -94,7 +94,7 @@ struct Picture {
 [[nodiscard]] double wheel_radius_mm(const PotView& pot) noexcept;
 
 /// A camera that sees the whole pot, from a little above and to the right.
-[[nodiscard]] Camera framed(const PotView& pot, double aspect) noexcept;
+[[nodiscard]] Camera framed(const PotView& pot, double aspect, double covered = 0.0) noexcept;
 /// The same view direction as `camera`: only target and distance change.
 [[nodiscard]] Camera framed(const PotView& pot, double aspect, Camera camera) noexcept;
 

@@ -42,13 +42,17 @@ render::Viewport SceneView::viewport() const noexcept {
           std::max(1, static_cast<int>(rect_.size_px.y))};
 }
 
+float SceneView::free_height_px() const noexcept {
+  return static_cast<float>(1.0 - camera_.covered) * rect_.size_px.y;
+}
+
 void SceneView::look(const render::PotView& pot, ViewFrom from) {
   constexpr double kRight = std::numbers::pi / 2.0;
   render::Camera camera = camera_;
   switch (from) {
     case ViewFrom::home:
       wheel_radius_mm_ = 0.0;
-      camera_ = render::framed(pot, viewport().aspect());
+      camera_ = render::framed(pot, viewport().aspect(), camera.covered);
       camera_.distance_mm *= kRoomForTool;
       return;
     case ViewFrom::lesson: {
@@ -84,7 +88,7 @@ void SceneView::lift_foot() {
   constexpr int kMostSteps = 200;
   const auto low = [&] {
     const auto foot = pixel_of({0.0, 0.0});
-    return foot && foot->y > rect_.corner_px.y + kFootAt * rect_.size_px.y;
+    return foot && foot->y > rect_.corner_px.y + kFootAt * free_height_px();
   };
   for (int step = 0; step < kMostSteps && low(); ++step) camera_.target_mm.y -= kStepMm;
 }
@@ -96,7 +100,7 @@ void SceneView::keep_rim_in_view(const render::PotView& pot) {
   const auto hidden = [&] {
     const auto rim = pixel_of({0.0, top_mm}), foot = pixel_of({0.0, 0.0});
     return !rim || !foot || rim->y < rect_.corner_px.y ||
-           foot->y > rect_.corner_px.y + rect_.size_px.y;
+           foot->y > rect_.corner_px.y + free_height_px();
   };
   if (!hidden()) return;
   camera_.target_mm.y = std::max(camera_.target_mm.y, 0.5 * top_mm);

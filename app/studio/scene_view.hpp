@@ -48,7 +48,11 @@ class SceneView {
   /// Moves back if the rim and 60 mm above it are not in sight.
   void keep_rim_in_view(const render::PotView& pot);
   void zoom(double notches) { camera_ = render::zoomed(camera_, notches); }
-  void place(const ViewRect& rect) noexcept { rect_ = rect; }
+  /// `covered_px`: the height at the foot of the view over which the timeline lies.
+  void place(const ViewRect& rect, float covered_px = 0.0f) noexcept {
+    rect_ = rect;
+    camera_.covered = covered_px / rect.size_px.y;
+  }
   [[nodiscard]] const ViewRect& rect() const noexcept { return rect_; }
   [[nodiscard]] const render::Camera& camera() const noexcept { return camera_; }
   [[nodiscard]] render::Viewport viewport() const noexcept;
@@ -69,6 +73,7 @@ class SceneView {
   void press(const ViewModel& view, bool inverted, Actions& actions);
   void drag(const ViewModel& view, glm::vec2 by_px, Actions& actions);
   void lift_foot();
+  [[nodiscard]] float free_height_px() const noexcept;
   [[nodiscard]] std::optional<render::ToolView> hovering_tool(const ViewModel& view,
                                                               const Tool& tool) const;
   [[nodiscard]] glm::dvec3 on_wheel(glm::dvec2 place_mm) const;

@@ -192,7 +192,7 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   if (timeline > 0.0f)
     draw_timeline(model, actions, {left, top + height - timeline}, {wide, timeline});
   const bool first = state_.scene.rect().size_px.x <= 1.0f;
-  state_.scene.place(view);
+  state_.scene.place(view, timeline);
   if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
   draw_target(model, view);
   draw_marks(model, view);

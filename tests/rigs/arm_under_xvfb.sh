@@ -13,12 +13,13 @@ until_file() {
   [ -e "$folder/$1" ] || fail "the window ended before the answer of the arm: $1"
 }
 request() { : >"$folder/$1"; }
-# press_by_mouse: moves from beside the lump into it and stays there.
+# press_by_mouse N SHIFT: the stroke N moves from beside the lump into it, SHIFT pixels deeper than
+# x = 703, and stays there.
 press_by_mouse() {
   xdotool mousemove --window "$window" 833 420 mousedown 1
   until_line "stroke started" "$1"
   # The speed of the tool is limited, so the drag must last until it reaches the clay.
-  for x in 803 783 763 743 723 703; do
+  for x in 803 783 763 743 723 $((703 - $2)); do
     xdotool mousemove --window "$window" $x 420 sleep 0.2
   done
 }
@@ -34,15 +35,15 @@ until_file force_displayed
 request pull
 until_line "stroke ended"
 until_line "error: usb:1-1: unplugged; plug it in again; the mouse is in use now"
-press_by_mouse 1
+press_by_mouse 1 0
 xdotool mouseup 1
 until_line "stroke ended" 2
 
 # The arm is reconnected during a stroke of the mouse, with its grip inside the clay.
-press_by_mouse 2
+press_by_mouse 2 40
 request reconnect
 until_file opened
-xdotool mousemove --window "$window" 701 420
+xdotool mousemove --window "$window" 661 420
 [ "$(grep -c "device: Novint Falcon" "$log")" -eq 1 ] || fail "expected the mouse to keep the clay"
 xdotool mouseup 1
 until_line "stroke ended" 3

@@ -223,14 +223,13 @@ void scroll_to_present(const ViewModel& model, const std::vector<TimelineCard>& 
 
 float timeline_height(const ViewModel& model, glm::vec2 room_px) {
   const float em = ImGui::GetFontSize();
-  if (!model.document.has_work() || model.document.work().size() < 2 ||
-      room_px.y < kLeastRoomEm * em)
-    return 0.0f;
+  if (!model.document.has_work() || room_px.y < kLeastRoomEm * em) return 0.0f;
   return std::ceil((kCardEm + 2.0f * kPadEm + kBarEm) * em);
 }
 
 void draw_timeline(const ViewModel& model, Actions& actions, glm::vec2 corner_px,
                    glm::vec2 size_px) {
+  if (model.document.work().size() < 2) return;
   const float em = ImGui::GetFontSize();
   const std::vector<TimelineCard> cards = timeline_of(model.document.work());
   ImGui::SetNextWindowPos({corner_px.x, corner_px.y});

@@ -1,3 +1,4 @@
+#include "app/history/pot_scene.hpp"
 #include "claystack/engine/files.hpp"
 #include "tests/app/history/strokes.hpp"
 #include "tests/support/run_program.hpp"
@@ -23,7 +24,8 @@ TEST(ThrowWork, ReproducesTheThrownPotByteForByte) {
   for (const auto& [node, option] : {std::pair(1u, ""), {2u, " --at 2"}, {0u, " --at 0"}}) {
     const auto run = claystack("throw " + path + option + " -o " + pot);
     ASSERT_EQ(run.status, 0) << run.err;
-    EXPECT_EQ(read_text(pot), write_pot(**work.pot(node), PotEncoding::json));
+    const SceneSpec scene = small_scene(node == 2 ? 5.0 : 8.0);
+    EXPECT_EQ(read_text(pot), write_pot(remembering(scene, **work.pot(node)), PotEncoding::json));
   }
   const auto list = claystack("throw " + path + " --list --json").json();
   ASSERT_EQ(list["nodes"].size(), 3u);
@@ -72,7 +74,8 @@ TEST(ThrowFrom, ContinuesAPot) {
   Work work = Work::begin(scene).value();
   (void)work.add(scene, press_stroke(1)).value();
   (void)work.add(scene, press_stroke(2)).value();
-  EXPECT_EQ(read_text(file("2.pot.json")), write_pot(**work.pot(), PotEncoding::json));
+  EXPECT_EQ(read_text(file("2.pot.json")),
+            write_pot(remembering(scene, **work.pot()), PotEncoding::json));
 
   const auto model = claystack(second + " --model paper --from " + file("1.pot.cbor"));
   EXPECT_EQ(model.status, 2);
