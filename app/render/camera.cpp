@@ -59,9 +59,8 @@ glm::dmat4 view_matrix(const Camera& camera) noexcept {
 
 glm::dmat4 projection_matrix(const Camera& camera, double aspect) noexcept {
   const double free = 1.0 - camera.covered;
-  glm::dmat4 projection =
-      glm::perspective(camera.fov_rad, aspect / free, kNearest * camera.distance_mm,
-                       kFarthest * camera.distance_mm);
+  glm::dmat4 projection = glm::perspective(
+      camera.fov_rad, aspect / free, kNearest * camera.distance_mm, kFarthest * camera.distance_mm);
   for (int i = 0; i < 4; ++i)
     projection[i][1] = free * projection[i][1] + camera.covered * projection[i][3];
   return projection;

@@ -21,8 +21,8 @@ struct TimelineCard {
 /// The path from the first stroke to the last that redo reaches.
 [[nodiscard]] std::vector<TimelineCard> timeline_of(const history::Work& work);
 
-/// Its height [px], which depends on the font only; 0 without a work, or in a low view. The view keeps
-/// the space free before the first stroke too, so that the pot does not move with it.
+/// Its height [px], which depends on the font only; 0 without a work, or in a low view. The view
+/// keeps the space free before the first stroke too, so that the pot does not move with it.
 [[nodiscard]] float timeline_height(const ViewModel& model, glm::vec2 room_px);
 void draw_timeline(const ViewModel& model, Actions& actions, glm::vec2 corner_px,
                    glm::vec2 size_px);
