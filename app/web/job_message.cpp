@@ -223,8 +223,8 @@ json value_in(std::string_view message) { return json::from_cbor(message.begin()
 template <class Value>
 std::optional<Value> member(const json& message, const char* name) {
   if (!message.contains(name)) return std::nullopt;
-  std::optional<Value> value(std::in_place);
-  Cbor<Value>::read(message.at(name), *value);
+  Value value;
+  Cbor<Value>::read(message.at(name), value);
   return value;
 }
 

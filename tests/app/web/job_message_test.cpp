@@ -28,7 +28,7 @@ history::SharedPot cup(double wall_mm) {
 }
 
 studio::PotQuestion full_question() {
-  const auto pot = cup(2.0);
+  const auto pot = cup(1.5);
   studio::PotQuestion question{{pot, render::view_of(*pot), 1.7, 0.3}, "porcelain", 0.04};
   question.target = std::make_shared<const studio::Target>(
       studio::Target{"thick", render::view_of(*cup(8.0))});
