@@ -1,9 +1,9 @@
 #!/bin/sh
-# samples/web_page.sh [TARGET...]: builds the web page, and further targets of app/web. The page is
-# the folder build/web/site, which any web server can serve. Installs the
-# toolchain first, a Debian 13 system with Emscripten in a folder of its own (3.5 GB): by default
-# ${XDG_CACHE_HOME:-~/.cache}/claystack-web, otherwise the folder CLAYSTACK_WEB_SYSTEM. Needs root
-# (or sudo) for chroot and mounts; the mounts end with the command.
+# samples/web_page.sh [TARGET...]: builds the web page, the folder build/web/site, which any web
+# server can serve, and further targets of app/web. Installs the toolchain first, a Debian 13 system
+# with Emscripten in a folder of its own (3.5 GB): by default ${XDG_CACHE_HOME:-~/.cache}/claystack-web,
+# otherwise the folder CLAYSTACK_WEB_SYSTEM. Needs root (or sudo) for chroot and mounts; the mounts end
+# with the command.
 set -eu
 cd "$(dirname "$0")/.."
 

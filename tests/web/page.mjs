@@ -57,7 +57,7 @@ async function openPage(browser, size, hash = '', address = server.address) {
     window.announced.findLast(line => line.text.startsWith(text)), text);
   page.announced = () => page.$$eval('#events p', lines => lines.map(line => line.textContent));
   await page.setViewport(size);
-  const downloads = await browser.target().createCDPSession();
+  const downloads = await page.browser().target().createCDPSession();
   await downloads.send('Browser.setDownloadBehavior', {behavior: 'allow', downloadPath: folder});
   page.says = (text, count = 1) => page.waitForFunction((text, count) =>
     document.getElementById('events').textContent.split(text).length > count,
