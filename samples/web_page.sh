@@ -1,8 +1,9 @@
 #!/bin/sh
-# Builds the web page: the folder build/web/site, which any web server can serve. Installs the
-# toolchain first, a Debian 13 system with Emscripten in a folder of its own (3.5 GB): by default
-# ${XDG_CACHE_HOME:-~/.cache}/claystack-web, otherwise the folder CLAYSTACK_WEB_SYSTEM. Needs root
-# (or sudo) for chroot and mounts; the mounts end with the command.
+# samples/web_page.sh [TARGET...]: builds the web page, the folder build/web/site, which any web
+# server can serve, and further targets of app/web. Installs the toolchain first, a Debian 13 system
+# with Emscripten in a folder of its own (3.5 GB): by default ${XDG_CACHE_HOME:-~/.cache}/claystack-web,
+# otherwise the folder CLAYSTACK_WEB_SYSTEM. Needs root (or sudo) for chroot and mounts; the mounts end
+# with the command.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -44,7 +45,7 @@ inside "
   }
   sh cmake/web/sysroot.sh /opt/claystack-web
   cmake --preset web
-  cmake --build --preset web --target site -j \$JOBS
+  cmake --build --preset web --target site $* -j \$JOBS
 "
 sh tests/web_sizes.sh build/web/site
 echo "serve it: python3 -m http.server -d build/web/site"

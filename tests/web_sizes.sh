@@ -12,7 +12,7 @@ for file in *; do
   printf '%-22s %10d %10d\n' "$file" "$raw" "$packed"
   all=$((all + packed))
   # The worker's module loads after the first picture.
-  case $file in claystack.*|worker.js|licences.txt) ;; *) first=$((first + packed)) ;; esac
+  case $file in claystack.*|worker.js|offline.js|licences.txt) ;; *) first=$((first + packed)) ;; esac
 done
 printf '%-22s %10s %10d\n' 'up to the picture' '' "$first"
 printf '%-22s %10s %10d\n' all '' "$all"

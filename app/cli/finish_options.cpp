@@ -1,12 +1,13 @@
 #include "app/cli/finish_options.hpp"
 
 #include "app/cli/console.hpp"
+#include "core/number_text.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace clay::cli {
@@ -26,7 +27,7 @@ Result<solid::FootRing> foot_of(const std::string& text) {
   const char *at = text.data(), *end = at + text.size();
   while (true) {
     double size = 0.0;
-    const auto [stop, problem] = std::from_chars(at, end, size);
+    const auto [stop, problem] = from_chars(at, end, size);
     if (problem != std::errc() || !(size > 0.0 && size <= kLargestMm)) return wrong();
     sizes.push_back(size);
     if (stop == end) break;

@@ -51,7 +51,7 @@ struct Exporter::State {
   void post_next() {
     if (running || !next) return;
     running = std::exchange(next, std::nullopt);
-    worker.post(web::message_of(*running->pot, running->choices, running->kind));
+    worker.post(web::message_of({running->kind, running->choices, *running->pot}));
   }
   void receive() {
     const auto message = worker.take();

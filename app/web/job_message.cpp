@@ -5,256 +5,264 @@
 #include <nlohmann/json.hpp>
 
 #include <memory>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace clay::web {
 namespace {
 
 using nlohmann::json;
-using studio::ExportChoices;
-using studio::ExportFigures;
-using studio::PotCheck;
-using studio::PotQuestion;
 
-json binary(std::string_view bytes) {
-  return json::binary(std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
+// The members of each class, for both directions. The binding names all of them: a member that is
+// missing here is an error of the compiler.
+template <class Of, class As>
+concept Like = std::is_same_v<std::remove_const_t<Of>, As>;
+
+auto members(Like<glm::dvec2> auto& of) { return std::tie(of.x, of.y); }
+auto members(Like<Error> auto& of) {
+  auto& [kind, message] = of;
+  return std::tie(kind, message);
 }
-std::string bytes_in(const json& value) {
-  const auto& bytes = value.get_binary();
-  return {bytes.begin(), bytes.end()};
+auto members(Like<solid::ProfilePoint> auto& of) {
+  auto& [rho, y] = of;
+  return std::tie(rho, y);
 }
-std::string text_of(const json& value) {
-  std::string text;
-  json::to_cbor(value, text);
-  return text;
+auto members(Like<solid::Problem> auto& of) {
+  auto& [text, at, fails, kind, figure] = of;
+  return std::tie(text, at, fails, kind, figure);
+}
+auto members(Like<solid::WallLimit> auto& of) {
+  auto& [up_to_size_sum_mm, min_wall_mm, source, process] = of;
+  return std::tie(up_to_size_sum_mm, min_wall_mm, source, process);
+}
+auto members(Like<solid::ClayFigures> auto& of) {
+  auto& [density_g_cm3, shrinkage, drying_shrinkage, water, ignition_loss] = of;
+  return std::tie(density_g_cm3, shrinkage, drying_shrinkage, water, ignition_loss);
+}
+auto members(Like<solid::PotSize> auto& of) {
+  auto& [diameter_mm, height_mm, foot_diameter_mm] = of;
+  return std::tie(diameter_mm, height_mm, foot_diameter_mm);
+}
+auto members(Like<solid::PotState> auto& of) {
+  auto& [size, weight_g, capacity_ml, to_line_ml] = of;
+  return std::tie(size, weight_g, capacity_ml, to_line_ml);
+}
+auto members(Like<solid::Balance> auto& of) {
+  auto& [centre_mm, tipping_deg] = of;
+  return std::tie(centre_mm, tipping_deg);
+}
+auto members(Like<solid::MakerNumbers> auto& of) {
+  auto& [clay, fill_line_mm, thrown, dry, fired, empty, full] = of;
+  return std::tie(clay, fill_line_mm, thrown, dry, fired, empty, full);
+}
+auto members(Like<render::Row> auto& of) {
+  auto& [outer_mm, inner_mm] = of;
+  return std::tie(outer_mm, inner_mm);
+}
+auto members(Like<render::RowWall> auto& of) {
+  auto& [outer_mm, inner_mm] = of;
+  return std::tie(outer_mm, inner_mm);
+}
+auto members(Like<render::FallenView> auto& of) {
+  auto& [first_row, place] = of;
+  return std::tie(first_row, place);
+}
+auto members(Like<render::PotView> auto& of) {
+  auto& [rows, height_mm, wall_mm, fallen] = of;
+  return std::tie(rows, height_mm, wall_mm, fallen);
+}
+auto members(Like<studio::Target> auto& of) {
+  auto& [name, view] = of;
+  return std::tie(name, view);
+}
+auto members(Like<studio::OffTarget> auto& of) {
+  auto& [mm, radius_mm, height_mm, rows_mm] = of;
+  return std::tie(mm, radius_mm, height_mm, rows_mm);
+}
+auto members(Like<studio::Subject> auto& of) {
+  auto& [pot, outline, density_g_cm3, crown_mm] = of;
+  return std::tie(pot, outline, density_g_cm3, crown_mm);
+}
+auto members(Like<studio::PotQuestion> auto& of) {
+  auto& [subject, process, tolerance_mm, target, shrinkage] = of;
+  return std::tie(subject, process, tolerance_mm, target, shrinkage);
+}
+auto members(Like<studio::PotRemark> auto& of) {
+  auto& [from_mm, to_mm, text] = of;
+  return std::tie(from_mm, to_mm, text);
+}
+auto members(Like<studio::PotCheck> auto& of) {
+  auto& [live, proved, why_not, fault_mm, remarks, fallen, triangles, tolerance_mm, counted_mm3,
+         proved_mm3, volume_error_relative, least_wall_mm, thinnest_mm, thinnest_from, thinnest_to,
+         limit, problems, walls, height_mm, maker, off, seconds] = of;
+  return std::tie(live, proved, why_not, fault_mm, remarks, fallen, triangles, tolerance_mm,
+                  counted_mm3, proved_mm3, volume_error_relative, least_wall_mm, thinnest_mm,
+                  thinnest_from, thinnest_to, limit, problems, walls, height_mm, maker, off,
+                  seconds);
+}
+auto members(Like<studio::ExportChoices> auto& of) {
+  auto& [meshes, section, pot, folder, name, tolerance_mm, smoothing, process, min_wall_mm,
+         shrinkage_percent] = of;
+  return std::tie(meshes, section, pot, folder, name, tolerance_mm, smoothing, process, min_wall_mm,
+                  shrinkage_percent);
+}
+auto members(Like<ExportQuestion> auto& of) {
+  auto& [kind, choices, pot] = of;
+  return std::tie(kind, choices, pot);
+}
+auto members(Like<studio::Mark> auto& of) {
+  auto& [place_mm, text] = of;
+  return std::tie(place_mm, text);
+}
+auto members(Like<studio::ExportFigures::Mesh> auto& of) {
+  auto& [format, bytes] = of;
+  return std::tie(format, bytes);
+}
+auto members(Like<studio::ExportFigures> auto& of) {
+  auto& [has_solid, triangles, meshes, diameter_mm, height_mm, shrinkage, fallen, thinnest_mm,
+         thinnest_at_mm, problems, marks] = of;
+  return std::tie(has_solid, triangles, meshes, diameter_mm, height_mm, shrinkage, fallen,
+                  thinnest_mm, thinnest_at_mm, problems, marks);
+}
+
+// A value as CBOR: an optional or a pointer may be null, a class is the array of its members.
+template <class Value>
+struct Cbor {
+  static json of(const Value& value) {
+    if constexpr (std::is_enum_v<Value>) return static_cast<int>(value);
+    else if constexpr (std::is_constructible_v<json, const Value&>) return value;
+    else
+      return std::apply(
+          [](const auto&... each) {
+            return json::array({Cbor<std::remove_cvref_t<decltype(each)>>::of(each)...});
+          },
+          members(value));
+  }
+  static void read(const json& from, Value& into) {
+    if constexpr (std::is_enum_v<Value>) into = static_cast<Value>(from.get<int>());
+    else if constexpr (std::is_constructible_v<json, const Value&>) from.get_to(into);
+    else {
+      std::size_t next = 0;
+      std::apply(
+          [&](auto&... each) {
+            (Cbor<std::remove_cvref_t<decltype(each)>>::read(from.at(next++), each), ...);
+          },
+          members(into));
+    }
+  }
+};
+/// The bytes of a file.
+struct Bytes {
+  static json of(const std::string& bytes) {
+    return json::binary(std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
+  }
+  static std::string in(const json& from) {
+    const auto& bytes = from.get_binary();
+    return {bytes.begin(), bytes.end()};
+  }
+};
+template <>
+struct Cbor<Pot> {
+  static json of(const Pot& pot) { return Bytes::of(write_pot(pot, PotEncoding::cbor)); }
+  static void read(const json& from, Pot& into) {
+    into = parse_pot(Bytes::in(from), "the pot of the window").value();
+  }
+};
+template <>
+struct Cbor<glm::dmat4> {
+  static json of(const glm::dmat4& place) { return std::vector(&place[0][0], &place[0][0] + 16); }
+  static void read(const json& from, glm::dmat4& into) {
+    for (std::size_t i = 0; i < 16; ++i) from.at(i).get_to((&into[0][0])[i]);
+  }
+};
+template <class Value>
+struct Cbor<std::vector<Value>> {
+  static json of(const std::vector<Value>& values) {
+    json made = json::array();
+    for (const Value& value : values) made.push_back(Cbor<Value>::of(value));
+    return made;
+  }
+  static void read(const json& from, std::vector<Value>& into) {
+    into.assign(from.size(), Value{});
+    for (std::size_t i = 0; i < into.size(); ++i) Cbor<Value>::read(from[i], into[i]);
+  }
+};
+template <class Value>
+struct Cbor<std::optional<Value>> {
+  static json of(const std::optional<Value>& value) {
+    return value ? Cbor<Value>::of(*value) : json();
+  }
+  static void read(const json& from, std::optional<Value>& into) {
+    into.reset();
+    if (!from.is_null()) Cbor<Value>::read(from, into.emplace());
+  }
+};
+template <class Value>
+struct Cbor<std::shared_ptr<const Value>> {
+  static json of(const std::shared_ptr<const Value>& value) {
+    return value ? Cbor<Value>::of(*value) : json();
+  }
+  static void read(const json& from, std::shared_ptr<const Value>& into) {
+    into.reset();
+    if (from.is_null()) return;
+    auto made = std::make_shared<Value>();
+    Cbor<Value>::read(from, *made);
+    into = std::move(made);
+  }
+};
+
+/// A message is an object with one member, its name.
+template <class Value>
+std::string message(const char* name, const Value& value) {
+  std::string bytes;
+  json::to_cbor(json{{name, Cbor<Value>::of(value)}}, bytes);
+  return bytes;
 }
 json value_in(std::string_view message) { return json::from_cbor(message.begin(), message.end()); }
-
-json json_of(const glm::dvec2& place) { return {place.x, place.y}; }
-glm::dvec2 place_in(const json& value) { return {value[0].get<double>(), value[1].get<double>()}; }
-
-json json_of(const std::optional<double>& number) { return number ? json(*number) : json(); }
-std::optional<double> number_in(const json& value) {
-  return value.is_null() ? std::nullopt : std::optional(value.get<double>());
+template <class Value>
+std::optional<Value> member(const json& message, const char* name) {
+  if (!message.contains(name)) return std::nullopt;
+  Value value;
+  Cbor<Value>::read(message.at(name), value);
+  return value;
 }
-
-json pot_json(const Pot& pot) { return binary(write_pot(pot, PotEncoding::cbor)); }
-Pot pot_in(const json& value) {
-  return parse_pot(bytes_in(value), "the pot of the window").value();
-}
-
-json json_of(const ExportChoices& choices) {
-  json meshes = json::array();
-  for (const solid::MeshFormat format : choices.meshes) meshes.push_back(static_cast<int>(format));
-  return {{"meshes", meshes},
-          {"section", choices.section},
-          {"pot", choices.pot},
-          {"name", choices.name},
-          {"tolerance_mm", choices.tolerance_mm},
-          {"smoothing", static_cast<int>(choices.smoothing)},
-          {"process", choices.process},
-          {"min_wall_mm", choices.min_wall_mm},
-          {"shrinkage_percent", choices.shrinkage_percent}};
-}
-ExportChoices choices_in(const json& value) {
-  ExportChoices choices;
-  choices.meshes.clear();
-  for (const json& format : value["meshes"])
-    choices.meshes.push_back(static_cast<solid::MeshFormat>(format.get<int>()));
-  choices.section = value["section"];
-  choices.pot = value["pot"];
-  choices.name = value["name"];
-  choices.tolerance_mm = value["tolerance_mm"];
-  choices.smoothing = static_cast<solid::Smoothing>(value["smoothing"].get<int>());
-  choices.process = value["process"];
-  choices.min_wall_mm = value["min_wall_mm"];
-  choices.shrinkage_percent = value["shrinkage_percent"];
-  return choices;
-}
-
-json json_of(const Error& error) {
-  return {{"kind", static_cast<int>(error.kind)}, {"message", error.message}};
-}
-Error error_in(const json& value) {
-  return {static_cast<ErrorKind>(value["kind"].get<int>()), value["message"]};
-}
-
-json json_of(const ExportFigures& figures) {
-  json meshes = json::array(), marks = json::array();
-  for (const ExportFigures::Mesh& mesh : figures.meshes)
-    meshes.push_back({static_cast<int>(mesh.format), mesh.bytes});
-  for (const studio::Mark& mark : figures.marks)
-    marks.push_back({json_of(mark.place_mm), mark.text});
-  return {{"has_solid", figures.has_solid},
-          {"triangles", figures.triangles},
-          {"meshes", meshes},
-          {"diameter_mm", figures.diameter_mm},
-          {"height_mm", figures.height_mm},
-          {"shrinkage", figures.shrinkage},
-          {"fallen", figures.fallen},
-          {"thinnest_mm", figures.thinnest_mm},
-          {"thinnest_at_mm", figures.thinnest_at_mm},
-          {"problems", figures.problems},
-          {"marks", marks}};
-}
-ExportFigures figures_in(const json& value) {
-  ExportFigures figures;
-  figures.has_solid = value["has_solid"];
-  figures.triangles = value["triangles"];
-  for (const json& mesh : value["meshes"])
-    figures.meshes.push_back({static_cast<solid::MeshFormat>(mesh[0].get<int>()), mesh[1]});
-  figures.diameter_mm = value["diameter_mm"];
-  figures.height_mm = value["height_mm"];
-  figures.shrinkage = value["shrinkage"];
-  figures.fallen = value["fallen"];
-  figures.thinnest_mm = value["thinnest_mm"];
-  figures.thinnest_at_mm = value["thinnest_at_mm"];
-  figures.problems = value["problems"].get<std::vector<std::string>>();
-  for (const json& mark : value["marks"]) figures.marks.push_back({place_in(mark[0]), mark[1]});
-  return figures;
-}
-
-json json_of(const solid::Problem& problem) {
-  return {{"text", problem.text},
-          {"at", problem.at ? json{problem.at->rho, problem.at->y} : json()},
-          {"fails", problem.fails},
-          {"kind", static_cast<int>(problem.kind)},
-          {"figure", problem.figure}};
-}
-solid::Problem problem_in(const json& value) {
-  solid::Problem problem;
-  problem.text = value["text"];
-  if (const json& at = value["at"]; !at.is_null()) problem.at = {at[0], at[1]};
-  problem.fails = value["fails"];
-  problem.kind = static_cast<solid::ProblemKind>(value["kind"].get<int>());
-  problem.figure = value["figure"];
-  return problem;
-}
-
-json json_of(const solid::WallLimit& limit) {
-  return {limit.up_to_size_sum_mm, limit.min_wall_mm, limit.source, limit.process};
-}
-solid::WallLimit limit_in(const json& value) { return {value[0], value[1], value[2], value[3]}; }
 
 }  // namespace
 
-std::string message_of(const PotQuestion& question) {
-  json rows = json::array();
-  for (const render::Row& row : question.subject.outline.rows)
-    rows.insert(rows.end(), {row.outer_mm, row.inner_mm});
-  const history::SharedPot& pot = question.subject.pot;
-  return text_of({{"pot", pot ? pot_json(*pot) : json()},
-                  {"rows", rows},
-                  {"height_mm", question.subject.outline.height_mm},
-                  {"density_g_cm3", question.subject.density_g_cm3},
-                  {"crown_mm", question.subject.crown_mm},
-                  {"process", question.process},
-                  {"tolerance_mm", question.tolerance_mm}});
-}
+std::string message_of(const studio::PotQuestion& question) { return message("check", question); }
 
-std::string message_of(const Pot& pot, const ExportChoices& choices, studio::ExportKind kind) {
-  return text_of(
-      {{"export", static_cast<int>(kind)}, {"choices", json_of(choices)}, {"pot", pot_json(pot)}});
-}
+std::string message_of(const ExportQuestion& question) { return message("export", question); }
 
 Question question_in(std::string_view message) {
   const json value = value_in(message);
-  Question question;
-  if (value.contains("export")) {
-    question.exporting = {static_cast<studio::ExportKind>(value["export"].get<int>()),
-                          choices_in(value["choices"]), pot_in(value["pot"])};
-    return question;
-  }
-  PotQuestion& check = question.check.emplace();
-  if (const json& pot = value["pot"]; !pot.is_null())
-    check.subject.pot = std::make_shared<const Pot>(pot_in(pot));
-  const json& rows = value["rows"];
-  for (std::size_t i = 0; i + 1 < rows.size(); i += 2)
-    check.subject.outline.rows.push_back({rows[i], rows[i + 1]});
-  check.subject.outline.height_mm = value["height_mm"];
-  check.subject.density_g_cm3 = value["density_g_cm3"];
-  check.subject.crown_mm = value["crown_mm"];
-  check.process = value["process"];
-  check.tolerance_mm = value["tolerance_mm"];
-  return question;
+  return {member<studio::PotQuestion>(value, "check"), member<ExportQuestion>(value, "export")};
 }
 
-std::string message_of(const PotCheck& check) {
-  json remarks = json::array(), problems = json::array(), walls = json::array();
-  for (const studio::PotRemark& remark : check.remarks)
-    remarks.push_back({remark.from_mm, remark.to_mm, remark.text});
-  for (const solid::Problem& problem : check.problems) problems.push_back(json_of(problem));
-  for (const render::RowWall& wall : check.walls)
-    walls.insert(walls.end(), {wall.outer_mm, wall.inner_mm});
-  return text_of({{"live", check.live},
-                  {"proved", check.proved},
-                  {"why_not", check.why_not},
-                  {"fault_mm", json_of(check.fault_mm)},
-                  {"remarks", remarks},
-                  {"fallen", check.fallen},
-                  {"triangles", check.triangles},
-                  {"tolerance_mm", check.tolerance_mm},
-                  {"counted_mm3", check.counted_mm3},
-                  {"proved_mm3", check.proved_mm3},
-                  {"volume_error_relative", check.volume_error_relative},
-                  {"least_wall_mm", check.least_wall_mm},
-                  {"thinnest_mm", check.thinnest_mm},
-                  {"thinnest_from", json_of(check.thinnest_from)},
-                  {"thinnest_to", json_of(check.thinnest_to)},
-                  {"limit", check.limit ? json_of(*check.limit) : json()},
-                  {"problems", problems},
-                  {"walls", walls},
-                  {"height_mm", check.height_mm},
-                  {"seconds", check.seconds}});
-}
+std::string message_of(const studio::PotCheck& check) { return message("checked", check); }
 
-std::optional<PotCheck> check_in(std::string_view message) {
-  const json value = value_in(message);
-  if (!value.contains("proved")) return std::nullopt;
-  PotCheck check;
-  check.live = value["live"];
-  check.proved = value["proved"];
-  check.why_not = value["why_not"];
-  check.fault_mm = number_in(value["fault_mm"]);
-  for (const json& remark : value["remarks"])
-    check.remarks.push_back({remark[0], remark[1], remark[2]});
-  check.fallen = value["fallen"];
-  check.triangles = value["triangles"];
-  check.tolerance_mm = value["tolerance_mm"];
-  check.counted_mm3 = value["counted_mm3"];
-  check.proved_mm3 = value["proved_mm3"];
-  check.volume_error_relative = value["volume_error_relative"];
-  check.least_wall_mm = value["least_wall_mm"];
-  check.thinnest_mm = value["thinnest_mm"];
-  check.thinnest_from = place_in(value["thinnest_from"]);
-  check.thinnest_to = place_in(value["thinnest_to"]);
-  if (const json& limit = value["limit"]; !limit.is_null()) check.limit = limit_in(limit);
-  for (const json& problem : value["problems"]) check.problems.push_back(problem_in(problem));
-  const json& walls = value["walls"];
-  for (std::size_t i = 0; i + 1 < walls.size(); i += 2)
-    check.walls.push_back({walls[i], walls[i + 1]});
-  check.height_mm = value["height_mm"];
-  check.seconds = value["seconds"];
-  return check;
+std::optional<studio::PotCheck> check_in(std::string_view message) {
+  return member<studio::PotCheck>(value_in(message), "checked");
 }
 
 std::string message_of(const ExportAnswer& answer) {
-  json files = json::array();
-  for (const std::string& file : answer.files) files.push_back(binary(file));
-  return text_of({{"files", files},
-                  {"done", answer.done ? json_of(*answer.done) : json()},
-                  {"error", answer.done ? json() : json_of(answer.done.error())}});
+  json value = {{"files", json::array()}};
+  for (const std::string& file : answer.files) value["files"].push_back(Bytes::of(file));
+  if (answer.done) value["done"] = Cbor<studio::ExportFigures>::of(*answer.done);
+  else value["error"] = Cbor<Error>::of(answer.done.error());
+  std::string bytes;
+  json::to_cbor(value, bytes);
+  return bytes;
 }
 
 std::optional<ExportAnswer> export_in(std::string_view message) {
   const json value = value_in(message);
   if (!value.contains("files")) return std::nullopt;
-  const json& done = value["done"];
-  ExportAnswer answer{done.is_null()
-                          ? Result<ExportFigures>(tl::make_unexpected(error_in(value["error"])))
-                          : Result<ExportFigures>(figures_in(done)),
-                      {}};
-  for (const json& file : value["files"]) answer.files.push_back(bytes_in(file));
+  ExportAnswer answer{tl::make_unexpected(Error{}), {}};
+  if (auto done = member<studio::ExportFigures>(value, "done")) answer.done = std::move(*done);
+  else if (auto error = member<Error>(value, "error"))
+    answer.done = tl::make_unexpected(std::move(*error));
+  for (const json& file : value["files"]) answer.files.push_back(Bytes::in(file));
   return answer;
 }
 

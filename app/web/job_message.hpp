@@ -23,8 +23,7 @@ struct ExportAnswer {
 };
 
 [[nodiscard]] std::string message_of(const studio::PotQuestion& question);
-[[nodiscard]] std::string message_of(const Pot& pot, const studio::ExportChoices& choices,
-                                     studio::ExportKind kind);
+[[nodiscard]] std::string message_of(const ExportQuestion& question);
 /// One of the two; both empty for a message of another version of the page.
 struct Question {
   std::optional<studio::PotQuestion> check;

@@ -3,9 +3,10 @@
 // tests/web_page.sh installs what it needs and calls it.
 import assert from 'node:assert/strict';
 import {execFileSync, spawnSync} from 'node:child_process';
-import {existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
+import {inflateRawSync} from 'node:zlib';
 import puppeteer from 'puppeteer-core';
 import {serve} from './server.mjs';
 
@@ -26,7 +27,7 @@ async function launch() {
 }
 
 /// A page that has opened its window. `says(text)` waits until the page has announced it.
-async function openPage(browser, size, hash = '') {
+async function openPage(browser, size, hash = '', address = server.address) {
   const page = await browser.newPage();
   const hosts = new Set();
   page.on('request', request => {
@@ -36,16 +37,35 @@ async function openPage(browser, size, hash = '') {
   page.on('pageerror', error => page.problems.push(error.message));
   page.on('console', line => { if (line.type() === 'error') page.problems.push(line.text()); });
   page.hosts = hosts;
+  // When the page announced each line, and the longest time without a frame since then [ms].
+  await page.evaluateOnNewDocument(() => {
+    window.announced = [];
+    let last = 0;
+    const frame = now => {
+      for (const line of window.announced) line.gap = Math.max(line.gap, now - last);
+      last = now;
+      requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+    document.addEventListener('DOMContentLoaded', () => new MutationObserver(changes => {
+      for (const change of changes)
+        for (const line of change.addedNodes)
+          window.announced.push({text: line.textContent, at: performance.now(), gap: 0});
+    }).observe(document.getElementById('events'), {childList: true}));
+  });
+  page.lastLine = text => page.evaluate(text =>
+    window.announced.findLast(line => line.text.startsWith(text)), text);
   page.announced = () => page.$$eval('#events p', lines => lines.map(line => line.textContent));
   await page.setViewport(size);
-  const downloads = await browser.target().createCDPSession();
+  const downloads = await page.browser().target().createCDPSession();
   await downloads.send('Browser.setDownloadBehavior', {behavior: 'allow', downloadPath: folder});
   page.says = (text, count = 1) => page.waitForFunction((text, count) =>
     document.getElementById('events').textContent.split(text).length > count,
     {timeout: 60000}, text, count).catch(async () =>
       assert.fail(`expected '${text}', found: ${(await page.announced()).join('; ')}`));
-  await page.goto(server.address + hash);
+  await page.goto(address + hash);
   await page.says('window open');
+  console.log(`  window open after ${((await page.lastLine('window open')).at / 1000).toFixed(2)} s`);
   return page;
 }
 
@@ -101,12 +121,15 @@ async function throwAndExport(browser) {
   await page.says('checked: proved', 4);
   await chord(page, 'KeyE', 'Control');
   await page.says('export previewed');
-  await page.mouse.click(420, 112);  // STL
-  await page.mouse.click(509, 145);  // Pot
+  await page.mouse.click(420, 132);  // STL
+  await page.mouse.click(509, 165);  // Pot
   await pause(1500);
   await page.screenshot({path: join(pictures, 'export.png')});
   await chord(page, 'Enter', 'Control');
   await page.says('exported:', 3);
+  const begun = await page.lastLine('export started'), ended = await page.lastLine('exported:');
+  console.log(`  3MF, STL and pot exported in ${((ended.at - begun.at) / 1000).toFixed(2)} s; ` +
+              `longest time without a frame ${begun.gap.toFixed(0)} ms`);
   const stl = await downloaded('bowl.stl'), pot = await downloaded('bowl.pot.json');
   await downloaded('bowl.3mf');
   native('check', stl);
@@ -128,6 +151,81 @@ async function throwAndExport(browser) {
   assert.deepEqual(page.problems, []);
   await page.close();
   console.log('thrown, undone, redone, exported: the same STL and pot as the native program');
+}
+
+/// The pot that the link of the page carries, as `throw` writes it with the ending .pot.cbor.
+async function linked(page) {
+  await page.click('#link');
+  await page.waitForFunction(() => location.hash.startsWith('#pot='));
+  const hash = await page.evaluate(() => location.hash);
+  return {hash, pot: inflateRawSync(Buffer.from(hash.slice('#pot='.length), 'base64url'))};
+}
+
+async function choose(page, button, file) {
+  const [chooser] = await Promise.all([page.waitForFileChooser(), page.click(button)]);
+  await chooser.accept([file]);
+}
+
+async function drop(page, file) {
+  const events = await page.createCDPSession();
+  const data = {items: [], files: [file], dragOperationsMask: 1};
+  for (const type of ['dragEnter', 'dragOver', 'drop'])
+    await events.send('Input.dispatchDragEvent', {type, x: 640, y: 400, data});
+}
+
+/// Opens files by picking and by dropping; a link in the profile of another person.
+async function files(browser) {
+  const page = await openPage(browser, {width: 1280, height: 800});
+  await choose(page, '#open', join(folder, 'bowl.work'));
+  await page.says('opened: ');
+  native('throw', '-q', 'bowl.work', '-o', 'linked.pot.cbor');
+  const expected = readFileSync(join(folder, 'linked.pot.cbor'));
+  const {hash, pot} = await linked(page);
+  assert.ok(pot.equals(expected), 'expected the pot of the native program in the link');
+
+  const report = native('check', '--json', 'bowl.stl');
+  const shows = text => page.waitForFunction(text =>
+    document.getElementById('report-text').textContent === text, {timeout: 60000}, text)
+    .catch(async () => assert.equal(await page.$eval('#report-text', e => e.textContent), text));
+  await choose(page, '#check', join(folder, 'bowl.stl'));
+  await shows(report);
+  await page.screenshot({path: join(pictures, 'report.png')});
+  await page.keyboard.press('Enter');  // Close
+  const open = readFileSync(join(folder, 'bowl.stl')).subarray(0, -50);  // lacks a triangle
+  open.writeUInt32LE(open.readUInt32LE(80) - 1, 80);
+  writeFileSync(join(folder, 'open.stl'), open);
+  await drop(page, join(folder, 'open.stl'));
+  await shows(spawnSync(claystack, ['check', '--json', 'open.stl'], {encoding: 'utf8', cwd: folder}).stdout);
+  assert.match(await page.$eval('#report-verdict', e => e.textContent), /^Not sound/);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+
+  const stranger = await browser.createBrowserContext();
+  const other = await openPage(stranger, {width: 1280, height: 800}, hash);
+  await other.says('opened: ');
+  await pause(1500);
+  await other.screenshot({path: join(pictures, 'link.png')});
+  assert.ok((await linked(other)).pot.equals(expected), 'expected the same pot from the link');
+  assert.deepEqual(other.problems, []);
+  await stranger.close();
+  console.log('picked, dropped, linked: the same pot and reports as the native program');
+}
+
+/// The second start has no server.
+async function offline(browser) {
+  const own = await serve(site);
+  const context = await browser.createBrowserContext();
+  const page = await openPage(context, {width: 1280, height: 800}, '', own.address);
+  await page.says('ready offline');
+  own.close();
+  await assert.rejects(fetch(own.address));
+  await page.goto(own.address);
+  await page.says('window open');
+  await pause(1000);
+  await page.mouse.click(302, 465);
+  await page.says('checked: proved');  // by the worker, whose files are kept too
+  await context.close();
+  console.log('started without the server');
 }
 
 /// Kills the browser in the middle of a stroke.
@@ -165,6 +263,8 @@ let failed = 0;
 try {
   const browser = await launch();
   await throwAndExport(browser);
+  await files(browser);
+  await offline(browser);
   await looks(browser);
   await browser.close();
   await recover();

@@ -20,5 +20,5 @@ export async function serve(folder) {
     }
   });
   await new Promise(ready => server.listen(0, 'localhost', ready));
-  return {address: `http://localhost:${server.address().port}/`, close: () => server.close()};
+  return {address: `http://localhost:${server.address().port}/`, close: () => { server.close(); server.closeAllConnections(); }};
 }

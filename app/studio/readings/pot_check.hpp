@@ -4,6 +4,7 @@
 
 #include "app/history/work.hpp"
 #include "app/render/picture.hpp"
+#include "app/studio/readings/off_target.hpp"
 #include "app/studio/settings.hpp"
 #include "app/studio/target.hpp"
 #include "claystack/engine/clay.hpp"

@@ -300,6 +300,16 @@ function store() {
   });
 }
 
+/// The next start needs no server. Browsers offer this on https and localhost alone.
+async function keepOffline() {
+  try {
+    await navigator.serviceWorker?.register('offline.js');
+    if (await navigator.serviceWorker?.ready) page.log('ready offline');
+  } catch (error) {
+    page.log('not ready offline: ' + error.message);
+  }
+}
+
 // ---- start -------------------------------------------------------------------------------------
 
 function missing() {
@@ -356,6 +366,7 @@ async function start() {
   by('link').onclick = copyLink;
   by('about').onclick = () => by('about-text').showModal();
   setInterval(store, kStoreMs);
+  keepOffline();
   canvas.focus();
   openLink();
 }

@@ -1,0 +1,22 @@
+# cmake -DSITE=FOLDER "-DNOTICES=A|B" -P site.cmake: completes the folder of static files. One file
+# with all notices, and the version of the page, a hash of its files, in the service worker.
+string(REPLACE "|" ";" NOTICES "${NOTICES}")
+set(whole "")
+foreach(notice IN LISTS NOTICES)
+  file(READ ${notice} text)
+  string(APPEND whole "${text}\n")
+endforeach()
+file(WRITE ${SITE}/licences.txt "${whole}")
+
+set(hashes "")
+file(GLOB files ${SITE}/*)
+list(SORT files)
+foreach(name IN LISTS files)
+  if(NOT name MATCHES "/offline\\.js$")
+    file(SHA256 ${name} hash)
+    string(APPEND hashes ${hash})
+  endif()
+endforeach()
+string(SHA256 version "${hashes}")
+string(SUBSTRING ${version} 0 16 VERSION)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/page/offline.js ${SITE}/offline.js @ONLY)

@@ -1,0 +1,171 @@
+// Questions of the page's window to its worker, and the answers: nothing is lost on the way.
+
+#include "app/web/job_message.hpp"
+
+#include "app/render/pot_view.hpp"
+#include "app/studio/readings/goal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace clay::web {
+namespace {
+
+/// A cup with vertical walls: floor 10 mm, height 60 mm, radius 40 mm; rings of 0.5 mm.
+history::SharedPot cup(double wall_mm) {
+  std::vector<Ring> rings(120, Ring{quanta_from_radius(40.0), 0});
+  for (std::size_t i = 20; i < rings.size(); ++i)
+    rings[i].inner2 = quanta_from_radius(40.0 - wall_mm);
+  Pot pot;
+  pot.stack = ClayStack::from_rings(0.5, std::move(rings), 0).value();
+  pot.ledger.initial = pot.stack.volume();
+  return std::make_shared<const Pot>(std::move(pot));
+}
+
+studio::PotQuestion full_question() {
+  const auto pot = cup(1.5);
+  studio::PotQuestion question{{pot, render::view_of(*pot), 1.7, 0.3}, "porcelain", 0.04};
+  question.target = std::make_shared<const studio::Target>(
+      studio::Target{"thick", render::view_of(*cup(8.0))});
+  question.shrinkage = 0.1;
+  return question;
+}
+
+/// Every figure that the panels can show, as a text.
+std::string shown(const studio::PotCheck& check) {
+  std::ostringstream text;
+  text.precision(17);
+  const auto place = [&](const glm::dvec2& p) { text << p.x << ' ' << p.y << '\n'; };
+  text << check.live << check.proved << check.fallen << check.why_not << check.triangles << '\n'
+       << check.fault_mm.value_or(-1.0) << '\n'
+       << check.tolerance_mm << ' ' << check.counted_mm3 << ' ' << check.proved_mm3 << ' '
+       << check.volume_error_relative << ' ' << check.least_wall_mm << ' ' << check.thinnest_mm
+       << ' ' << check.height_mm << ' ' << check.seconds << '\n'
+       << wall_text(check, studio::LengthUnit::mm) << ready_text(check, studio::LengthUnit::mm);
+  place(check.thinnest_from);
+  place(check.thinnest_to);
+  if (check.limit) text << check.limit->asked_by() << check.limit->up_to_size_sum_mm << '\n';
+  for (const auto& remark : check.remarks)
+    text << remark.from_mm << ' ' << remark.to_mm << remark.text << '\n';
+  for (const auto& problem : check.problems) {
+    text << problem.text << problem.fails << static_cast<int>(problem.kind) << problem.figure;
+    if (problem.at) text << ' ' << problem.at->rho << ' ' << problem.at->y << '\n';
+  }
+  for (const auto& wall : check.walls) text << wall.outer_mm << ' ' << wall.inner_mm << '\n';
+  if (check.off) {
+    text << check.off->mm << ' ' << check.off->radius_mm << ' ' << check.off->height_mm << '\n';
+    for (const float row_mm : check.off->rows_mm) text << row_mm << '\n';
+  }
+  if (!check.maker) return text.str();
+  const auto state = [&](const solid::PotState& of) {
+    text << of.size.diameter_mm << ' ' << of.size.height_mm << ' ' << of.size.foot_diameter_mm
+         << ' ' << of.weight_g << ' ' << of.capacity_ml << ' ' << of.to_line_ml << '\n';
+  };
+  const solid::MakerNumbers& maker = *check.maker;
+  state(maker.thrown);
+  if (maker.dry) state(*maker.dry);
+  if (maker.fired) state(*maker.fired);
+  text << maker.clay.density_g_cm3 << ' ' << maker.clay.shrinkage << ' '
+       << maker.clay.drying_shrinkage.value_or(-1.0) << ' ' << maker.clay.water << ' '
+       << maker.clay.ignition_loss << ' ' << maker.fill_line_mm << ' ' << maker.empty.centre_mm
+       << ' ' << maker.empty.tipping_deg << ' ' << (maker.full ? maker.full->centre_mm : -1.0);
+  return text.str();
+}
+
+TEST(JobMessage, CarriesTheWholeCheckOfAPot) {
+  const studio::PotQuestion asked = full_question();
+  const Question received = question_in(message_of(asked));
+  ASSERT_TRUE(received.check);
+  EXPECT_FALSE(received.exporting);
+  studio::PotCheck expected = check_pot(asked), found = check_pot(*received.check);
+  ASSERT_TRUE(expected.maker && expected.off && !expected.problems.empty()) << shown(expected);
+  expected.seconds = found.seconds = 0.25;
+  EXPECT_EQ(shown(found), shown(expected));
+  expected.fault_mm = 1.0 / 3.0;
+  expected.remarks.push_back({0.1, std::numeric_limits<double>::infinity(), "a step"});
+  const auto answer = check_in(message_of(expected));
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(shown(*answer), shown(expected));
+}
+
+TEST(JobMessage, CarriesAQuestionDuringAStroke) {
+  studio::PotQuestion asked = full_question();
+  asked.subject.pot = nullptr;
+  asked.subject.outline.fallen = render::FallenView{7, glm::dmat4(2.0)};
+  const Question received = question_in(message_of(asked));
+  ASSERT_TRUE(received.check);
+  EXPECT_TRUE(received.check->subject.live());
+  EXPECT_EQ(received.check->subject.outline, asked.subject.outline);
+  EXPECT_EQ(received.check->subject.crown_mm, 0.3);
+  EXPECT_EQ(received.check->target->name, "thick");
+  EXPECT_EQ(received.check->target->view, asked.target->view);
+}
+
+TEST(JobMessage, CarriesTheWholeExport) {
+  ExportQuestion asked{studio::ExportKind::files, {}, *cup(5.0)};
+  asked.choices = {.meshes = {solid::MeshFormat::drc, solid::MeshFormat::obj},
+                   .section = true,
+                   .pot = true,
+                   .folder = "/a",
+                   .name = "cup",
+                   .tolerance_mm = 0.3,
+                   .smoothing = solid::Smoothing::none,
+                   .process = "porcelain",
+                   .min_wall_mm = 1.1,
+                   .shrinkage_percent = 12.5};
+  const Question received = question_in(message_of(asked));
+  ASSERT_TRUE(received.exporting);
+  EXPECT_FALSE(received.check);
+  EXPECT_EQ(received.exporting->kind, asked.kind);
+  EXPECT_EQ(received.exporting->choices, asked.choices);
+  EXPECT_EQ(received.exporting->pot.stack.volume(), asked.pot.stack.volume());
+}
+
+TEST(JobMessage, CarriesFiguresFilesAndErrors) {
+  ExportAnswer answer{
+      studio::ExportFigures{.has_solid = true,
+                            .triangles = 7,
+                            .meshes = {{solid::MeshFormat::obj, 5'000'000'000}},
+                            .diameter_mm = 0.1,
+                            .height_mm = 0.2,
+                            .shrinkage = 0.3,
+                            .fallen = true,
+                            .thinnest_mm = 0.4,
+                            .thinnest_at_mm = 0.5,
+                            .problems = {"thin"},
+                            .marks = {{{0.6, 0.7}, "here"}}},
+      {std::string("a\0b", 3), ""}};
+  const auto found = export_in(message_of(answer));
+  ASSERT_TRUE(found && found->done);
+  EXPECT_EQ(found->files, answer.files);
+  const studio::ExportFigures& figures = *found->done;
+  EXPECT_TRUE(figures.has_solid && figures.fallen);
+  EXPECT_EQ(figures.triangles, 7u);
+  ASSERT_EQ(figures.meshes.size(), 1u);
+  EXPECT_EQ(figures.meshes[0].format, solid::MeshFormat::obj);
+  EXPECT_EQ(figures.meshes[0].bytes, 5'000'000'000u);
+  EXPECT_EQ((std::vector{figures.diameter_mm, figures.height_mm, figures.shrinkage,
+                         figures.thinnest_mm, figures.thinnest_at_mm}),
+            (std::vector{0.1, 0.2, 0.3, 0.4, 0.5}));
+  EXPECT_EQ(figures.problems, std::vector<std::string>{"thin"});
+  ASSERT_EQ(figures.marks.size(), 1u);
+  EXPECT_EQ(figures.marks[0].place_mm, glm::dvec2(0.6, 0.7));
+  EXPECT_EQ(figures.marks[0].text, "here");
+  const auto failed = export_in(message_of({failure(ErrorKind::io, "full"), {}}));
+  ASSERT_TRUE(failed && !failed->done);
+  EXPECT_EQ(failed->done.error().kind, ErrorKind::io);
+  EXPECT_EQ(failed->done.error().message, "full");
+}
+
+TEST(JobMessage, MessagesOfAnotherKindAreNone) {
+  EXPECT_FALSE(check_in(message_of(full_question())));
+  EXPECT_FALSE(export_in(message_of(full_question())));
+}
+
+}  // namespace
+}  // namespace clay::web
