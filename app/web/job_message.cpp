@@ -130,8 +130,10 @@ auto members(Like<studio::ExportFigures> auto& of) {
 template <class Value>
 struct Cbor {
   static json of(const Value& value) {
-    if constexpr (std::is_enum_v<Value>) return static_cast<int>(value);
-    else if constexpr (std::is_constructible_v<json, const Value&>) return value;
+    if constexpr (std::is_enum_v<Value>)
+      return static_cast<int>(value);
+    else if constexpr (std::is_constructible_v<json, const Value&>)
+      return value;
     else
       return std::apply(
           [](const auto&... each) {
@@ -140,8 +142,10 @@ struct Cbor {
           members(value));
   }
   static void read(const json& from, Value& into) {
-    if constexpr (std::is_enum_v<Value>) into = static_cast<Value>(from.get<int>());
-    else if constexpr (std::is_constructible_v<json, const Value&>) from.get_to(into);
+    if constexpr (std::is_enum_v<Value>)
+      into = static_cast<Value>(from.get<int>());
+    else if constexpr (std::is_constructible_v<json, const Value&>)
+      from.get_to(into);
     else {
       std::size_t next = 0;
       std::apply(
@@ -248,8 +252,10 @@ std::optional<studio::PotCheck> check_in(std::string_view message) {
 std::string message_of(const ExportAnswer& answer) {
   json value = {{"files", json::array()}};
   for (const std::string& file : answer.files) value["files"].push_back(Bytes::of(file));
-  if (answer.done) value["done"] = Cbor<studio::ExportFigures>::of(*answer.done);
-  else value["error"] = Cbor<Error>::of(answer.done.error());
+  if (answer.done)
+    value["done"] = Cbor<studio::ExportFigures>::of(*answer.done);
+  else
+    value["error"] = Cbor<Error>::of(answer.done.error());
   std::string bytes;
   json::to_cbor(value, bytes);
   return bytes;
@@ -259,7 +265,8 @@ std::optional<ExportAnswer> export_in(std::string_view message) {
   const json value = value_in(message);
   if (!value.contains("files")) return std::nullopt;
   ExportAnswer answer{tl::make_unexpected(Error{}), {}};
-  if (auto done = member<studio::ExportFigures>(value, "done")) answer.done = std::move(*done);
+  if (auto done = member<studio::ExportFigures>(value, "done"))
+    answer.done = std::move(*done);
   else if (auto error = member<Error>(value, "error"))
     answer.done = tl::make_unexpected(std::move(*error));
   for (const json& file : value["files"]) answer.files.push_back(Bytes::in(file));

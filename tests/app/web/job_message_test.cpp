@@ -30,8 +30,8 @@ history::SharedPot cup(double wall_mm) {
 studio::PotQuestion full_question() {
   const auto pot = cup(1.5);
   studio::PotQuestion question{{pot, render::view_of(*pot), 1.7, 0.3}, "porcelain", 0.04};
-  question.target = std::make_shared<const studio::Target>(
-      studio::Target{"thick", render::view_of(*cup(8.0))});
+  question.target =
+      std::make_shared<const studio::Target>(studio::Target{"thick", render::view_of(*cup(8.0))});
   question.shrinkage = 0.1;
   return question;
 }
@@ -127,19 +127,18 @@ TEST(JobMessage, CarriesTheWholeExport) {
 }
 
 TEST(JobMessage, CarriesFiguresFilesAndErrors) {
-  ExportAnswer answer{
-      studio::ExportFigures{.has_solid = true,
-                            .triangles = 7,
-                            .meshes = {{solid::MeshFormat::obj, 5'000'000'000}},
-                            .diameter_mm = 0.1,
-                            .height_mm = 0.2,
-                            .shrinkage = 0.3,
-                            .fallen = true,
-                            .thinnest_mm = 0.4,
-                            .thinnest_at_mm = 0.5,
-                            .problems = {"thin"},
-                            .marks = {{{0.6, 0.7}, "here"}}},
-      {std::string("a\0b", 3), ""}};
+  ExportAnswer answer{studio::ExportFigures{.has_solid = true,
+                                            .triangles = 7,
+                                            .meshes = {{solid::MeshFormat::obj, 5'000'000'000}},
+                                            .diameter_mm = 0.1,
+                                            .height_mm = 0.2,
+                                            .shrinkage = 0.3,
+                                            .fallen = true,
+                                            .thinnest_mm = 0.4,
+                                            .thinnest_at_mm = 0.5,
+                                            .problems = {"thin"},
+                                            .marks = {{{0.6, 0.7}, "here"}}},
+                      {std::string("a\0b", 3), ""}};
   const auto found = export_in(message_of(answer));
   ASSERT_TRUE(found && found->done);
   EXPECT_EQ(found->files, answer.files);
