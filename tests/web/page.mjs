@@ -51,7 +51,7 @@ async function openPage(browser, size, hash = '', address = server.address) {
       for (const change of changes)
         for (const line of change.addedNodes)
           window.announced.push({text: line.textContent, at: performance.now(), gap: 0});
-    }).observe(document.getElementById('events'), {childList: true}));
+    }).observe(document.getElementById('events') ?? document, {childList: true}));
   });
   page.lastLine = text => page.evaluate(text =>
     window.announced.findLast(line => line.text.startsWith(text)), text);
