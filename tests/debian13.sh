@@ -20,19 +20,19 @@ mount -t tmpfs tmpfs "$root/dev/shm"
 
 echo "== sources of the last commit"
 # The time of extraction (-m), not of the commit: ninja builds all files again, mostly from ccache.
-mkdir -p "$root/root/claystack"
-git archive HEAD | tar -x -m -C "$root/root/claystack"
+mkdir -p "$root/opt/claystack"
+git archive HEAD | tar -x -m -C "$root/opt/claystack"
 echo "== README: packages, build, first pot"
-inside "$root" sh -c 'cd /root/claystack && sh samples/first_pot.sh'
+inside "$root" sh -c 'cd /opt/claystack && sh samples/first_pot.sh'
 echo "== tests"
 # shellcheck disable=SC2086  # a list of words
-inside "$root" sh -c "cd /root/claystack &&
+inside "$root" sh -c "cd /opt/claystack &&
   sh samples/install_packages.sh libxml2-utils admesh draco librsvg2-bin &&
   cmake --build --preset release --target $(echo $suites) &&
   cd build/release && for suite in $suites; do ./tests/*/\$suite --gtest_brief=1 || exit 1; done"
 
 echo "== the same bytes"
-cat >"$root/root/claystack/pots.sh" <<'POTS'
+cat >"$root/opt/claystack/pots.sh" <<'POTS'
 set -eu
 claystack=$1
 rm -rf "$2"
@@ -48,11 +48,11 @@ for drawing in samples/drawings/*; do
   $claystack import -q "$drawing" -o "$2/$(basename "$drawing").pot.json"
 done
 POTS
-inside "$root" sh -c 'cd /root/claystack && sh pots.sh build/release/app/claystack /root/pots'
-sh "$root/root/claystack/pots.sh" "$build/app/claystack" "$build/pots12"
+inside "$root" sh -c 'cd /opt/claystack && sh pots.sh build/release/app/claystack /opt/pots'
+sh "$root/opt/claystack/pots.sh" "$build/app/claystack" "$build/pots12"
 different=0
 for file in "$build"/pots12/*; do
-  cmp -s "$file" "$root/root/pots/$(basename "$file")" ||
+  cmp -s "$file" "$root/opt/pots/$(basename "$file")" ||
     { echo "different: $(basename "$file")"; different=1; }
 done
 [ "$different" = 0 ] && echo "$(ls "$build/pots12" | wc -l) files are equal to those of $build"

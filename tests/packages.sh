@@ -34,15 +34,15 @@ trap 'umount "$clean/proc"' EXIT
 inside "$clean" apt-get update -qq
 find "$clean" -xdev | sed "s|^$clean||" | sort >"$build/before.txt"
 # shellcheck disable=SC2086
-cp $packages "$clean/root/"
+cp $packages "$clean/opt/"
 
 echo "== install"
-inside "$clean" sh -c 'apt-get install -y -qq --no-install-recommends /root/claystack_*.deb /root/claystack-studio_*.deb >/dev/null'
+inside "$clean" sh -c 'apt-get install -y -qq --no-install-recommends /opt/claystack_*.deb /opt/claystack-studio_*.deb >/dev/null'
 echo "== the README's commands and those of every --help"
-cat >"$clean/root/use.sh" <<'USE'
+cat >"$clean/opt/use.sh" <<'USE'
 set -eu
-mkdir /root/work
-cd /root/work
+mkdir /opt/work
+cd /opt/work
 cp -r /usr/share/claystack/samples .
 mkdir out
 claystack throw samples/vase.scene.json -o out/vase.pot.json
@@ -68,23 +68,23 @@ test -s /usr/share/man/man1/claystack-export.1.gz
 test -s /usr/share/bash-completion/completions/claystack
 test -s /usr/lib/udev/rules.d/60-claystack.rules
 USE
-inside "$clean" sh /root/use.sh
-cp "$clean/root/work/out/vase.stl" "$build/clean-vase.stl"
+inside "$clean" sh /opt/use.sh
+cp "$clean/opt/work/out/vase.stl" "$build/clean-vase.stl"
 "$build/app/claystack" throw -q samples/vase.scene.json -o "$build/vase.pot.json"
 "$build/app/claystack" export -q "$build/vase.pot.json" "$build/vase.stl"
 cmp "$build/vase.stl" "$build/clean-vase.stl"
 
 if [ "${DEV:-0}" = 1 ]; then
   echo "== libclaystack-dev"
-  inside "$clean" sh -c 'apt-get install -y -qq --no-install-recommends /root/libclaystack-dev_*.deb cmake ninja-build g++ pkg-config >/dev/null
-    cmake -S /usr/share/doc/libclaystack-dev/examples -B /root/consumer -G Ninja >/dev/null
-    cmake --build /root/consumer >/dev/null
-    /root/consumer/press_once && /root/consumer/throw_and_export /root/by_library.stl
+  inside "$clean" sh -c 'apt-get install -y -qq --no-install-recommends /opt/libclaystack-dev_*.deb cmake ninja-build g++ pkg-config >/dev/null
+    cmake -S /usr/share/doc/libclaystack-dev/examples -B /opt/consumer -G Ninja >/dev/null
+    cmake --build /opt/consumer >/dev/null
+    /opt/consumer/press_once && /opt/consumer/throw_and_export /opt/by_library.stl
     apt-get purge -y -qq libclaystack-dev >/dev/null'
 fi
 
 echo "== remove"
-inside "$clean" sh -c 'apt-get purge -y -qq claystack claystack-studio >/dev/null && apt-get autoremove -y -qq >/dev/null; rm -rf /root/*'
+inside "$clean" sh -c 'apt-get purge -y -qq claystack claystack-studio >/dev/null && apt-get autoremove -y -qq >/dev/null; rm -rf /opt/*'
 find "$clean" -xdev | sed "s|^$clean||" | sort >"$build/after.txt"
 left=$(comm -13 "$build/before.txt" "$build/after.txt" | grep -i claystack |
   grep -v -e '^/var/lib/dpkg' -e '^/var/cache' -e '^/var/log' || true)

@@ -90,12 +90,12 @@ function native(...words) {
 
 /// Presses at the right of the lump and pushes the wall inwards.
 async function drag(page) {
-  await page.mouse.move(790, 560);
+  await page.mouse.move(790, 522);
   await pause(300);
   await page.mouse.down();
   await page.says('stroke started');
   for (let x = 790; x >= 735; x -= 2) {
-    await page.mouse.move(x, 560 - (790 - x) / 4);
+    await page.mouse.move(x, 522 - (790 - x) / 4);
     await pause(30);
   }
 }
