@@ -92,8 +92,9 @@ void draw_target(const ViewModel& model, const ViewRect& rect) {
       if (out && in && outer && inner) {
         draw->AddQuadFilled(*inner, *outer, *out, *in, face);
         draw->AddLine(*outer, *out, edge, 0.12f * em);
-        if (pot.rows[row].inner_mm > 0.0f)
-          draw->AddLine(bore ? *inner : *place(0.0, row), *in, edge, 0.12f * em);
+        // The bore begins at the axis.
+        if (const auto from = bore ? inner : place(0.0, row); from && pot.rows[row].inner_mm > 0.0f)
+          draw->AddLine(*from, *in, edge, 0.12f * em);
       }
       bore = pot.rows[row].inner_mm > 0.0f;
       outer = out;

@@ -15,11 +15,9 @@ double between(double low, double high) {
 }
 
 Camera any_camera() {
-  return {between(-7, 7),
-          between(-1.5, 1.5),
-          between(50, 2000),
-          {between(-50, 50), between(-20, 150), between(-50, 50)},
-          between(0.1, 1.5)};
+  return {between(-7, 7),    between(-1.5, 1.5),
+          between(50, 2000), {between(-50, 50), between(-20, 150), between(-50, 50)},
+          between(0.1, 1.5), between(0.0, 0.6)};
 }
 
 RC_GTEST_PROP(Camera, PickingInvertsTheProjection, ()) {

@@ -40,6 +40,7 @@ TEST_F(Window, TheSameStrokeGivesTheSamePotFromWorkPotAndPrintFile) {
   ASSERT_EQ(
       claystack("export -q " + folder.file("mine.pot.json") + " " + folder.file("mine.3mf")).status,
       0);
+  EXPECT_NE(read_text(folder.file("mine.pot.json")).find("\"thrown_with\""), std::string::npos);
   std::string of_work;
   for (const char* name : {"mine.work", "mine.pot.json", "mine.pot.cbor", "mine.3mf"}) {
     // The tool comes from the file, not from what was chosen before.
