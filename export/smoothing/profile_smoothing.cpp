@@ -23,6 +23,7 @@ namespace clay::solid::inline smoothing {
 namespace {
 
 constexpr int kFilletRounds = 6;
+constexpr int kCarefulRounds = 8;
 constexpr double kSettledShare = 1e-14;
 constexpr double kInvisibleHeights = 0.01;
 
@@ -117,13 +118,13 @@ class PieceSmoother {
     const bool taken = correction.lacking_over_pi < 0.0;
     result_.taken_mm = 0.0;
     if (taken && thinner_than(piece_, correction.lines, limit_)) {
-      result_.taken_mm = correction.moved_mm;
-      const RingFlags thick = thick_rings();
-      Correction careful = corrected(thick, 0.0);
-      if (careful.moved_mm > 0.0 && careful.moved_mm <= allowed_move_mm()) {
-        result_.taken_mm = 0.0;
+      rings = thick_rings();
+      Correction careful = careful_correction(rings);
+      if (careful.moved_mm > 0.0) {
         correction = std::move(careful);
-        rings = thick;
+      } else {
+        result_.taken_mm = correction.moved_mm;
+        rings.assign(piece_.size(), 1);
       }
     }
     if (correction.moved_mm > allowed_move_mm()) {
@@ -191,13 +192,39 @@ class PieceSmoother {
   /// Rings that can be moved that far without approaching the limit of the guard.
   RingFlags thick_rings() const {
     const double spare = 2.0 * allowed_move_mm();  // across a solid both sides move
-    const RingFlags all(piece_.size(), 1);
-    const std::vector<double> own = walls_by_ring_mm(piece_, stepped_lines(piece_), limit_, all);
-    const std::vector<double> now = walls_by_ring_mm(piece_, lines_, limit_ + spare, all);
+    const std::vector<double> own = walls_of(stepped_lines(piece_), limit_);
+    const std::vector<double> now = walls_of(lines_, limit_ + spare);
     RingFlags thick(piece_.size());
     for (std::size_t i = 0; i < piece_.size(); ++i)
       thick[i] = now[i] >= (own[i] + spare) * kWallRounding ? 1 : 0;
     return thick;
+  }
+
+  /// Moves only the flagged rings, which must be thick. A wall runs from the outside of one ring to
+  /// the bore of another one: where the move thins a wall, the rings around it are unflagged. Moves
+  /// nothing if too few rings remain.
+  Correction careful_correction(RingFlags& rings) const {
+    const std::vector<double> own = walls_of(stepped_lines(piece_), limit_);
+    const std::vector<double> before = walls_of(lines_, limit_);
+    for (int round = 0; round < kCarefulRounds; ++round) {
+      Correction made = corrected(rings, 0.0);
+      if (!(made.moved_mm <= allowed_move_mm())) break;
+      const std::vector<double> now = walls_of(made.lines, limit_);
+      bool thinned = false;
+      std::size_t done = 0;
+      for (std::size_t i = 0; i < piece_.size(); ++i) {
+        if (now[i] >= std::min(own[i], before[i]) * kWallRounding) continue;
+        thinned = true;
+        const auto [first, last] = plan_.rings_around({i, now[i]});
+        for (done = std::max(done, first); done <= last; ++done) rings[done] = 0;
+      }
+      if (!thinned) return made;
+    }
+    return {};
+  }
+
+  std::vector<double> walls_of(const WallLines& lines, double cap_mm) const {
+    return walls_by_ring_mm(piece_, lines, cap_mm, RingFlags(piece_.size(), 1));
   }
 
   void report() {

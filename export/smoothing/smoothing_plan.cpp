@@ -68,7 +68,12 @@ std::vector<double> SmoothingPlan::tolerances(double share_mm) const {
   return result;
 }
 
-/// The cause of a thin wall is at most as far away as the wall is thick; in rings.
+RingRange SmoothingPlan::rings_around(const ThinRing& thin) const {
+  const std::size_t reach = reach_of(thin.wall_mm);
+  return {thin.ring - std::min(thin.ring, reach), std::min(piece_.size() - 1, thin.ring + reach)};
+}
+
+/// In rings.
 std::size_t SmoothingPlan::reach_of(double wall_mm) const {
   const double rings = wall_mm / piece_.ring_height_mm + 2.0;
   return rings < static_cast<double>(piece_.size()) ? static_cast<std::size_t>(rings)
@@ -78,12 +83,11 @@ std::size_t SmoothingPlan::reach_of(double wall_mm) const {
 bool SmoothingPlan::refine(const std::vector<ThinRing>& thin) {
   bool more = false;
   std::size_t done = 0;
-  for (const auto& [ring, wall_mm] : thin) {
-    const std::size_t reach = reach_of(wall_mm);
-    const std::size_t end = std::min(piece_.size(), ring + reach + 1);
-    for (std::size_t i = std::max(done, ring - std::min(ring, reach)); i < end; ++i)
+  for (const ThinRing& ring : thin) {
+    const auto [first, last] = rings_around(ring);
+    for (std::size_t i = std::max(done, first); i <= last; ++i)
       if (refinement_[i] < kMaxRefinement) ++refinement_[i], more = true;
-    done = std::max(done, end);
+    done = std::max(done, last + 1);
   }
   return more;
 }

@@ -49,6 +49,9 @@ class SmoothingPlan {
   /// The tolerance of each ring; `share_mm`: the initial one.
   [[nodiscard]] std::vector<double> tolerances(double share_mm) const;
 
+  /// Those that may cause a thin wall: the cause is at most as far away as the wall is thick.
+  [[nodiscard]] RingRange rings_around(const ThinRing& thin) const;
+
   /// Reduces the tolerances around thin rings, given from the bottom up, finally to 0. False if
   /// they all are 0 already.
   bool refine(const std::vector<ThinRing>& thin);
