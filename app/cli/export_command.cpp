@@ -93,6 +93,15 @@ Result<double> quantity_of(const std::string& text, const std::vector<Unit>& uni
                  fmt::format("expected a number above 0 in {}, found {}", names, text));
 }
 
+/// "9mm", "9", "0"; "tool": empty.
+Result<std::optional<double>> smooth_length_of(const std::string& text) {
+  if (text == "tool") return std::optional<double>();
+  if (text == "0" || text == "0mm") return std::optional<double>(0.0);
+  return quantity_of(text, {{"mm", 1.0}, {"cm", 10.0}})
+      .map([](double mm) { return std::optional<double>(mm); })
+      .map_error([](const Error& error) { return Error{error.kind, error.message + "; or tool"}; });
+}
+
 Result<void> check_names(const ExportCommand& command) {
   std::vector<std::string> outputs = command.outputs;
   outputs.push_back(command.request.report_path);
@@ -330,6 +339,19 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
                   "steps of the rings remain")
       ->check(CLI::IsMember({"fair", "exact", "none"}))
       ->capture_default_str();
+  sub->add_option_function<std::string>(
+         "--smooth-length",
+         [=](const std::string& text) {
+           if (const auto length = smooth_length_of(text))
+             command->request.options.smooth_length_mm = *length;
+         },
+         "With --smooth fair: continuous curvature; what is shorter along the height than this is "
+         "smoothed away, such as 9mm; tool: the radius of the pot's tool; 0: straight from ring to "
+         "ring (default: 0)")
+      ->check([](const std::string& text) {
+        const auto length = smooth_length_of(text);
+        return length ? std::string() : length.error().message;
+      });
   add_finish_options(*sub, command->request.options, command->glaze_mm);
   sub->add_option("--segments", command->request.options.segments,
                   "Facets around the axis (default: chosen from the tolerance)")
