@@ -135,6 +135,32 @@ RC_GTEST_PROP(SmoothingPromises, FairLeavesTheRadiiAboutARingByTheVolumeCorrecti
     }
 }
 
+RC_GTEST_PROP(SmoothingPromises, FairingLeavesTheRadiusOfARingByTheReportedDistance, ()) {
+  const ClayStack stack = shapes::hard_stack(kMostRings);
+  RC_PRE(profile_of(stack).has_value());
+  SmoothingOptions options = options_for(Smoothing::fair, 1e-7);
+  options.smooth_length_mm = *rc::gen::element(0.5, 9.0, 60.0);
+  const SmoothedProfile made = smooth(stack, options);
+  RC_ASSERT(made.fairing.length_mm ==
+            std::max(options.smooth_length_mm, 2.0 * stack.ring_height_mm()) ||
+            std::ranges::any_of(made.guard, [](const KeptSteps& kept) {
+              return kept.reason == KeptFor::certificate;
+            }));
+  RC_ASSERT(made.overshoot_mm <= shapes::allowed_move_mm(stack, options));
+  const Real spare = made.fairing.moved_mm + made.overshoot_mm + 1e-4;
+  for (const auto& [first, last, levels, steps, walls] : pieces_of_both(stack, made))
+    for (std::size_t i = 0; i <= last - first; ++i) {
+      const Real y = levels[i] + 0.5 * stack.ring_height_mm();
+      const Ring& ring = stack.rings()[first + i];
+      const auto [least, most] = oracles::radii(walls.outer, y, y + 1e-9L);
+      RC_ASSERT(least >= ring.outer_mm() - spare);
+      RC_ASSERT(most <= ring.outer_mm() + spare);
+      const auto [bore_least, bore_most] = oracles::radii(walls.bore, y, y + 1e-9L);
+      RC_ASSERT(bore_least >= ring.inner_mm() - spare);
+      RC_ASSERT(bore_most <= ring.inner_mm() + spare);
+    }
+}
+
 /// Of the stretches of rings without a bore, the least height.
 Real least_floor(const ClayStack& stack, std::size_t first, std::size_t last,
                  const std::vector<Real>& levels) {
