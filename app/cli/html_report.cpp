@@ -229,9 +229,10 @@ class Page {
             false);
       if (const auto& fairing = report_.section.smoothed.fairing; fairing.length_mm > 0.0)
         row({"fairing",
-             fmt::format("over {:g} mm; moved the walls by at most {:.2f} mm, at a height of {:.1f} "
-                         "mm",
-                         fairing.length_mm, fairing.moved_mm, fairing.moved_at_mm)},
+             fmt::format(
+                 "over {:g} mm; moved the walls by at most {:.2f} mm, at a height of {:.1f} "
+                 "mm",
+                 fairing.length_mm, fairing.moved_mm, fairing.moved_at_mm)},
             "td", false);
       for (const auto& [what, clay] : finish_rows(report_)) row({what, clay}, "td", false);
       if (const auto& overhang = report_.process.overhang)

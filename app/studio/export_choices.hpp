@@ -29,8 +29,8 @@ struct ExportChoices {
   double tolerance_mm = 0.02;
   solid::Smoothing smoothing = solid::Smoothing::fair;
   double smooth_length_mm = 0.0;  ///< of `fair`; 0: none
-  std::string process;       ///< as for --process; empty: none
-  double min_wall_mm = 0.0;  ///< 0: the limit of the process, if there is one
+  std::string process;            ///< as for --process; empty: none
+  double min_wall_mm = 0.0;       ///< 0: the limit of the process, if there is one
   double shrinkage_percent = 0.0;
   friend bool operator==(const ExportChoices&, const ExportChoices&) = default;
 };

@@ -50,8 +50,7 @@ class FairWallMaker {
   }
 
   void add_chords(const RunOfRings& run, const RunOfRings& stretch) {
-    if (stretch.first == run.first)
-      add({wall_.radius[stretch.first], stretch.bottom_mm()}, 0.0);
+    if (stretch.first == run.first) add({wall_.radius[stretch.first], stretch.bottom_mm()}, 0.0);
     for (std::size_t i = stretch.first; i < stretch.end; ++i)
       add({wall_.radius[i], stretch.middle_mm(i)}, rings_.tolerances_mm[i]);
     if (stretch.end == run.end) add({wall_.radius[stretch.end - 1], stretch.top_mm()}, 0.0);

@@ -17,7 +17,7 @@ struct FairRings {
 
 /// A place where fairing moved a wall from the radius of a ring.
 struct FairedMove {
-  double mm = 0.0;  ///< along the radius
+  double mm = 0.0;     ///< along the radius
   double at_mm = 0.0;  ///< height
 };
 

@@ -26,7 +26,8 @@ class BandedSystem {
  public:
   explicit BandedSystem(std::size_t size) : rows_(size), right_(size, 0.0) {}
 
-  /// Adds weight (sum of factors times the unknowns from `first` on - value)^2 to what is minimised.
+  /// Adds weight (sum of factors times the unknowns from `first` on - value)^2 to what is
+  /// minimised.
   void add(std::size_t first, const std::array<double, kBand + 1>& factors, double weight,
            double value) {
     for (std::size_t a = 0; a <= kBand; ++a) {
@@ -75,11 +76,11 @@ class BandedSystem {
 
 FairedCurve::FairedCurve(const RunOfRings& run, const std::vector<double>& lengths_mm) : run_(run) {
   const auto begin = lengths_mm.begin();
-  const double longest = *std::max_element(begin + std::ptrdiff_t(run.first),
-                                           begin + std::ptrdiff_t(run.end));
+  const double longest =
+      *std::max_element(begin + std::ptrdiff_t(run.first), begin + std::ptrdiff_t(run.end));
   const double height = run.top_mm() - run.bottom_mm();
-  const double wanted = std::max(run.piece.ring_height_mm,
-                                 std::min(longest, height) / kKnotsPerLength);
+  const double wanted =
+      std::max(run.piece.ring_height_mm, std::min(longest, height) / kKnotsPerLength);
   intervals_ = static_cast<std::size_t>(std::max(1.0, std::ceil(height / wanted)));
   spacing_mm_ = height / static_cast<double>(intervals_);
   base_mm_ = run.wall.radius[run.first];

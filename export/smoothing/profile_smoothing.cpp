@@ -127,8 +127,8 @@ class PieceSmoother {
   };
 
   /// Compensates the volume changed by chords, simplification and fillet. False if that would move
-  /// the walls too far; then the fairing was undone, jumps were cut or the simplification was undone
-  /// instead.
+  /// the walls too far; then the fairing was undone, jumps were cut or the simplification was
+  /// undone instead.
   bool volume_kept() {
     RingFlags rings(piece_.size(), 1);
     Correction correction = corrected(rings, 0.0);
@@ -222,8 +222,7 @@ class PieceSmoother {
 
   void report_fairing() {
     if (plan_.lengths().empty()) return;
-    const FairedMove& most =
-        moved_outside_.mm >= moved_inside_.mm ? moved_outside_ : moved_inside_;
+    const FairedMove& most = moved_outside_.mm >= moved_inside_.mm ? moved_outside_ : moved_inside_;
     result_.fairing = {fairing_length_mm(piece_, options_), most.mm, most.at_mm, {}};
     plan_.report(result_.fairing.shortened);
   }
@@ -272,8 +271,8 @@ Result<void> check_range(const std::string& option, double value, bool zero_allo
 /// An option that only `fair` has.
 Result<void> check_fair(const std::string& option, double value, const SmoothingOptions& options) {
   if (options.mode == Smoothing::fair || value == 0.0) return {};
-  return failure(ErrorKind::bad_input, option + ": expected fair smoothing, found " +
-                                           std::string(name_of(options.mode)));
+  return failure(ErrorKind::bad_input,
+                 option + ": expected fair smoothing, found " + std::string(name_of(options.mode)));
 }
 
 Result<void> check(const SmoothingOptions& options) {

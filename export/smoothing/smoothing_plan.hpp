@@ -91,7 +91,7 @@ class SmoothingPlan {
   const PieceWalls& piece_;
   double length_mm_;
   Cuts cuts_;
-  std::vector<char> chords_;  ///< a flag for each ring; empty without fairing
+  std::vector<char> chords_;       ///< a flag for each ring; empty without fairing
   std::size_t chord_reach_ = 0;    ///< rings around thin ones, beside what their thickness requires
   std::vector<char> refinement_;   ///< how often each ring's tolerance was reduced
   std::vector<std::size_t> next_;  ///< for each interface, a link towards the next open one

@@ -4,9 +4,9 @@
 //   curvature_combs
 // prints what the fairing of all samples moves, and how long it takes.
 
+#include "app/chart/plot.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/export/job.hpp"
-#include "app/chart/plot.hpp"
 #include "tests/export/job/sample_pots.hpp"
 
 #include <algorithm>
@@ -64,8 +64,8 @@ Polygon wall_of(const SmoothedProfile& made, bool outside) {
 }
 
 double radius_at(const Polygon& line, double y) {
-  const auto above = std::ranges::lower_bound(line.begin() + 1, line.end() - 1, y, {},
-                                              &ProfilePoint::y);
+  const auto above =
+      std::ranges::lower_bound(line.begin() + 1, line.end() - 1, y, {}, &ProfilePoint::y);
   const ProfilePoint &a = *(above - 1), &b = *above;
   return a.rho + (b.rho - a.rho) * (y - a.y) / (b.y - a.y);
 }
@@ -101,7 +101,7 @@ int draw(const std::string& sample, double length_mm, const std::string& prefix)
                      .note = {}};
     for (const double length : {0.0, length_mm}) {
       const SmoothedProfile made = smoothed(pot->stack, length, kToleranceMm);
-      const Comb comb = comb_of(wall_of(made, outside), h, 0.5 * length_mm);
+      const Comb comb = comb_of(wall_of(made, outside), h, length_mm);
       std::printf("%s, %s, %s: largest curvature %.3f /mm, largest change between rings %.3f /mm\n",
                   sample.c_str(), wall.c_str(), length == 0.0 ? "chords" : "faired", comb.largest(),
                   comb.largest_change());
@@ -111,8 +111,7 @@ int draw(const std::string& sample, double length_mm, const std::string& prefix)
                              .low = {},
                              .high = {}});
     }
-    const auto written =
-        publish(prefix + "-" + wall + ".svg", svg_of(plot, chart::Place::alone));
+    const auto written = publish(prefix + "-" + wall + ".svg", svg_of(plot, chart::Place::alone));
     if (!written) return std::fprintf(stderr, "%s\n", written.error().message.c_str()), 3;
   }
   return 0;
@@ -123,22 +122,24 @@ double median_ms(const ClayStack& stack, double length_mm) {
   for (double& time : times) {
     const auto begin = std::chrono::steady_clock::now();
     (void)smoothed(stack, length_mm, 0.02);
-    time = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-               .count();
+    time =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   }
   std::sort(times.begin(), times.end());
   return times[kRounds / 2];
 }
 
-/// A bellied wall of 200 rings with the kinks of strokes.
+/// A bellied wall of 100 mm or more with the kinks of strokes.
 ClayStack bellied(std::size_t count) {
+  const double h = std::max(0.001, 100.0 / static_cast<double>(count));
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < count; ++i) {
-    const double y = 100.0 * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    const double outer = 40.0 + 6.0 * std::sin(0.05 * y) + 0.1 * std::abs(std::fmod(y, 20.0) - 10.0);
+    const double y = h * (static_cast<double>(i) + 0.5);
+    const double outer =
+        40.0 + 6.0 * std::sin(0.05 * y) + 0.1 * std::abs(std::fmod(y, 20.0) - 10.0);
     rings.push_back({quanta_from_radius(outer), y < 6.0 ? 0 : quanta_from_radius(outer - 4.0)});
   }
-  return ClayStack::from_rings(100.0 / static_cast<double>(count), std::move(rings), 0).value();
+  return ClayStack::from_rings(h, std::move(rings), 0).value();
 }
 
 void time(const char* name, const ClayStack& stack, double length_mm) {

@@ -1,8 +1,9 @@
 // Fair smoothing with a length, against closed forms of its filter.
 //
-// The curve minimises integral (u - R)^2 + (l / 2 pi)^6 u'''^2. Far from the ends that is a filter of
-// gain 1 / (1 + (l / w)^6) for wavelengths w, with the kernel
-//   g(y) = k / 6 [e^-t + e^-t/2 (cos(sqrt 3 t / 2) + sqrt 3 sin(sqrt 3 t / 2))], t = k |y|, k = 2 pi / l.
+// The curve minimises integral (u - R)^2 + (l / 2 pi)^6 u'''^2. Far from the ends that is a filter
+// of gain 1 / (1 + (l / w)^6) for wavelengths w, with the kernel
+//   g(y) = k / 6 [e^-t + e^-t/2 (cos(sqrt 3 t / 2) + sqrt 3 sin(sqrt 3 t / 2))], t = k |y|, k = 2
+//   pi / l.
 // So g(0) = k / 3, |g'| <= k^2 / (3 sqrt 3), and integral |g'''| = 0.672 k^3.
 
 #include "claystack/export/proof.hpp"
@@ -108,7 +109,8 @@ TEST(Fairing, TurnsAKinkIntoTheCurvatureOfItsKernel) {
     const double expected = kTurnRad / kLength * kTurn / 3.0;  // g(0) times the turn
     EXPECT_NEAR(OuterWall(made).bend(100.0, h), expected, 0.02 * expected);
     EXPECT_LE(OuterWall(made).most_bend(50.0, 150.0, h), 1.02 * expected);
-    EXPECT_GT(OuterWall(chords).most_bend(50.0, 150.0, h), 0.45 * kTurn / h);  // the finer, the more
+    EXPECT_GT(OuterWall(chords).most_bend(50.0, 150.0, h),
+              0.45 * kTurn / h);  // the finer, the more
   }
 }
 
@@ -129,7 +131,9 @@ TEST(Fairing, BoundsTheCurvatureOfAStepOfAStroke) {
 
 TEST(Fairing, MovesASphereByLessThanTheBoundOfItsKernel) {
   constexpr double kRadius = 60.0;
-  const auto radius = [](double y) { return std::sqrt(kRadius * kRadius - (y - 50.0) * (y - 50.0)); };
+  const auto radius = [](double y) {
+    return std::sqrt(kRadius * kRadius - (y - 50.0) * (y - 50.0));
+  };
   // R''' = -3 z R^2 / rho^5 at a distance z from the equator; largest at the ends, z = 50.
   const double rho = radius(0.0), third = 3.0 * 50.0 * kRadius * kRadius / std::pow(rho, 5);
   for (const double length : {5.0, 10.0, 20.0}) {
@@ -171,7 +175,8 @@ TEST(Fairing, KeepsThePolylineWithinTheToleranceOfTheCurve) {
       const double allowed = 0.5 * tolerance + made.overshoot_mm + exact.overshoot_mm + 1e-6;
       for (double y = 0.0; y < 120.0; y += 0.05) {
         const double slope = (curve.at(y + 0.05) - curve.at(std::max(0.0, y - 0.05))) / 0.1;
-        ASSERT_LE(std::abs(wall.at(y) - curve.at(y)), allowed * std::hypot(1.0, slope)) << h << ' ' << y;
+        ASSERT_LE(std::abs(wall.at(y) - curve.at(y)), allowed * std::hypot(1.0, slope))
+            << h << ' ' << y;
       }
     }
   }

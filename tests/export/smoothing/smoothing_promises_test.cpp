@@ -143,11 +143,10 @@ RC_GTEST_PROP(SmoothingPromises, FairingLeavesTheRadiusOfARingByTheReportedDista
   SmoothingOptions options = options_for(Smoothing::fair, 1e-5);
   options.smooth_length_mm = *rc::gen::element(0.5, 9.0, 60.0);
   const SmoothedProfile made = smooth(stack, options);
-  RC_ASSERT(made.fairing.length_mm ==
-            std::max(options.smooth_length_mm, 2.0 * stack.ring_height_mm()) ||
-            std::ranges::any_of(made.guard, [](const KeptSteps& kept) {
-              return kept.reason == KeptFor::certificate;
-            }));
+  RC_ASSERT(
+      made.fairing.length_mm == std::max(options.smooth_length_mm, 2.0 * stack.ring_height_mm()) ||
+      std::ranges::any_of(
+          made.guard, [](const KeptSteps& kept) { return kept.reason == KeptFor::certificate; }));
   RC_ASSERT(made.overshoot_mm <= shapes::allowed_move_mm(stack, options));
   const Real spare = made.fairing.moved_mm + made.overshoot_mm + 1e-2;  // 1e-5 across a steep chord
   for (const auto& [first, last, levels, steps, walls] : pieces_of_both(stack, made))

@@ -68,9 +68,9 @@ struct ShortenedFairing {
 
 /// `fair` with a length.
 struct FairingReport {
-  double length_mm = 0.0;    ///< as used; 0: none
-  double moved_mm = 0.0;     ///< largest distance of a wall from the radius of a ring, at its middle
-  double moved_at_mm = 0.0;  ///< height of that place
+  double length_mm = 0.0;  ///< as used; 0: none
+  double moved_mm = 0.0;   ///< largest distance of a wall from the radius of a ring, at its middle
+  double moved_at_mm = 0.0;                 ///< height of that place
   std::vector<ShortenedFairing> shortened;  ///< by piece and height
 };
 
