@@ -93,6 +93,17 @@ Result<double> quantity_of(const std::string& text, const std::vector<Unit>& uni
                  fmt::format("expected a number above 0 in {}, found {}", names, text));
 }
 
+/// "9mm", "9", "0"; "tool": empty.
+Result<std::optional<double>> smooth_length_of(const std::string& text) {
+  if (text == "tool") return std::optional<double>();
+  if (text == "0" || text == "0mm") return std::optional<double>(0.0);
+  return quantity_of(text, {{"mm", 1.0}, {"cm", 10.0}})
+      .map([](double mm) { return std::optional<double>(mm); })
+      .map_error([](const Error& error) {
+        return Error{error.kind, error.message + "; or tool"};
+      });
+}
+
 Result<void> check_names(const ExportCommand& command) {
   std::vector<std::string> outputs = command.outputs;
   outputs.push_back(command.request.report_path);
@@ -211,12 +222,27 @@ Result<Pot> pot_at_goal(const Pot& pot, ExportCommand& command, const Console& c
       });
 }
 
+/// `--smooth-length tool` needs a pot that remembers its tool.
+Result<void> check_tool_length(const Pot& pot, const ExportCommand& command) {
+  if (command.request.options.smooth_length_mm) return {};
+  const auto refuse = [](const std::string& why) {
+    return failure(ErrorKind::bad_input, "--smooth-length tool: expected " + why);
+  };
+  if (command.smooth != "fair") return refuse("--smooth fair, found " + command.smooth);
+  if (pot.collapse) return refuse("a standing pot, found a collapsed one");
+  if (solid::tool_length_mm(pot) == 0.0)
+    return refuse("a pot that remembers its tool, found none in it; give the length in mm");
+  return {};
+}
+
 /// The exit status: done, or unsound if a wall is below the requested minimum.
 Result<int> export_pot(ExportCommand& command, const Console& console) {
   const auto given = read_pot(command.pot);
   if (!given) return tl::make_unexpected(given.error());
   if (auto complete = complete_request(command); !complete)
     return tl::make_unexpected(complete.error());
+  if (auto length = check_tool_length(*given, command); !length)
+    return tl::make_unexpected(length.error());
   const auto pot = pot_at_goal(*given, command, console);
   if (!pot) return tl::make_unexpected(pot.error());
   const auto copies = add_copies(*pot, command);
@@ -330,6 +356,19 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
                   "steps of the rings remain")
       ->check(CLI::IsMember({"fair", "exact", "none"}))
       ->capture_default_str();
+  sub->add_option_function<std::string>(
+         "--smooth-length",
+         [=](const std::string& text) {
+           if (const auto length = smooth_length_of(text))
+             command->request.options.smooth_length_mm = *length;
+         },
+         "With --smooth fair: continuous curvature; what is shorter along the height than this is "
+         "smoothed away, such as 9mm; tool: the radius of the pot's tool; 0: straight from ring to "
+         "ring (default: 0)")
+      ->check([](const std::string& text) {
+        const auto length = smooth_length_of(text);
+        return length ? std::string() : length.error().message;
+      });
   add_finish_options(*sub, command->request.options, command->glaze_mm);
   sub->add_option("--segments", command->request.options.segments,
                   "Facets around the axis (default: chosen from the tolerance)")

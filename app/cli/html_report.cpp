@@ -227,6 +227,13 @@ class Page {
       if (const auto& limit = report_.walls.limit)
         row({"asked", fmt::format("{:.2f} mm ({})", limit->min_wall_mm, limit->asked_by())}, "td",
             false);
+      if (const auto& fairing = report_.section.smoothed.fairing; fairing.length_mm > 0.0)
+        row({"fairing",
+             fmt::format(
+                 "over {:g} mm; moved the walls by at most {:.2f} mm, at a height of {:.1f} "
+                 "mm",
+                 fairing.length_mm, fairing.moved_mm, fairing.moved_at_mm)},
+            "td", false);
       for (const auto& [what, clay] : finish_rows(report_)) row({what, clay}, "td", false);
       if (const auto& overhang = report_.process.overhang)
         row({"steepest overhang", fmt::format("{:.0f} degrees from the vertical at {:.1f} mm",

@@ -49,6 +49,8 @@ Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot&
   solid::ExportOptions& options = request.options;
   options.tolerance_mm = choices.tolerance_mm;
   options.smoothing = choices.smoothing;
+  if (choices.smoothing == solid::Smoothing::fair && !pot.collapse)
+    options.smooth_length_mm = choices.smooth_length_mm;
   options.name = options.source = choices.name;
   const bool mesh = !choices.meshes.empty();
   if (mesh || choices.section) options.shrinkage = 0.01 * choices.shrinkage_percent;
@@ -80,6 +82,9 @@ ExportFigures figures_of(const solid::ExportReport& report) {
                         .fallen = report.collapsed.has_value(),
                         .thinnest_mm = report.thinnest_mm(),
                         .thinnest_at_mm = report.walls.thinnest.from.y,
+                        .faired_mm = report.section.smoothed.fairing.length_mm,
+                        .moved_mm = report.section.smoothed.fairing.moved_mm,
+                        .moved_at_mm = report.section.smoothed.fairing.moved_at_mm,
                         .problems = {},
                         .marks = {}};
   for (const solid::FileReport& file : report.files)

@@ -31,6 +31,7 @@ Result<void> check_options(const ExportOptions& options) {
   };
   if (options.normals) return refuse("normals");
   if (options.wall_spacing_mm) return refuse("field of walls");
+  if (options.smooth_length_mm.value_or(0.0) != 0.0) return refuse("smooth length");
   if (options.lip_fillet_mm.value_or(0.0) > 0.0) return refuse("lip fillet");
   if (options.finish.asked()) return refuse("finish");
   return {};

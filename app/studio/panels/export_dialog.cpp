@@ -66,6 +66,9 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
   form_row("Smoothing");
   if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth); chosen >= 0)
     choices.smoothing = kSmooth[static_cast<std::size_t>(chosen)];
+  if (choices.smoothing == solid::Smoothing::fair)
+    form_length("Smoothing length", choices.smooth_length_mm, 0.0, kLongestFairingMm,
+                LengthUnit::mm, "none");
   form_row("Process");
   (void)choose_process(model, "None", choices.process, actions);
   form_length("Minimum wall", choices.min_wall_mm, 0.0, kThickestDemandMm, model.settings.unit,
@@ -98,6 +101,10 @@ void draw_figures(const ViewModel& model, const ExportFigures& figures) {
     value_row(colours, "Thinnest wall",
               fmt::format("{:.2f} mm, at a height of {:.1f} mm", figures.thinnest_mm,
                           figures.thinnest_at_mm));
+  if (figures.faired_mm > 0.0)
+    value_row(colours, "Walls moved by",
+              fmt::format("at most {:.2f} mm, at a height of {:.1f} mm", figures.moved_mm,
+                          figures.moved_at_mm));
   ImGui::PushStyleColor(ImGuiCol_Text, colours.warning);
   for (const std::string& problem : figures.problems) ImGui::TextWrapped("%s", problem.c_str());
   ImGui::PopStyleColor();

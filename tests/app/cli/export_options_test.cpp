@@ -168,6 +168,25 @@ TEST_F(ExportOptions, ReportsALipFilletAndExactWalls) {
   EXPECT_NE(both.err.find("fillet"), std::string::npos) << both.err;
 }
 
+TEST_F(ExportOptions, ReportsTheFairing) {
+  EXPECT_FALSE(run("--json").json().contains("fairing"));
+  EXPECT_FALSE(run("--json --smooth-length 0").json().contains("fairing"));
+  const std::string page = folder.file("r.html");
+  const auto json = run("--json --smooth-length 0.9cm --report " + page).json();
+  EXPECT_EQ(json.at("fairing").at("length_mm"), 9.0);
+  EXPECT_GT(json.at("fairing").at("moved_mm"), 0.01);
+  EXPECT_LT(json.at("volume_error_relative"), 1e-12);
+  EXPECT_NE(read_text(page).find("over 9 mm; moved the walls by at most "), std::string::npos);
+  EXPECT_NE(run("--verbose --smooth-length 9").out.find("faired over 9 mm"), std::string::npos);
+  // The fired pot has the same form: all lengths grow alike.
+  const auto fired = run("--json --smooth-length 9 --shrinkage 10%").json();
+  EXPECT_EQ(fired.at("fairing").at("length_mm"), 10.0);
+  EXPECT_EQ(run("--smooth-length 9 --smooth exact").status, 2);
+  EXPECT_EQ(run("--smooth-length tool --smooth none").status, 2);
+  EXPECT_EQ(run("--smooth-length -1").status, 2);
+  EXPECT_EQ(run("--smooth-length 9 --smooth none").status, 2);
+}
+
 TEST_F(ExportOptions, AClayProcessRoundsTheLip) {
   // A lip that no finger has rounded.
   ASSERT_EQ(claystack("throw -q " + sample("paper/bowl.scene.json") + " -o " + pot).status, 0);

@@ -115,6 +115,7 @@ TEST(JobMessage, CarriesTheWholeExport) {
                    .name = "cup",
                    .tolerance_mm = 0.3,
                    .smoothing = solid::Smoothing::none,
+                   .smooth_length_mm = 7.5,
                    .process = "porcelain",
                    .min_wall_mm = 1.1,
                    .shrinkage_percent = 12.5};

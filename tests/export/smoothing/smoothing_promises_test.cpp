@@ -43,6 +43,7 @@ RC_GTEST_PROP(SmoothingPromises, ExactKeepsBothWallsOfEveryRing, ()) {
   RC_PRE(profile_of(stack).has_value());
   SmoothingOptions options = shapes::any_options();
   options.mode = Smoothing::exact;
+  options.smooth_length_mm = 0.0;
   options.overshoot_limit_mm = *rc::gen::element(0.0, 0.1, 100.0);
   const SmoothedProfile made = smooth(stack, options);
   RC_ASSERT(made.max_ring_error_relative < 1e-12);
@@ -65,6 +66,7 @@ RC_GTEST_PROP(SmoothingPromises, ExactStaysWithinTheReportedDistanceOfTheRadiiAb
   RC_PRE(profile_of(stack).has_value());
   SmoothingOptions options = shapes::any_options();
   options.mode = Smoothing::exact;
+  options.smooth_length_mm = 0.0;
   const SmoothedProfile made = smooth(stack, options);
   const Real spare = std::max(made.overshoot_mm, made.extrapolated_mm) + 1e-9;
   Real widest = 0;  // of all steps: no wall continues by more
@@ -132,6 +134,31 @@ RC_GTEST_PROP(SmoothingPromises, FairLeavesTheRadiiAboutARingByTheVolumeCorrecti
         RC_ASSERT(found_least >= least - spare);
         RC_ASSERT(found_most <= most + spare);
       }
+    }
+}
+
+RC_GTEST_PROP(SmoothingPromises, FairingLeavesTheRadiusOfARingByTheReportedDistance, ()) {
+  const ClayStack stack = shapes::hard_stack(kMostRings);
+  RC_PRE(profile_of(stack).has_value());
+  SmoothingOptions options = options_for(Smoothing::fair, 1e-5);
+  options.smooth_length_mm = *rc::gen::element(0.5, 9.0, 60.0);
+  const SmoothedProfile made = smooth(stack, options);
+  RC_ASSERT(
+      made.fairing.length_mm == std::max(options.smooth_length_mm, 2.0 * stack.ring_height_mm()) ||
+      std::ranges::any_of(
+          made.guard, [](const KeptSteps& kept) { return kept.reason == KeptFor::certificate; }));
+  RC_ASSERT(made.overshoot_mm <= shapes::allowed_move_mm(stack, options));
+  const Real spare = made.fairing.moved_mm + made.overshoot_mm + 1e-2;  // 1e-5 across a steep chord
+  for (const auto& [first, last, levels, steps, walls] : pieces_of_both(stack, made))
+    for (std::size_t i = 0; i <= last - first; ++i) {
+      const Real y = levels[i] + 0.5 * stack.ring_height_mm();
+      const Ring& ring = stack.rings()[first + i];
+      const auto [least, most] = oracles::radii(walls.outer, y, y + 1e-9L);
+      RC_ASSERT(least >= ring.outer_mm() - spare);
+      RC_ASSERT(most <= ring.outer_mm() + spare);
+      const auto [bore_least, bore_most] = oracles::radii(walls.bore, y, y + 1e-9L);
+      RC_ASSERT(bore_least >= ring.inner_mm() - spare);
+      RC_ASSERT(bore_most <= ring.inner_mm() + spare);
     }
 }
 
