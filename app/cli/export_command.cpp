@@ -3,6 +3,7 @@
 #include "app/cli/finish_options.hpp"
 #include "app/cli/html_report.hpp"
 #include "app/cli/memory_room.hpp"
+#include "app/cli/output_files.hpp"
 #include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
@@ -104,12 +105,13 @@ Result<std::optional<double>> smooth_length_of(const std::string& text) {
       });
 }
 
-Result<void> check_names(const ExportCommand& command) {
-  std::vector<std::string> outputs = command.outputs;
-  outputs.push_back(command.request.report_path);
+Result<void> check_names(const ExportCommand& command, const Console& console) {
+  std::vector<OutputFile> outputs;
+  for (const std::string& path : command.outputs) outputs.push_back({path});
+  outputs.push_back({command.request.report_path, {".html", ".json"}});
   if (command.request.certificates)
-    for (const std::string& path : command.outputs) outputs.push_back(path + ".certificate.json");
-  return check_distinct(outputs, {command.pot});
+    for (const std::string& path : command.outputs) outputs.push_back({path + ".certificate.json"});
+  return check_outputs(outputs, {command.pot, command.walls.process()}, console);
 }
 
 /// Refuses options that have no effect on any of the requested files.
@@ -169,14 +171,14 @@ Result<FileRequest> file_of(const std::string& path, bool ascii) {
 }
 
 /// The request without the pot.
-Result<void> complete_request(ExportCommand& command) {
+Result<void> complete_request(ExportCommand& command, const Console& console) {
   if (auto loaded = command.walls.load(); !loaded) return loaded;
-  if (auto names = check_names(command); !names) return names;
   for (const std::string& path : command.outputs) {
     auto file = file_of(path, command.ascii);
     if (!file) return tl::make_unexpected(file.error());
     command.request.files.push_back(std::move(*file));
   }
+  if (auto names = check_names(command, console); !names) return names;
   solid::ExportOptions& options = command.request.options;
   options.smoothing = smoothing_of(command.smooth);
   if (command.step == "lines") options.step_walls = solid::StepWalls::lines;
@@ -237,16 +239,20 @@ Result<void> check_tool_length(const Pot& pot, const ExportCommand& command) {
 
 /// The exit status: done, or unsound if a wall is below the requested minimum.
 Result<int> export_pot(ExportCommand& command, const Console& console) {
+  Progress progress(console, "exporting", 0);
+  progress.stage("reading");
   const auto given = read_pot(command.pot);
   if (!given) return tl::make_unexpected(given.error());
-  if (auto complete = complete_request(command); !complete)
+  if (auto complete = complete_request(command, console); !complete)
     return tl::make_unexpected(complete.error());
   if (auto length = check_tool_length(*given, command); !length)
     return tl::make_unexpected(length.error());
+  progress.stage("scaling and copying");
   const auto pot = pot_at_goal(*given, command, console);
   if (!pot) return tl::make_unexpected(pot.error());
   const auto copies = add_copies(*pot, command);
   if (!copies) return tl::make_unexpected(copies.error());
+  progress.stage("drawing");
   std::optional<std::string> thumbnail;
   pack_pot(*pot, command.request, thumbnail);
   const bool page = command.request.report_path.ends_with(".html");
@@ -256,11 +262,8 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
     const Json json = export_json(report, *copies);
     return page ? html_report(json, report, command.request.options, picture) : pretty(json);
   };
-  const auto report = [&] {
-    Progress progress(console, "exporting", 0);
-    return solid::export_files(*pot, command.request,
-                               [&](std::string_view stage) { progress.stage(stage); });
-  }();
+  const auto report = solid::export_files(*pot, command.request,
+                                          [&](std::string_view stage) { progress.stage(stage); });
   if (!report) return tl::make_unexpected(report.error());
   if (console.json) print_json(export_json(*report, *copies));
   print_export(console, *report, *copies);
@@ -439,7 +442,9 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   add_goal_options(sub, command);
   add_file_options(sub, command);
   sub->footer(
-      "\nExamples:\n  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"
+      "\nExamples:\n"
+      "  claystack throw samples/bowl.scene.json -o bowl.pot.json\n"
+      "  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"
       "  claystack export bowl.pot.json bowl.step --process stoneware\n"
       "  claystack export bowl.pot.json bowl.3mf --holds 350ml --fired --shrinkage 12%\n"
       "  claystack export bowl.pot.json bowl.pdf bowl.dxf --shrinkage 12%\n"

@@ -140,7 +140,9 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
       ->check(in_range(-89.0, 89.0));
   sub->add_flag("--time", command->time, "Print the median time of a frame [ms]");
   sub->footer(
-      "\nExamples:\n  claystack render bowl.pot.json -o bowl.png\n"
+      "\nExamples:\n"
+      "  claystack throw samples/vase.scene.json -o vase.pot.json\n"
+      "  claystack render vase.pot.json -o vase.png\n"
       "  claystack render vase.pot.json -o walls.png --section --process porcelain\n"
       "  claystack render vase.pot.json --turntable vase.gif --size 480x480 --theme dark");
   sub->callback([command, &console, &exit] { exit = run(*command, console); });

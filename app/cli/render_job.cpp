@@ -1,5 +1,6 @@
 #include "app/cli/render_job.hpp"
 #include "app/cli/memory_room.hpp"
+#include "app/cli/output_files.hpp"
 #include "app/cli/pot_input.hpp"
 
 #include "app/render/image_file.hpp"
@@ -33,17 +34,14 @@ Result<void> check_usage(const RenderCommand& command, const Console& console) {
   if (command.out.empty() && command.turntable.empty() && !command.time)
     return failure(ErrorKind::bad_input,
                    "expected -o FILE.png, --turntable FILE.gif or --time, found none");
-  const auto named = [](const std::string& path, const char* ending) {
-    return path.empty() || path == "-" || path.ends_with(ending);
-  };
-  if (!named(command.out, ".png"))
-    return failure(ErrorKind::bad_input, command.out + ": expected a name that ends in .png");
-  if (!named(command.turntable, ".gif"))
-    return failure(ErrorKind::bad_input, command.turntable + ": expected a name that ends in .gif");
   const int streams = (command.out == "-") + (command.turntable == "-") + console.json;
   if (streams > 1)
     return failure(ErrorKind::bad_input, "-: expected at most one output on standard output");
-  return check_distinct({command.out, command.turntable}, {command.pot});
+  std::vector<std::string> inputs = {command.pot};
+#ifdef CLAYSTACK_EXPORT
+  inputs.push_back(command.walls.process());
+#endif
+  return check_outputs({{command.out, {".png"}}, {command.turntable, {".gif"}}}, inputs, console);
 }
 
 /// The pot, or the lump of a scene.
@@ -183,6 +181,8 @@ Result<void> publish_images(const std::string& path, const std::string& png,
 
 Result<Rendered> render(const RenderCommand& command, const Console& console) {
   if (auto usage = check_usage(command, console); !usage) return tl::make_unexpected(usage.error());
+  Progress progress(console, "rendering", 0);
+  progress.stage(command.wall_map ? "reading, measuring walls" : "reading");
   Rendered done;
   const auto picture = picture_of(command, done);
   if (!picture) return tl::make_unexpected(picture.error());
@@ -191,6 +191,7 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
                     .and_then([] { return render::Offscreen::create(); });
   if (!screen) return tl::make_unexpected(screen.error());
   done.renderer = screen->renderer();
+  progress.stage("drawing");
   // Picture and animation are both made before either is published.
   const auto png = made_png(*screen, *picture, command);
   if (!png) return tl::make_unexpected(png.error());
@@ -198,6 +199,7 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
   auto gif = made_gif(*screen, *picture, command, console, done);
   if (!gif) return tl::make_unexpected(gif.error());
   if (command.time) {
+    progress.stage("timing frames");
     const auto time = frame_time(*screen, *picture, command);
     if (!time) return tl::make_unexpected(time.error());
     done.frame = *time;

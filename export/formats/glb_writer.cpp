@@ -64,9 +64,8 @@ Packed plain_of(const TriangleMesh& metres) {
 Result<Packed> compressed(const TriangleMesh& metres, DracoSettings settings) {
   double farthest = 0.0;
   for (const glm::dvec3& point : metres.points) farthest = std::max(farthest, glm::length(point));
-  constexpr double kRoundings = 3.0;
-  settings.max_error_mm =
-      settings.max_error_mm / kMmPerMetre - kRoundings * std::ldexp(farthest, -24);
+  settings.max_error_mm = settings.max_error_mm / kMmPerMetre -
+                          roundings_of(MeshFormat::glb) * std::ldexp(farthest, -24);
   if (!(settings.max_error_mm > 0.0))
     return failure(ErrorKind::bad_input,
                    "cannot write .glb: expected a vertex error above the rounding to float32");

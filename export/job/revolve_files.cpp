@@ -6,6 +6,7 @@
 #include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
 #include "export/formats/draco_bits.hpp"
+#include "export/formats/glb.hpp"
 #include "export/formats/shaded_obj.hpp"
 #include "export/formats/stl_stream.hpp"
 #include "export/formats/stored_file.hpp"
@@ -80,21 +81,26 @@ const TriangleMesh& RevolveFiles::mesh() {
   return *mesh_;
 }
 
-/// The margins, if they cover the rounding; otherwise the exact test of the mesh in float32.
-Result<Proof> RevolveFiles::prove_rounded(double rounding_mm) {
+/// The margins, if they cover the rounding; otherwise the exact test of the mesh as rounded.
+Result<Proof> RevolveFiles::prove_rounded(MeshFormat format, double rounding_mm) {
   if (rounding_mm < claims_.margins.safe_rounding_mm()) return Proof::margins;
-  if (!exact_) {
-    const TriangleMesh& solid = mesh();
-    exact_ = stages_.run(
-        "exact_test", [&] { return check_sound(rounded_to_float(solid), "the pot in float32"); });
+  const bool in_metres = format == MeshFormat::glb;
+  std::optional<Result<void>>& exact = in_metres ? exact_in_metres_ : exact_;
+  if (!exact) {
+    TriangleMesh rounded = mesh();
+    for (glm::dvec3& point : rounded.points) point = held_point(point, format);
+    exact = stages_.run("exact_test", [&] {
+      return check_sound(rounded,
+                         in_metres ? "the pot in float32 of metres" : "the pot in float32");
+    });
   }
-  return exact_->map([] { return Proof::exact_test; });
+  return exact->map([] { return Proof::exact_test; });
 }
 
 Result<FileReport> RevolveFiles::stream(FileStore& store) {
   constexpr auto kFormat = MeshFormat::stl_binary;
   const double rounding = float_rounding_mm(rule_);
-  const auto proof = prove_rounded(rounding);
+  const auto proof = prove_rounded(kFormat, rounding);
   if (!proof) return tl::make_unexpected(proof.error());
   const auto file =
       stages_.run(stage_name("encode", kFormat), [&] { return stream_stl(rule_, store); });
@@ -124,10 +130,9 @@ FileContents RevolveFiles::contents_of(MeshFormat format) {
 /// Printed digits read back as the same float32. A reader that uses doubles gets up to half a unit
 /// in the last place more error; binary numbers have no more than their own.
 Result<FileReport> RevolveFiles::write_whole(MeshFormat format, FileStore& store) {
-  // A GLB is in metres: rounded in mm, in metres, and in mm again by a reader.
-  const double roundings = format == MeshFormat::glb ? 3.0 : facts_of(format).decimal ? 2.0 : 1.0;
+  const double roundings = facts_of(format).decimal ? 2.0 : roundings_of(format);
   const double rounding = roundings * float_rounding_mm(rule_);
-  return prove_rounded(rounding).and_then([&](Proof proof) {
+  return prove_rounded(format, rounding).and_then([&](Proof proof) {
     const TriangleMesh& solid = mesh();
     const FileContents contents = contents_of(format);
     return stages_
@@ -175,7 +180,8 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
           .and_then([&](const TriangleMesh& decoded) {
             // A coarse grid may be sound and yet exchange close vertices.
             return check_sound(decoded, as_written(format)).and_then([&] {
-              return match_revolve(decoded, rule_, allowed, as_written(format)).map([](double) {});
+              return match_revolve(decoded, rule_, allowed, format, as_written(format))
+                  .map([](double) {});
             });
           });
     });
@@ -188,7 +194,7 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
 Result<FileReport> RevolveFiles::write_3mf(FileStore& store) {
   constexpr auto kFormat = MeshFormat::three_mf, kPart = MeshFormat::three_mf_model;
   const double rounding = 2.0 * float_rounding_mm(rule_);
-  return prove_rounded(rounding).and_then([&](Proof proof) {
+  return prove_rounded(kFormat, rounding).and_then([&](Proof proof) {
     FileContents contents = contents_of(kFormat);
     const ModelPart model = stages_.run(stage_name("encode", kPart),
                                         [&] { return encode_3mf_model(mesh(), contents); });
@@ -227,7 +233,7 @@ Result<FileReport> RevolveFiles::certify_bytes(MeshFormat format, double roundin
     return read_back(store, bytes)
         .and_then([&](const std::string& again) { return decode_mesh(again, format, name); })
         .and_then([&](const TriangleMesh& decoded) {
-          return match_revolve(decoded, rule_, rounding_mm, name);
+          return match_revolve(decoded, rule_, rounding_mm, format, name);
         });
   });
   if (!farthest) return tl::make_unexpected(farthest.error());

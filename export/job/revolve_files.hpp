@@ -41,7 +41,7 @@ class RevolveFiles {
   Result<FileReport> write_on_grid(MeshFormat format, FileStore& store);
   Result<FileReport> write_3mf(FileStore& store);
   [[nodiscard]] DracoClaims draco_claims(double reach_mm) const;
-  Result<Proof> prove_rounded(double rounding_mm);
+  Result<Proof> prove_rounded(MeshFormat format, double rounding_mm);
   Result<FileReport> certify_bytes(MeshFormat format, double rounding_mm, Proof proof,
                                    const std::string& bytes, FileStore& store);
   Result<FileReport> finish(MeshFormat format, SolidCertificate certificate, FileStore& store);
@@ -51,8 +51,9 @@ class RevolveFiles {
   const ExportOptions& options_;
   Stages& stages_;
   std::optional<TriangleMesh> mesh_;
-  std::optional<std::vector<float>> wall_mm_;  ///< at each point of the mesh, once needed
-  std::optional<Result<void>> exact_;          ///< verdict on the mesh in float32, once needed
+  std::optional<std::vector<float>> wall_mm_;    ///< at each point of the mesh, once needed
+  std::optional<Result<void>> exact_;            ///< verdict on the mesh in float32, once needed
+  std::optional<Result<void>> exact_in_metres_;  ///< the same, as a GLB rounds it
 };
 
 }  // namespace clay::solid::inline job
