@@ -2,12 +2,12 @@
 
 #include "app/cli/export_report.hpp"
 #include "core/base64.hpp"
+#include "core/colour_scale.hpp"
 #include "core/svg_writer.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -34,16 +34,9 @@ svg { width: 100%; height: auto; } figure { margin: 0; break-inside: avoid; }
 figcaption { font-size: 8.5pt; color: #555; } .long td:first-child { overflow-wrap: anywhere; }
 )css";
 
-/// cividis, from thin to thick.
-constexpr std::array<std::array<double, 3>, 5> kMap{
-    {{0, 32, 77}, {65, 77, 107}, {124, 123, 120}, {188, 175, 111}, {255, 234, 70}}};
-
 std::string colour_at(double part) {
-  const double place = std::clamp(part, 0.0, 1.0) * (kMap.size() - 1);
-  const auto low = std::min(static_cast<std::size_t>(place), kMap.size() - 2);
-  const double t = place - static_cast<double>(low);
-  const auto mix = [&](std::size_t i) { return (1.0 - t) * kMap[low][i] + t * kMap[low + 1][i]; };
-  return fmt::format("rgb({:.0f},{:.0f},{:.0f})", mix(0), mix(1), mix(2));
+  const auto [red, green, blue] = scale_colour(part);
+  return fmt::format("rgb({},{},{})", srgb_byte(red), srgb_byte(green), srgb_byte(blue));
 }
 
 double number(const Json& object, const char* field) { return object[field].get<double>(); }
