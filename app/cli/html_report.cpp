@@ -39,8 +39,6 @@ std::string colour_at(double part) {
   return fmt::format("rgb({},{},{})", srgb_byte(red), srgb_byte(green), srgb_byte(blue));
 }
 
-double number(const Json& object, const char* field) { return object[field].get<double>(); }
-
 /// The walls along the section in colours; the scale is fitted to this pot.
 class WallMapFigure {
  public:
@@ -192,7 +190,7 @@ class Page {
       const auto line = [&](const char* name, const char* field, const char* unit, int digits) {
         std::vector<std::string> cells{name};
         for (const auto& state : states)
-          cells.push_back(fixed(number(*state.second, field), digits) + unit);
+          cells.push_back(fixed(number_in(*state.second, field), digits) + unit);
         row(cells);
       };
       line("diameter", "diameter_mm", " mm", 1);
@@ -206,8 +204,8 @@ class Page {
       row({"", "centre of gravity", "tips at"}, "th");
       for (const auto& [key, name] : {std::pair("empty", "empty"), std::pair("full", "full")})
         if (!maker[key].is_null())
-          row({name, fixed(number(maker[key], "centre_mm"), 1) + " mm above the foot",
-               fixed(number(maker[key], "tipping_deg"), 1) + " degrees"});
+          row({name, fixed(number_in(maker[key], "centre_mm"), 1) + " mm above the foot",
+               fixed(number_in(maker[key], "tipping_deg"), 1) + " degrees"});
     });
   }
 
@@ -253,13 +251,13 @@ class Page {
     table("Proof", [&] {
       const Json& certificate = json_["certificate"];
       row({"proved", certificate["proved"].get<std::string>()}, "td", false);
-      row({"volume",
-           fmt::format("{:.3f} cm3; relative difference to the counted clay {:.1e}",
-                       1e-3 * number(json_, "volume_mm3"), number(json_, "volume_error_relative"))},
+      row({"volume", fmt::format("{:.3f} cm3; relative difference to the counted clay {:.1e}",
+                                 1e-3 * number_in(json_, "volume_mm3"),
+                                 number_in(json_, "volume_error_relative"))},
           "td", false);
-      row({"facets",
-           fmt::format("{} triangles, chordal error {:.3g} mm",
-                       json_["triangles"].get<std::size_t>(), number(json_, "chordal_error_mm"))},
+      row({"facets", fmt::format("{} triangles, chordal error {:.3g} mm",
+                                 json_["triangles"].get<std::size_t>(),
+                                 number_in(json_, "chordal_error_mm"))},
           "td", false);
     });
   }

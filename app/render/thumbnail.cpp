@@ -16,15 +16,33 @@ namespace clay::render {
 namespace {
 
 constexpr int kPerSide = 2;           // samples of a pixel along each side
-constexpr std::size_t kSectors = 72;  // around the axis
-constexpr std::size_t kMostRows = 128;
+constexpr std::size_t kSectors = 64;  // around the axis
+constexpr std::size_t kMostRows = 80;
 constexpr glm::vec3 kClay{0.56F, 0.27F, 0.16F}, kGround{0.92F, 0.905F, 0.87F};  // linear
 
 /// A stretch of a section, revolved: a wall, a floor or a rim. The light reaches `open` of it.
 struct Band {
   glm::dvec2 from, to;  ///< (rho, y)
   glm::vec2 open{1.0F};
+  double side = 1.0;                    ///< of the clay: left of the way, or right (-1)
+  std::array<glm::dvec2, 2> normals{};  ///< at both ends, away from the clay
 };
+
+/// Normals at the ends of bands; the mean where a wall continues without an edge.
+void smooth(std::vector<Band>& bands) {
+  constexpr double kEdge = 0.8;  // cosine
+  const auto normal = [](const Band& band) {
+    const glm::dvec2 along = band.to - band.from;
+    const double length = glm::length(along);
+    return length > 0.0 ? band.side / length * glm::dvec2(along.y, -along.x) : glm::dvec2(0.0);
+  };
+  for (Band& band : bands) band.normals = {normal(band), normal(band)};
+  for (std::size_t i = 1; i < bands.size(); ++i) {
+    const glm::dvec2 before = normal(bands[i - 1]), after = normal(bands[i]);
+    if (bands[i - 1].to != bands[i].from || glm::dot(before, after) < kEdge) continue;
+    bands[i - 1].normals[1] = bands[i].normals[0] = glm::normalize(before + after);
+  }
+}
 
 /// How much of the sky a bore sees at a depth below its mouth.
 float open_at(double depth_mm, double radius_mm) {
@@ -41,6 +59,7 @@ class Part {
     if (rows_.back() + 1 != end) rows_.push_back(end - 1);
     walls();
     for (std::size_t i = 0; i < rows_.size();) i = hollow(i) ? bore(i) : i + 1;
+    smooth(bands_);
   }
 
   [[nodiscard]] const std::vector<Band>& bands() const { return bands_; }
@@ -78,7 +97,7 @@ class Part {
     const auto add = [&](glm::dvec2 from, glm::dvec2 to) {
       const double radius = std::max(from.x, to.x);
       bands_.push_back(
-          {from, to, {open_at(mouth - from.y, radius), open_at(mouth - to.y, radius)}});
+          {from, to, {open_at(mouth - from.y, radius), open_at(mouth - to.y, radius)}, -1.0});
     };
     if (first > 0) add({0.0, foot(first)}, inner(first, foot(first)));
     glm::dvec2 at = inner(first, foot(first));
@@ -154,12 +173,11 @@ class Canvas {
   std::vector<float> depth_, light_;
 };
 
-/// One lamp from the upper left and light of the sky; faces are lit from the side that is seen.
-float light_on(glm::dvec3 normal, const glm::dvec3& to_eye, float open) {
+/// One lamp from the upper left, and light of the sky.
+float light_on(const glm::dvec3& normal, float open) {
   static const glm::dvec3 kLamp = glm::normalize(glm::dvec3(-0.62, 0.74, 0.52));
-  if (glm::dot(normal, to_eye) < 0.0) normal = -normal;
   const double lamp = std::max(0.0, glm::dot(normal, kLamp)), sky = 0.5 + 0.5 * normal.y;
-  return open * static_cast<float>(0.22 + 0.55 * sky + 1.1 * lamp);
+  return open * static_cast<float>(0.16 + 0.42 * sky + 0.85 * lamp);
 }
 
 class Drawing {
@@ -176,15 +194,12 @@ class Drawing {
   }
 
   void add(const Band& band, const glm::dmat4& place) {
-    const glm::dvec2 along = band.to - band.from;
-    if (!(glm::dot(along, along) > 0.0)) return;
-    const glm::dvec2 across = glm::normalize(glm::dvec2(along.y, -along.x));
+    if (band.from == band.to) return;
     std::array<Corner, 2> last{};
     for (std::size_t k = 0; k <= kSectors; ++k) {
       const glm::dvec2 d = directions_[k];
-      const glm::dvec3 normal(across.x * d.x, across.y, across.x * d.y);
-      const std::array<Corner, 2> next{corner(band.from, d, normal, band.open[0], place),
-                                       corner(band.to, d, normal, band.open[1], place)};
+      const std::array<Corner, 2> next{corner(band.from, d, band.normals[0], band.open[0], place),
+                                       corner(band.to, d, band.normals[1], band.open[1], place)};
       if (k > 0) {
         canvas_.draw(last[0], last[1], next[1]);
         canvas_.draw(last[0], next[1], next[0]);
@@ -197,14 +212,15 @@ class Drawing {
 
  private:
   [[nodiscard]] Corner corner(const glm::dvec2& point, const glm::dvec2& direction,
-                              const glm::dvec3& normal, float open, const glm::dmat4& place) const {
+                              const glm::dvec2& normal, float open, const glm::dmat4& place) const {
     const glm::dvec4 at =
         view_ * (place * glm::dvec4(point.x * direction.x, point.y, point.x * direction.y, 1.0));
-    const glm::dvec3 seen(view_ * (place * glm::dvec4(normal, 0.0)));
+    const glm::dvec4 across(normal.x * direction.x, normal.y, normal.x * direction.y, 0.0);
+    const glm::dvec3 seen(view_ * (place * across));
     const glm::dvec4 clip = whole_ * at;
     const glm::dvec3 shown = glm::dvec3(clip) / clip.w;
     return {{0.5 * side_ * (1.0 + shown.x), 0.5 * side_ * (1.0 - shown.y), shown.z},
-            light_on(seen, -glm::dvec3(at), open)};
+            light_on(seen, open)};
   }
 
   glm::dmat4 view_, whole_;
@@ -214,6 +230,9 @@ class Drawing {
 };
 
 Image pixels_of(const Canvas& canvas, int pixels) {
+  constexpr float kSteps = 4095.0F;
+  std::vector<std::uint8_t> bytes;
+  for (float step = 0.0F; step <= kSteps; ++step) bytes.push_back(srgb_byte(step / kSteps));
   Image image{pixels, pixels, {}};
   image.rgba.reserve(4 * static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels));
   for (int y = 0; y < pixels; ++y)
@@ -224,7 +243,8 @@ Image pixels_of(const Canvas& canvas, int pixels) {
         sum += light < 0.0F ? kGround : glm::min(kClay * light, glm::vec3(1.0F));
       }
       sum /= static_cast<float>(kPerSide * kPerSide);
-      for (int c = 0; c < 3; ++c) image.rgba.push_back(srgb_byte(sum[c]));
+      for (int c = 0; c < 3; ++c)
+        image.rgba.push_back(bytes[static_cast<std::size_t>(sum[c] * kSteps + 0.5F)]);
       image.rgba.push_back(255);
     }
   return image;

@@ -9,6 +9,7 @@
 #include "export/formats/shaded_obj.hpp"
 #include "export/formats/stl_stream.hpp"
 #include "export/formats/stored_file.hpp"
+#include "export/formats/three_mf_check.hpp"
 #include "export/proof/describe.hpp"
 #include "export/proof/revolve_match.hpp"
 #include "export/proof/rounded_claims.hpp"
@@ -226,11 +227,7 @@ Result<std::string> RevolveFiles::proved_package(const ModelPart& model,
       });
     else
       package = pack_3mf(model, contents).and_then([&](std::string bytes) {
-        return model_in_3mf(bytes, name)
-            .and_then([&](const std::string& unpacked) -> Result<std::string> {
-              if (unpacked == model.xml) return std::move(bytes);
-              return failure(ErrorKind::unsound, name + ": the model part is not the one packed");
-            });
+        return check_model_in_3mf(bytes, model.xml, name).map([&] { return std::move(bytes); });
       });
   });
   return matched ? package : tl::make_unexpected(matched.error());
