@@ -9,7 +9,7 @@ namespace clay::test {
 namespace {
 
 constexpr int kSide = 200;
-constexpr render::Viewport kView{kSide, kSide};
+constexpr render::Viewport kSquare{kSide, kSide};
 
 /// 100 mm high and wide; a wall of 5 mm above a floor of 10 mm.
 render::PotView cylinder() {
@@ -33,7 +33,7 @@ TEST(Thumbnail, HasTheOutlineOfThePot) {
   for (const double height : {20.0, 50.0, 80.0})
     for (const double side : {-1.0, 1.0}) {
       const auto at = [&](double rho) {
-        return *render::pixel_of(camera, kView, rho * side * across + glm::dvec3(0, height, 0));
+        return *render::pixel_of(camera, kSquare, rho * side * across + glm::dvec3(0, height, 0));
       };
       EXPECT_FALSE(ground(image, at(48.5).x, at(48.5).y)) << height;
       EXPECT_TRUE(ground(image, at(53.0).x, at(53.0).y)) << height;
@@ -47,7 +47,7 @@ TEST(Thumbnail, ShowsTheBoreDarkerThanTheRim) {
   const render::Camera camera = render::framed(pot, 1.0);
   const glm::dvec3 across = render::profile_direction(camera);
   const auto red = [&](double rho) {
-    const auto at = *render::pixel_of(camera, kView, rho * across + glm::dvec3(0, 100.0, 0));
+    const auto at = *render::pixel_of(camera, kSquare, rho * across + glm::dvec3(0, 100.0, 0));
     return int{image.at(static_cast<int>(at.x), static_cast<int>(at.y))[0]};
   };
   EXPECT_GT(red(47.5), red(20.0) + 30);
@@ -60,7 +60,7 @@ TEST(Thumbnail, ShowsAFallenPartAtItsPlace) {
   const render::Image image = render::thumbnail(pot, kSide);
   const render::Camera camera = render::framed(pot, 1.0);
   const auto at = [&](const glm::dvec3& place) {
-    const auto px = *render::pixel_of(camera, kView, place);
+    const auto px = *render::pixel_of(camera, kSquare, place);
     return ground(image, px.x, px.y);
   };
   EXPECT_FALSE(at({0, 25, 180}));
