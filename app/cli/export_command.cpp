@@ -1,12 +1,12 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/export_report.hpp"
 #include "app/cli/finish_options.hpp"
-#include "app/cli/html_report.hpp"
 #include "app/cli/memory_room.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
+#include "app/cli/report_file.hpp"
 #include "app/cli/wall_options.hpp"
 
 #include "claystack/core/atomic_file.hpp"
@@ -18,11 +18,14 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace clay::cli {
@@ -56,6 +59,16 @@ solid::Smoothing smoothing_of(std::string_view name) {
   for (const auto mode : {solid::Smoothing::fair, solid::Smoothing::exact})
     if (solid::name_of(mode) == name) return mode;
   return solid::Smoothing::none;
+}
+
+constexpr std::array kGlbMeshes{std::pair{"draco", solid::GlbMesh::draco},
+                                std::pair{"meshopt", solid::GlbMesh::meshopt},
+                                std::pair{"core", solid::GlbMesh::core}};
+
+solid::GlbMesh glb_mesh_of(std::string_view name) {
+  return std::ranges::find(kGlbMeshes, name,
+                           [](const auto& mesh) { return std::string_view(mesh.first); })
+      ->second;
 }
 
 /// "12%": a part, 0.12. Errors state what was expected.
@@ -149,6 +162,12 @@ Result<void> check_options(const ExportCommand& command) {
       .and_then([&] { return need(command.step.has_value(), "--step", "a .step", step); })
       .and_then(
           [&] { return need(command.glb.has_value(), "--glb", "a .glb", format(MeshFormat::glb)); })
+      .and_then([&] {
+        return need(command.request.options.wall_map, "--wall-map", "a .glb or a .3mf",
+                    [&](const FileRequest& file) {
+                      return format(MeshFormat::glb)(file) || format(MeshFormat::three_mf)(file);
+                    });
+      })
       .and_then(
           [&] { return need(command.ascii, "--ascii", "an .stl", format(MeshFormat::stl_ascii)); })
       .and_then([&] {
@@ -182,7 +201,7 @@ Result<void> complete_request(ExportCommand& command, const Console& console) {
   solid::ExportOptions& options = command.request.options;
   options.smoothing = smoothing_of(command.smooth);
   if (command.step == "lines") options.step_walls = solid::StepWalls::lines;
-  if (command.glb == "core") options.glb = solid::GlbMesh::core;
+  if (command.glb) options.glb = glb_mesh_of(*command.glb);
   options.full_verification = command.verify == "full";
   options.finish.glaze_mm = command.glaze_mm * solid::enlargement(options.shrinkage);
   options.walls = command.walls.demand();
@@ -255,13 +274,7 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   progress.stage("drawing");
   std::optional<std::string> thumbnail;
   pack_pot(*pot, command.request, thumbnail);
-  const bool page = command.request.report_path.ends_with(".html");
-  const std::string picture = page ? picture_of(*pot) : std::string();
-  if (page) command.request.options.wall_spacing_mm = solid::kWallTableSpacingMm;
-  command.request.report_text = [&](const solid::ExportReport& report) {
-    const Json json = export_json(report, *copies);
-    return page ? html_report(json, report, command.request.options, picture) : pretty(json);
-  };
+  set_report(*pot, command.request, *copies);
   const auto report = solid::export_files(*pot, command.request,
                                           [&](std::string_view stage) { progress.stage(stage); });
   if (!report) return tl::make_unexpected(report.error());
@@ -414,9 +427,11 @@ void add_file_options(CLI::App* sub, const SharedCommand& command) {
       ->check(CLI::IsMember({"spline", "lines"}));
   sub->add_option(
          "--glb", command->glb,
-         "Mesh in a .glb: draco: compressed, within the tolerance; core: plain, for readers "
-         "without Draco (default: draco)")
-      ->check(CLI::IsMember({"draco", "core"}));
+         "Mesh in a .glb: draco: compressed, within the tolerance; meshopt: compressed, larger, "
+         "unpacked faster; core: plain, for readers without either (default: draco)")
+      ->check(CLI::IsMember({"draco", "meshopt", "core"}));
+  sub->add_flag("--wall-map", command->request.options.wall_map,
+                "Colour a .glb and a .3mf by the wall thickness, as the window does");
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");
   sub->add_flag("--normals", command->request.options.normals,
                 "Write .obj with normals, for shading");

@@ -1,15 +1,11 @@
 #include "app/render/look.hpp"
 
-#include <cmath>
+#include "core/colour_scale.hpp"
+
 #include <glm/geometric.hpp>
 
 namespace clay::render {
 namespace {
-
-float linear_channel(unsigned byte) noexcept {
-  const float c = static_cast<float>(byte) / 255.0f;
-  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-}
 
 Look light_look() noexcept {
   return {{1.75f, 1.62f, 1.46f},    {0.58f, 0.62f, 0.70f},  {0.34f, 0.29f, 0.26f},
@@ -28,18 +24,16 @@ Look dark_look() noexcept {
 }  // namespace
 
 glm::vec3 linear_of(unsigned rgb) noexcept {
-  return {linear_channel(rgb >> 16 & 255u), linear_channel(rgb >> 8 & 255u),
-          linear_channel(rgb & 255u)};
+  const auto [red, green, blue] = linear_colour(rgb);
+  return {red, green, blue};
 }
 
 const std::array<glm::vec4, kMapColours>& map_colours() noexcept {
+  static_assert(kMapColours == kScaleColours.size());
   static const std::array<glm::vec4, kMapColours> kColours = [] {
-    constexpr std::array<unsigned, kMapColours> kCividis{
-        0x00224E, 0x002C64, 0x14366D, 0x2C406C, 0x3C4B6C, 0x4A556C, 0x575F6D, 0x646A70, 0x707473,
-        0x7E7F78, 0x8C8B79, 0x9C9776, 0xADA371, 0xBDB069, 0xCFBE5E, 0xE4CF4C, 0xFEE838};
     std::array<glm::vec4, kMapColours> colours{};
     for (std::size_t i = 0; i < colours.size(); ++i)
-      colours[i] = glm::vec4(linear_of(kCividis[i]), 1.0f);
+      colours[i] = glm::vec4(linear_of(kScaleColours[i]), 1.0f);
     return colours;
   }();
   return kColours;

@@ -12,9 +12,7 @@ namespace clay::render {
 /// Linear light of an sRGB colour, 0xRRGGBB.
 [[nodiscard]] glm::vec3 linear_of(unsigned rgb) noexcept;
 
-/// The colours of the wall map, linear, from zero thickness to the top of the range: cividis, which
-/// looks the same with any kind of colour vision (Nunez, Anderton and Renslow, PLoS ONE 13(7)
-/// 2018).
+/// `kScaleColours`, linear, for the shaders.
 [[nodiscard]] const std::array<glm::vec4, kMapColours>& map_colours() noexcept;
 
 struct Look {

@@ -24,7 +24,9 @@ inline constexpr double kLongestFairingMm = 50.0;
 /// The settings of the export dialog.
 struct ExportChoices {
   std::vector<solid::MeshFormat> meshes = {solid::MeshFormat::three_mf};
-  bool section = false, pot = false;
+  bool step = false;
+  bool section = false, dxf = false, pdf = false;  ///< the drawing; `section`: as SVG
+  bool report = false, pot = false;
   std::string folder, name;
   double tolerance_mm = 0.02;
   solid::Smoothing smoothing = solid::Smoothing::fair;

@@ -264,7 +264,7 @@ void take_preview(AppState& state, Exporter::Outcome outcome) {
 /// The choices that change the solid.
 ExportChoices solid_choices(ExportChoices choices) {
   choices.folder.clear();
-  choices.section = choices.pot = false;
+  choices.section = choices.dxf = choices.pdf = choices.report = choices.pot = false;
   return choices;
 }
 

@@ -102,10 +102,10 @@ auto members(Like<studio::PotCheck> auto& of) {
                   seconds);
 }
 auto members(Like<studio::ExportChoices> auto& of) {
-  auto& [meshes, section, pot, folder, name, tolerance_mm, smoothing, smooth_length_mm, process,
-         min_wall_mm, shrinkage_percent] = of;
-  return std::tie(meshes, section, pot, folder, name, tolerance_mm, smoothing, smooth_length_mm,
-                  process, min_wall_mm, shrinkage_percent);
+  auto& [meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm, smoothing, smooth_length_mm,
+         process, min_wall_mm, shrinkage_percent] = of;
+  return std::tie(meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm,
+                  smoothing, smooth_length_mm, process, min_wall_mm, shrinkage_percent);
 }
 auto members(Like<ExportQuestion> auto& of) {
   auto& [kind, choices, pot] = of;

@@ -18,7 +18,10 @@ inline constexpr std::size_t kGlbHeaderBytes = 12, kChunkHeaderBytes = 8;
 
 inline constexpr int kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat32 = 5126;
 inline constexpr int kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
+inline constexpr int kInt8 = 5120, kInt16 = 5122;
 inline constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
+inline constexpr std::string_view kMeshopt = "EXT_meshopt_compression";
+inline constexpr std::string_view kQuantization = "KHR_mesh_quantization";
 
 inline constexpr double kMmPerMetre = 1000.0;
 

@@ -16,6 +16,13 @@
 namespace clay::studio {
 namespace {
 
+/// PDF and the report: a web page has neither cairo nor a picture beside its own.
+#ifdef __EMSCRIPTEN__
+constexpr bool kWritesPages = false;
+#else
+constexpr bool kWritesPages = true;
+#endif
+
 /// A box for each ending that can be written, in the order of the table of formats; they wrap.
 void draw_meshes(ExportChoices& choices) {
   bool first = true;
@@ -39,10 +46,22 @@ void draw_meshes(ExportChoices& choices) {
 void draw_formats(ExportChoices& choices) {
   form_row("Files");
   draw_meshes(choices);
-  form_row("Also");
-  ImGui::Checkbox("Section", &choices.section);
+  form_row("For CAD");
+  ImGui::Checkbox("STEP", &choices.step);
+  form_row("Drawing");
+  ImGui::Checkbox("SVG", &choices.section);
   ImGui::SameLine();
+  ImGui::Checkbox("DXF", &choices.dxf);
+  if (kWritesPages) {
+    ImGui::SameLine();
+    ImGui::Checkbox("PDF", &choices.pdf);
+  }
+  form_row("Also");
   ImGui::Checkbox("Pot", &choices.pot);
+  if (kWritesPages) {
+    ImGui::SameLine();
+    ImGui::Checkbox("Report", &choices.report);
+  }
 }
 
 void draw_places(ExportChoices& choices, Actions& actions) {

@@ -128,6 +128,31 @@ TEST_F(ExportOptions, APlainGlbNeedsNoExtension) {
   EXPECT_EQ(run("--glb core").status, 2);
 }
 
+TEST_F(ExportOptions, AGlbByMeshoptIsCertifiedAsDecoded) {
+  const std::string glb = folder.file("m.glb");
+  const auto file =
+      claystack("export --json --glb meshopt --verify full --tolerance 0.05 " + pot + " " + glb)
+          .json()
+          .at("files")
+          .at(0);
+  EXPECT_NE(read_text(glb).find("EXT_meshopt_compression"), std::string::npos);
+  EXPECT_TRUE(file.at("full_verification").at("sound"));
+  EXPECT_LE(file.at("max_error_mm").get<double>(), 0.05);
+  EXPECT_GT(file.at("max_error_mm").get<double>(), 1e-3);
+  EXPECT_EQ(claystack("check " + glb).status, 0);
+}
+
+TEST_F(ExportOptions, TheWallMapColoursGlbAnd3mfAlone) {
+  const std::string glb = folder.file("w.glb"), package = folder.file("w.3mf");
+  ASSERT_EQ(claystack("export -q --wall-map " + pot + " " + glb + " " + package).status, 0);
+  EXPECT_NE(read_text(glb).find("COLOR_0"), std::string::npos);
+  EXPECT_NE(read_text(glb).find("\"wall_map\""), std::string::npos);
+  EXPECT_NE(shell("unzip -p " + package + " 3D/3dmodel.model").out.find("<m:colorgroup"),
+            std::string::npos);
+  EXPECT_EQ(claystack("check " + package).status, 0);
+  EXPECT_EQ(run("--wall-map " + folder.file("w.obj")).status, 2);
+}
+
 TEST_F(ExportOptions, WallTableContainsTheMinimum) {
   const std::string csv = folder.file("walls.csv");
   const auto json = run(csv + " --json").json();

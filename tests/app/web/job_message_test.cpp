@@ -109,7 +109,11 @@ TEST(JobMessage, CarriesAQuestionDuringAStroke) {
 TEST(JobMessage, CarriesTheWholeExport) {
   ExportQuestion asked{studio::ExportKind::files, {}, *cup(5.0)};
   asked.choices = {.meshes = {solid::MeshFormat::drc, solid::MeshFormat::obj},
+                   .step = true,
                    .section = true,
+                   .dxf = true,
+                   .pdf = true,
+                   .report = true,
                    .pot = true,
                    .folder = "/a",
                    .name = "cup",
