@@ -64,11 +64,8 @@ void draw_stress(const ViewModel& model, Actions&) {
   if (model.readings.fallen()) return faint_text(colours, "A fallen pot has no stress curve.");
   const StressCurve& curve = model.readings.stress();
   const auto part = curve.part();
-  ImGui::PushStyleColor(ImGuiCol_Text, part && *part >= kNear
-                                           ? colours.warning
-                                           : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-  ImGui::TextWrapped("%s", stress_text(curve, model.settings.unit).c_str());
-  ImGui::PopStyleColor();
+  wrapped_text(stress_text(curve, model.settings.unit),
+               part && *part >= kNear ? colours.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text));
   draw_curve(curve, colours);
   faint_text(colours,
              fmt::format("Vertical: height to {}. Horizontal: stress to {:.3g} kPa{}",
