@@ -2,7 +2,9 @@
 // Clay bodies and glazes as pictures, the window and GLB files show them: the one table of them.
 
 #include <array>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace clay {
 
@@ -52,6 +54,13 @@ inline constexpr std::array kMaterials = {
   for (const Material& material : kMaterials)
     if (material.id == id) return &material;
   return nullptr;
+}
+
+/// For the options of commands.
+[[nodiscard]] inline std::vector<std::string> material_ids() {
+  std::vector<std::string> ids;
+  for (const Material& material : kMaterials) ids.emplace_back(material.id);
+  return ids;
 }
 
 inline constexpr const Material& kWet = kMaterials[0];

@@ -11,6 +11,7 @@
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/export/job.hpp"
+#include "core/material.hpp"
 #include "core/number_text.hpp"
 
 #include <fmt/format.h>
@@ -38,7 +39,7 @@ struct ExportCommand {
   solid::ExportRequest request;
   std::string smooth = "fair";
   std::string verify = "margins";
-  std::optional<std::string> step, glb;
+  std::optional<std::string> step, glb, material;
   solid::Goal goal;
   bool fill_line = false;  ///< asked for
 
@@ -136,6 +137,9 @@ Result<void> check_options(const ExportCommand& command) {
       .and_then([&] { return need(command.step.has_value(), "--step", "a .step", step); })
       .and_then(
           [&] { return need(command.glb.has_value(), "--glb", "a .glb", format(MeshFormat::glb)); })
+      .and_then([&] {
+        return need(command.material.has_value(), "--material", "a .glb", format(MeshFormat::glb));
+      })
       .and_then(
           [&] { return need(command.ascii, "--ascii", "an .stl", format(MeshFormat::stl_ascii)); })
       .and_then([&] {
@@ -170,6 +174,7 @@ Result<void> complete_request(ExportCommand& command) {
   options.smoothing = smoothing_of(command.smooth);
   if (command.step == "lines") options.step_walls = solid::StepWalls::lines;
   if (command.glb == "core") options.glb = solid::GlbMesh::core;
+  options.material = command.material.value_or(options.material);
   options.full_verification = command.verify == "full";
   options.finish.glaze_mm = command.glaze_mm * solid::enlargement(options.shrinkage);
   options.walls = command.walls.demand();
@@ -375,6 +380,9 @@ void add_file_options(CLI::App* sub, const SharedCommand& command) {
          "Mesh in a .glb: draco: compressed, within the tolerance; core: plain, for readers "
          "without Draco (default: draco)")
       ->check(CLI::IsMember({"draco", "core"}));
+  sub->add_option("--material", command->material,
+                  "Clay or glaze of a .glb, as for render (default: terracotta)")
+      ->check(CLI::IsMember(material_ids()));
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");
   sub->add_flag("--normals", command->request.options.normals,
                 "Write .obj with normals, for shading");

@@ -26,12 +26,6 @@ std::optional<render::Viewport> size_of(std::string_view text) {
   return size;
 }
 
-std::vector<std::string> material_ids() {
-  std::vector<std::string> ids;
-  for (const Material& material : kMaterials) ids.emplace_back(material.id);
-  return ids;
-}
-
 void add_size(CLI::App& sub, RenderCommand& command) {
   sub.add_option_function<std::string>(
          "--size", [&command](const std::string& text) { command.choices.size = *size_of(text); },

@@ -195,11 +195,12 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   state_.scene.place(view, timeline);
   if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
   draw_target(model, view);
-  draw_marks(model, view, draw_verdict(model, view));
+  const float verdict = draw_verdict(model, view);
+  draw_marks(model, view, verdict);
   draw_path(model, view);
   draw_at_tool(model, view);
   draw_pause(model, view);
-  draw_export_marks(model, view);
+  draw_export_marks(model, view, verdict);
   draw_hint(model, actions, free);
   draw_guide(model, actions, free);
   draw_dialog(model, actions, view);

@@ -2,6 +2,7 @@
 #include "claystack/version.hpp"
 #include "core/cancel.hpp"
 #include "core/little_endian.hpp"
+#include "core/material.hpp"
 #include "export/formats/file_floats.hpp"
 #include "export/formats/glb.hpp"
 #ifdef CLAYSTACK_DRACO
@@ -94,7 +95,25 @@ Result<Packed> packed(const TriangleMesh& metres, const FileContents& contents) 
 /// float32 as the shortest decimals that read back as the same double.
 OrderedJson numbers(const glm::vec3& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 
-OrderedJson document(const Packed& packed, const FileContents& contents) {
+constexpr const char* kClearcoat = "KHR_materials_clearcoat";
+
+OrderedJson material_json(const Material& material) {
+  const auto factor = [](float value) { return std::round(1e4 * double{value}) / 1e4; };
+  const Reflectance& base = material.base;
+  OrderedJson json = {
+      {"name", material.id},
+      {"pbrMetallicRoughness",
+       {{"baseColorFactor", {factor(base[0]), factor(base[1]), factor(base[2]), 1.0}},
+        {"metallicFactor", 0.0},
+        {"roughnessFactor", factor(material.roughness)}}}};
+  if (material.coat > 0.0f)
+    json["extensions"][kClearcoat] = {
+        {"clearcoatFactor", factor(material.coat)},
+        {"clearcoatRoughnessFactor", factor(material.coat_roughness)}};
+  return json;
+}
+
+OrderedJson document(const Packed& packed, const Material& material, const FileContents& contents) {
   const std::string name = one_line(contents.name);
   OrderedJson extras = {{"name", name}};
   for (const auto& [key, value] : contents.notes) extras[key] = one_line(value);
@@ -110,8 +129,9 @@ OrderedJson document(const Packed& packed, const FileContents& contents) {
                        {{"version", "2.0"},
                         {"generator", "claystack " CLAYSTACK_VERSION},
                         {"extras", {{"claystack", extras}}}}}};
+  if (material.coat > 0.0f) json["extensionsUsed"].push_back(kClearcoat);
   if (packed.draco) {
-    json["extensionsUsed"] = {kDraco};
+    json["extensionsUsed"].push_back(kDraco);
     json["extensionsRequired"] = {kDraco};
     views.push_back({{"buffer", 0}, {"byteLength", packed.bytes.size()}});
     primitive["extensions"][kDraco] = {{"bufferView", 0}, {"attributes", {{"POSITION", 0}}}};
@@ -129,12 +149,7 @@ OrderedJson document(const Packed& packed, const FileContents& contents) {
   json["scenes"] = {{{"nodes", {0}}}};
   json["nodes"] = {{{"name", name}, {"mesh", 0}}};
   json["meshes"] = {{{"name", name}, {"primitives", {primitive}}}};
-  // Fired clay, in linear light.
-  json["materials"] = {{{"name", "clay"},
-                        {"pbrMetallicRoughness",
-                         {{"baseColorFactor", {0.56, 0.27, 0.16, 1.0}},
-                          {"metallicFactor", 0.0},
-                          {"roughnessFactor", 0.85}}}}};
+  json["materials"] = OrderedJson::array({material_json(material)});
   json["accessors"] = {points, indices};
   json["bufferViews"] = views;
   json["buffers"] = {{{"byteLength", packed.bytes.size()}}};
@@ -152,13 +167,17 @@ void append_chunk(std::string& file, std::uint32_t type, std::string bytes, char
 }  // namespace
 
 Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& contents) {
+  const Material* const material = find_material(contents.material);
+  if (material == nullptr)
+    return failure(ErrorKind::bad_input, "cannot write .glb: expected a clay or a glaze, found '" +
+                                             one_line(contents.material) + "'");
   return packed(in_metres(mesh), contents)
       .and_then([&](const Packed& packed) -> Result<std::string> {
         std::string file(kGlbHeaderBytes, '\0');
-        append_chunk(
-            file, kJsonChunk,
-            document(packed, contents).dump(-1, ' ', false, OrderedJson::error_handler_t::replace),
-            ' ');
+        append_chunk(file, kJsonChunk,
+                     document(packed, *material, contents)
+                         .dump(-1, ' ', false, OrderedJson::error_handler_t::replace),
+                     ' ');
         append_chunk(file, kBinaryChunk, packed.bytes, '\0');
         if (file.size() > std::numeric_limits<std::uint32_t>::max())
           return failure(ErrorKind::bad_input, "cannot write .glb: more than 4 GiB");

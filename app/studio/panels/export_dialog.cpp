@@ -90,10 +90,13 @@ void draw_figures(const ViewModel& model, const ExportFigures& figures) {
 }
 
 /// Progress, figures or the problem, in an area of fixed height, so that the dialog keeps its
-/// height.
-void draw_preview(const ViewModel& model) {
+/// height, and its buttons are in sight in a low view as well.
+void draw_preview(const ViewModel& model, const ViewRect& rect) {
   const ExportState& exporting = model.ui.exporting;
-  const ImVec2 size(0.0f, 12.5f * ImGui::GetFontSize());
+  constexpr float kHeightEm = 12.5f, kLowestEm = 4.0f, kButtonsEm = 5.0f;
+  const float em = ImGui::GetFontSize();
+  const float room = rect.size_px.y - ImGui::GetCursorPosY() - kButtonsEm * em;
+  const ImVec2 size(0.0f, std::clamp(room, kLowestEm * em, kHeightEm * em));
   ImGui::BeginChild("##preview", size, true);
   const bool running = model.export_running.has_value();
   if (model.writing())
@@ -150,7 +153,7 @@ void draw(const ExportDialog&, const ViewModel& model, Actions& actions, const V
   draw_choices(model, choices, actions);
   if (choices != model.ui.exporting.choices) actions.emplace_back(EditExport{choices});
   ImGui::Spacing();
-  draw_preview(model);
+  draw_preview(model, rect);
   draw_buttons(model, actions);
   ImGui::End();
 }

@@ -144,10 +144,10 @@ void draw_mark(const ViewModel& model, const ViewRect& rect, const Mark& mark, g
 
 }  // namespace
 
-void draw_export_marks(const ViewModel& model, const ViewRect& rect) {
+void draw_export_marks(const ViewModel& model, const ViewRect& rect, float top_px) {
   if (!model.ui.shows<NoDialog>() || !model.has_marks()) return;
   const float em = ImGui::GetFontSize();
-  float top = rect.corner_px.y + 1.2f * em;
+  float top = top_px + 1.2f * em;
   for (const Mark& mark : model.ui.marks) {
     const auto at = model.scene.pixel_of(mark.place_mm);
     if (!at || !rect.holds(*at)) continue;

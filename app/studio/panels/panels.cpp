@@ -111,7 +111,7 @@ void draw_figures(const ViewModel& model) {
 }
 
 ImVec4 colour_of(Grade grade, const Palette& colours) {
-  return grade == Grade::note      ? colours.accent
+  return grade == Grade::note      ? colours.faint
          : grade == Grade::warning ? colours.warning
                                    : colours.fault;
 }

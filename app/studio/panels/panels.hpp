@@ -52,8 +52,8 @@ float draw_verdict(const ViewModel& model, const ViewRect& rect);
 void draw_marks(const ViewModel& model, const ViewRect& rect, float top_px);
 /// Draws over the view: the outline of the target.
 void draw_target(const ViewModel& model, const ViewRect& rect);
-/// Draws over the view: problems of the last export at their places.
-void draw_export_marks(const ViewModel& model, const ViewRect& rect);
+/// Draws over the view, below `top_px`: problems of the last export at their places.
+void draw_export_marks(const ViewModel& model, const ViewRect& rect, float top_px);
 
 // The panels.
 void draw_tool(const ViewModel& model, Actions& actions);

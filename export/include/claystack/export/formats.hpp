@@ -104,8 +104,9 @@ struct FileContents {
   std::string_view name = "pot";        ///< of the solid or object
   std::span<const float> wall_mm = {};  ///< thickness at each point [mm]; empty: unknown
   DracoSettings draco = {};
-  GlbMesh glb = GlbMesh::draco;  ///< without Draco in this build it is always `core`
-  bool one_body = false;         ///< the mesh has one shell; spares the search for several (3MF)
+  GlbMesh glb = GlbMesh::draco;              ///< without Draco in this build it is always `core`
+  std::string_view material = "terracotta";  ///< id of a clay or glaze, as for `--material` (GLB)
+  bool one_body = false;  ///< the mesh has one shell; spares the search for several (3MF)
   /// Metadata of the 3MF model, as `claystack:KEY`.
   std::vector<std::pair<std::string, std::string>> notes = {};
   std::string_view pot = {};            ///< a pot file, CBOR (3MF)
@@ -130,11 +131,12 @@ ModelPart encode_3mf_model(const TriangleMesh& mesh, const FileContents& content
 /// setting. No dates, no random ids: equal contents give equal bytes.
 Result<std::string> pack_3mf(const ModelPart& model, const FileContents& contents);
 
-/// glTF 2.0 in one binary file: metres, y up, a clay material, `notes` in the asset's extras. With
-/// Draco in this build the mesh is compressed (KHR_draco_mesh_compression), on the coarsest grid
-/// that keeps `draco.max_error_mm` with all roundings, and the accessors state the counts and
-/// bounds of the decoded mesh. Without it: float32 points and uint32 indices. Errors as for
-/// `encode_drc`.
+/// glTF 2.0 in one binary file: metres, y up, a clay or a glaze (KHR_materials_clearcoat), `notes`
+/// in the asset's extras. With Draco in this build the mesh is compressed
+/// (KHR_draco_mesh_compression), on the coarsest grid that keeps `draco.max_error_mm` with all
+/// roundings, and the accessors state the counts and bounds of the decoded mesh. Without it:
+/// float32 points and uint32 indices. Errors as for `encode_drc`; `bad_input` for an unknown
+/// material.
 Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& contents);
 
 /// What a reader accepts beyond its format.

@@ -92,8 +92,9 @@ struct ExportOptions {
   double fill_line_mm = kFillLineMm;  ///< below the brim of the pot in use
   StepWalls step_walls = StepWalls::spline;
   GlbMesh glb = GlbMesh::draco;
-  bool normals = false;            ///< write normals for shading (obj only)
-  bool allow_pieces = false;       ///< accept pieces that do not touch
+  std::string material = "terracotta";  ///< of a GLB, as in FileContents
+  bool normals = false;                 ///< write normals for shading (obj only)
+  bool allow_pieces = false;            ///< accept pieces that do not touch
   bool measure_left_out = false;   ///< run the skipped stages as well, and report the time saved
   bool full_verification = false;  ///< also check every file like a foreign mesh
   std::string name = "pot";        ///< solid or object name inside the file
