@@ -30,7 +30,7 @@ struct AppState {
         stroke(document, given.clock(), given.threads()),
         readings(given.real_time()),
         guide(given.threads()),
-        pictures(given.real_time()),
+        pictures(given.threads()),
         log(std::move(log_line)) {}
 
   Host& host;
