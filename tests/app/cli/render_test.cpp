@@ -128,7 +128,7 @@ TEST(Render, GlazesMirrorTheWindow) {
                         folder.file(std::string(id) + ".png"))
                   .status,
               0);
-  const std::string box = "60x100+70+50";  // on the body
+  const std::string box = "40x60+80+80";  // on the body
   const std::array<int, 3> glaze = mean_colour(folder.file("tenmoku.png"), box);
   EXPECT_GT(brightest(folder.file("tenmoku.png"), box), glaze[0] + 80);
   const std::array<int, 3> matte = mean_colour(folder.file("terracotta.png"), box);
