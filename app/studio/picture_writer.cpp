@@ -7,6 +7,7 @@
 #endif
 
 #include <filesystem>
+#include <future>
 #include <utility>
 
 namespace clay::studio {
@@ -41,8 +42,8 @@ Result<std::uint64_t> write_frames(render::Offscreen& screen, const render::Pict
       });
 }
 
-Result<std::uint64_t> write_picture(const Pot& pot, const PictureFile& file,
-                                    const render::TurnProgress& progress) {
+Result<std::uint64_t> draw_and_write(const Pot& pot, const PictureFile& file,
+                                     const render::TurnProgress& progress) {
   const auto picture = picture_of(pot, file);
   if (!picture) return tl::make_unexpected(picture.error());
   const render::Viewport size = file.look.size;
@@ -55,6 +56,13 @@ Result<std::uint64_t> write_picture(const Pot& pot, const PictureFile& file,
   return write_frames(*screen, *picture, file, progress, *out).and_then([&](std::uint64_t bytes) {
     return out->commit().map([&] { return bytes; });
   });
+}
+
+/// On another thread than the caller's, whose OpenGL context has to stay current: that of the
+/// window.
+Result<std::uint64_t> write_picture(const Pot& pot, const PictureFile& file,
+                                    const render::TurnProgress& progress) {
+  return std::async(std::launch::async, [&] { return draw_and_write(pot, file, progress); }).get();
 }
 #else
 Result<std::uint64_t> write_picture(const Pot&, const PictureFile& file,
