@@ -12,6 +12,7 @@
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/export/job.hpp"
+#include "core/material.hpp"
 #include "core/number_text.hpp"
 
 #include <fmt/format.h>
@@ -42,7 +43,7 @@ struct ExportCommand {
   solid::ExportRequest request;
   std::string smooth = "fair";
   std::string verify = "margins";
-  std::optional<std::string> step, glb;
+  std::optional<std::string> step, glb, material;
   solid::Goal goal;
   bool fill_line = false;  ///< asked for
 
@@ -168,6 +169,9 @@ Result<void> check_options(const ExportCommand& command) {
                       return format(MeshFormat::glb)(file) || format(MeshFormat::three_mf)(file);
                     });
       })
+      .and_then([&] {
+        return need(command.material.has_value(), "--material", "a .glb", format(MeshFormat::glb));
+      })
       .and_then(
           [&] { return need(command.ascii, "--ascii", "an .stl", format(MeshFormat::stl_ascii)); })
       .and_then([&] {
@@ -202,6 +206,7 @@ Result<void> complete_request(ExportCommand& command, const Console& console) {
   options.smoothing = smoothing_of(command.smooth);
   if (command.step == "lines") options.step_walls = solid::StepWalls::lines;
   if (command.glb) options.glb = glb_mesh_of(*command.glb);
+  options.material = command.material.value_or(options.material);
   options.full_verification = command.verify == "full";
   options.finish.glaze_mm = command.glaze_mm * solid::enlargement(options.shrinkage);
   options.walls = command.walls.demand();
@@ -432,6 +437,9 @@ void add_file_options(CLI::App* sub, const SharedCommand& command) {
       ->check(CLI::IsMember({"draco", "meshopt", "core"}));
   sub->add_flag("--wall-map", command->request.options.wall_map,
                 "Colour a .glb and a .3mf by the wall thickness, as the window does");
+  sub->add_option("--material", command->material,
+                  "Clay or glaze of a .glb, as for render (default: terracotta)")
+      ->check(CLI::IsMember(material_ids()));
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");
   sub->add_flag("--normals", command->request.options.normals,
                 "Write .obj with normals, for shading");

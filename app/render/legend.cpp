@@ -34,6 +34,7 @@ class Sheet {
         p[0] = colour.red;
         p[1] = colour.green;
         p[2] = colour.blue;
+        p[3] = 255;
       }
   }
 

@@ -19,9 +19,12 @@ struct Look {
   glm::vec3 lamp, sky, bounce, rim;
   glm::vec3 low, high;  ///< background
   glm::vec3 metal;      ///< wheel head
-  glm::vec3 tool, arrow, section;
+  glm::vec3 tool, arrow;
 };
 [[nodiscard]] const Look& look_of(Theme theme) noexcept;
+
+/// Linear colour of the cut through the clay: its body, paler.
+[[nodiscard]] glm::vec3 section_colour(const Material& material) noexcept;
 
 /// The lamps move with the camera, so that shape is visible from every side: (right, up, to the
 /// camera), unit.

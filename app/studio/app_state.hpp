@@ -30,6 +30,7 @@ struct AppState {
         stroke(document, given.clock(), given.threads()),
         readings(given.real_time()),
         guide(given.threads()),
+        pictures(given.threads()),
         log(std::move(log_line)) {}
 
   Host& host;
@@ -44,6 +45,7 @@ struct AppState {
   UiState ui;
   FallShow fall;
   Exporter exporter;
+  PictureWriter pictures;
   FileDialog file_dialog;                ///< the desktop's dialog, used instead of a text field
   std::unique_ptr<DeviceWatch> devices;  ///< null: do not look for devices
   std::vector<history::Recoverable> recoverable;

@@ -335,6 +335,10 @@ render::Picture SceneView::picture(const ViewModel& view) const {
     picture.pot = render::turned(std::move(picture.pot));
   picture.camera = camera_;
   picture.theme = view.settings.theme;
+  picture.material = view.settings.material;
+  // The map shows the walls as they are.
+  picture.style = view.settings.throwing_lines && !picture.wall_map ? render::Style::clay
+                                                                    : render::Style::geometry;
   picture.cut = cut;
   picture.wheel_turn_rad = turn_rad_;
   if (wheel_radius_mm_ > 0.0) picture.wheel_radius_mm = wheel_radius_mm_;

@@ -16,8 +16,8 @@ std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 /// In the order of the alternatives of Dialog.
 const char* name_of(const Dialog& dialog) {
   constexpr std::array<const char*, std::variant_size_v<Dialog>> kNames = {
-      "none", "gallery", "shortcuts", "quit",     "open",
-      "save", "export",  "import",    "settings", "replace"};
+      "none",   "gallery", "shortcuts", "quit",    "open",   "save",
+      "export", "import",  "settings",  "replace", "picture"};
   return kNames[dialog.index()];
 }
 
@@ -74,7 +74,8 @@ const std::array kFacts = {
     Fact{"problem",
          [](const AppState& s) {
            const auto* import = std::get_if<ImportDialog>(&s.ui.dialog);
-           return import != nullptr ? import->problem : s.ui.exporting.problem;
+           if (import != nullptr) return import->problem;
+           return s.ui.shows<PictureDialog>() ? s.ui.pictures.problem : s.ui.exporting.problem;
          }},
     Fact{"closed", [](const AppState& s) { return yes_or_no(s.done); }},
     Fact{"device", [](const AppState& s) { return s.stroke.device_name(); }},

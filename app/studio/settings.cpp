@@ -30,6 +30,12 @@ constexpr std::array kModeValues = {ToolMode::press,    ToolMode::trim,   ToolMo
                                     ToolMode::smooth,   ToolMode::needle, ToolMode::wire,
                                     ToolMode::trim_foot};
 
+constexpr auto kMaterialIds = [] {
+  std::array<std::string_view, kMaterials.size()> ids;
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = kMaterials[i].id;
+  return ids;
+}();
+
 template <class E, std::size_t N>
 void choice(PlainFields& io, std::string_view name, E& value,
             const std::array<std::string_view, N>& names, const std::array<E, N>& values) {
@@ -73,6 +79,8 @@ void describe(PlainFields& io, Settings& s) {
   io.number("goal_height_mm", s.goal.height_mm, 0.0, kMostGoalMm);
   io.number("goal_diameter_mm", s.goal.diameter_mm, 0.0, kMostGoalMm);
   io.number("goal_shrinkage_percent", s.goal.shrinkage_percent, 0.0, kMostShrinkagePercent);
+  choice(io, "material", s.material, kMaterialIds, kMaterials);
+  io.flag("throwing_lines", s.throwing_lines);
   io.number("bite_mm", s.bite_mm, kSoftestBiteMm, kFirmestBiteMm);
 }
 

@@ -78,7 +78,7 @@ Studio::~Studio() {
 bool Studio::wakeful() const noexcept {
   return moving() || fine_ != kFineness[0] || awake_frames_ > 0 || state_.readings.checking() ||
          state_.ui.thumbs_missing || state_.guide.busy() || state_.exporter.busy() ||
-         state_.file_dialog.open();
+         state_.pictures.busy() || state_.file_dialog.open();
 }
 
 bool Studio::moving() const noexcept {
@@ -195,14 +195,14 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   state_.scene.place(view, timeline);
   if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
   draw_target(model, view);
-  draw_marks(model, view);
+  const float verdict = draw_verdict(model, view);
+  draw_marks(model, view, verdict);
   draw_path(model, view);
   draw_at_tool(model, view);
   draw_pause(model, view);
-  draw_export_marks(model, view);
+  draw_export_marks(model, view, verdict);
   draw_hint(model, actions, free);
   draw_guide(model, actions, free);
-  draw_verdict(model, view);
   draw_dialog(model, actions, view);
   draw_banner(model, actions, view);
 }

@@ -2,6 +2,7 @@
 #include "claystack/version.hpp"
 #include "core/colour_scale.hpp"
 #include "core/little_endian.hpp"
+#include "core/material.hpp"
 #include "export/formats/file_floats.hpp"
 #include "export/formats/glb.hpp"
 #include "export/formats/glb_packed.hpp"
@@ -118,6 +119,25 @@ Result<Packed> packed(const TriangleMesh& metres, const FileContents& contents) 
   }
 }
 
+constexpr const char* kClearcoat = "KHR_materials_clearcoat";
+
+/// White below the colours of a wall map.
+OrderedJson material_json(const Material& material, bool colours) {
+  const auto factor = [](float value) { return std::round(1e4 * double{value}) / 1e4; };
+  const Reflectance base = colours ? Reflectance{1.0f, 1.0f, 1.0f} : material.base;
+  OrderedJson json = {
+      {"name", colours ? "wall map" : material.id},
+      {"pbrMetallicRoughness",
+       {{"baseColorFactor", {factor(base[0]), factor(base[1]), factor(base[2]), 1.0}},
+        {"metallicFactor", 0.0},
+        {"roughnessFactor", factor(material.roughness)}}}};
+  if (!colours && material.coat > 0.0f)
+    json["extensions"][kClearcoat] = {
+        {"clearcoatFactor", factor(material.coat)},
+        {"clearcoatRoughnessFactor", factor(material.coat_roughness)}};
+  return json;
+}
+
 OrderedJson extras_of(const FileContents& contents) {
   OrderedJson extras = {{"name", one_line(contents.name)}};
   for (const auto& [key, value] : contents.notes) extras[key] = one_line(value);
@@ -134,16 +154,7 @@ OrderedJson extras_of(const FileContents& contents) {
   return extras;
 }
 
-/// Fired clay, in linear light; white below the colours of a wall map.
-OrderedJson material(bool colours) {
-  OrderedJson colour = {0.56, 0.27, 0.16, 1.0};
-  if (colours) colour = {1.0, 1.0, 1.0, 1.0};
-  return {{"name", colours ? "wall map" : "clay"},
-          {"pbrMetallicRoughness",
-           {{"baseColorFactor", colour}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.85}}}};
-}
-
-OrderedJson document(Packed& packed, const FileContents& contents) {
+OrderedJson document(Packed& packed, const Material& material, const FileContents& contents) {
   const std::string name = one_line(contents.name);
   const bool colours = packed.accessors.size() > 2;
   OrderedJson json = {{"asset",
@@ -153,6 +164,7 @@ OrderedJson document(Packed& packed, const FileContents& contents) {
   for (const std::string_view extension : packed.extensions)
     for (const char* list : {"extensionsUsed", "extensionsRequired"})
       json[list].push_back(extension);
+  if (!colours && material.coat > 0.0f) json["extensionsUsed"].push_back(kClearcoat);
   OrderedJson primitive = {{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", 0}};
   if (colours) primitive["attributes"]["COLOR_0"] = 2;
   primitive.update(packed.primitive);
@@ -162,7 +174,7 @@ OrderedJson document(Packed& packed, const FileContents& contents) {
   json["scenes"] = {{{"nodes", {0}}}};
   json["nodes"] = {node};
   json["meshes"] = {{{"name", name}, {"primitives", {primitive}}}};
-  json["materials"] = {material(colours)};
+  json["materials"] = OrderedJson::array({material_json(material, colours)});
   json["accessors"] = std::move(packed.accessors);
   json["bufferViews"] = std::move(packed.views);
   json["buffers"] = {{{"byteLength", packed.bytes.size()}}};
@@ -183,9 +195,13 @@ void append_chunk(std::string& file, std::uint32_t type, std::string bytes, char
 }  // namespace
 
 Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& contents) {
+  const Material* const material = find_material(contents.material);
+  if (material == nullptr)
+    return failure(ErrorKind::bad_input, "cannot write .glb: expected a clay or a glaze, found '" +
+                                             one_line(contents.material) + "'");
   return packed(in_metres(mesh), contents).and_then([&](Packed packed) -> Result<std::string> {
     const std::string json =
-        document(packed, contents).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+        document(packed, *material, contents).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
     std::string file(kGlbHeaderBytes, '\0');
     append_chunk(file, kJsonChunk, json, ' ');
     append_chunk(file, kBinaryChunk, std::move(packed.bytes), '\0');

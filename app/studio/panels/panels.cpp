@@ -111,7 +111,7 @@ void draw_figures(const ViewModel& model) {
 }
 
 ImVec4 colour_of(Grade grade, const Palette& colours) {
-  return grade == Grade::note      ? colours.accent
+  return grade == Grade::note      ? colours.faint
          : grade == Grade::warning ? colours.warning
                                    : colours.fault;
 }
@@ -174,6 +174,8 @@ float draw_menu(const ViewModel& model, Actions& actions) {
       if (ImGui::MenuItem(command.title, text_of(command.chord).c_str(), on,
                           command.enabled(model)))
         actions.emplace_back(RunCommand{command.id});
+      if (command.why_not != nullptr && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        if (const char* why_not = command.why_not(model)) ImGui::SetTooltip("%s", why_not);
       if (command.id == "file.open") draw_recent(model, actions);
     }
     ImGui::PopStyleVar();
@@ -233,7 +235,7 @@ void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect)
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("Close").x -
                   2.0f * ImGui::GetStyle().FramePadding.x);
   const bool closed = ImGui::Button("Close");
-  ImGui::TextWrapped("%s", notice->text.c_str());
+  wrapped_text(notice->text);
   ImGui::End();
   ImGui::PopStyleColor(2);
   ImGui::PopStyleVar(2);
@@ -257,7 +259,7 @@ void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect) {
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   ImGui::Begin("##hint", nullptr,
                kBar | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
-  ImGui::TextWrapped("%s", text);
+  wrapped_text(text);
   if (ImGui::Button("Hide")) actions.emplace_back(SetHints{false});
   ImGui::End();
   ImGui::PopStyleColor();

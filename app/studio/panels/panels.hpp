@@ -45,15 +45,15 @@ void draw_pause(const ViewModel& model, const ViewRect& rect);
 void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect);
 /// Draws over the view: the path to follow in the present step.
 void draw_path(const ViewModel& model, const ViewRect& rect);
-/// Whether the pot is ready to print, or why not.
-void draw_verdict(const ViewModel& model, const ViewRect& rect);
-/// Draws over the view: results of the checks at their places on the pot, and the scale of the wall
-/// map.
-void draw_marks(const ViewModel& model, const ViewRect& rect);
+/// Whether the pot is ready to print, or why not, at the top of the view. Returns its lower edge.
+float draw_verdict(const ViewModel& model, const ViewRect& rect);
+/// Draws over the view: results of the checks at their places on the pot, and, below `top_px`, the
+/// scale of the wall map.
+void draw_marks(const ViewModel& model, const ViewRect& rect, float top_px);
 /// Draws over the view: the outline of the target.
 void draw_target(const ViewModel& model, const ViewRect& rect);
-/// Draws over the view: problems of the last export at their places.
-void draw_export_marks(const ViewModel& model, const ViewRect& rect);
+/// Draws over the view, below `top_px`: problems of the last export at their places.
+void draw_export_marks(const ViewModel& model, const ViewRect& rect, float top_px);
 
 // The panels.
 void draw_tool(const ViewModel& model, Actions& actions);
@@ -80,6 +80,7 @@ void draw(const OpenDialog&, const ViewModel& model, Actions& actions, const Vie
 void draw(const SaveDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const ExportDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const ImportDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
+void draw(const PictureDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const SettingsDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 
 }  // namespace clay::studio

@@ -66,10 +66,10 @@ std::array<std::vector<Section>, 3> columns_of(std::vector<Section> sections) {
 }
 
 void draw_section_of_keys(const Section& section, const Palette& colours, float keys_px) {
-  ImGui::TextColored(colours.faint, "%s", section.title.c_str());
+  ImGui::TextUnformatted(section.title.c_str());
   const float left = ImGui::GetCursorPosX();
   for (const HelpRow& row : section.rows) {
-    ImGui::TextColored(colours.accent, "%s", row.how.c_str());
+    ImGui::TextColored(colours.faint, "%s", row.how.c_str());
     ImGui::SameLine();
     ImGui::SetCursorPosX(left + keys_px);
     ImGui::TextUnformatted(row.what.c_str());

@@ -126,7 +126,7 @@ void draw_icon(const Icon& icon, const ViewModel& model, Actions& actions) {
   if (on)
     draw->AddRectFilled({at.x, at.y + 0.3f * em},
                         {at.x + 0.2f * em, at.y + (kButtonEm - 0.3f) * em},
-                        ImGui::GetColorU32(colours.accent), 0.1f * em);
+                        ImGui::GetColorU32(ImGuiCol_Text), 0.1f * em);
   ImFont* small = model.ui.fonts.small != nullptr ? model.ui.fonts.small : ImGui::GetFont();
   const ImVec2 text = small->CalcTextSizeA(small->FontSize, width * 2.0f, 0.0f, icon.label);
   draw->AddText(small, small->FontSize,

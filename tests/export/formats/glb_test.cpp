@@ -1,5 +1,6 @@
 #include "claystack/export/formats.hpp"
 #include "core/little_endian.hpp"
+#include "core/material.hpp"
 #include "tests/export/formats/refused.hpp"
 #include "tests/export/solid/mesh_generators.hpp"
 #include "tests/fuzz/sample_meshes.hpp"
@@ -107,6 +108,33 @@ TEST(Glb, KeepsTheErrorLimitAndItsAccessorsAreTrue) {
     for (const glm::dvec3& point : read.points) highest = std::max(highest, point.z);
     EXPECT_NEAR(max[1], highest / 1000.0, 1e-8);
   }
+}
+
+TEST(Glb, HasTheChosenClayOrGlaze) {
+  const TriangleMesh mesh = samples::torus(12, 8);
+  for (const GlbMesh kind : {GlbMesh::core, GlbMesh::draco})
+    for (const Material& wanted : kMaterials) {
+      FileContents contents{.glb = kind, .material = wanted.id};
+      const std::string bytes = encode_glb(mesh, contents).value();
+      const Json json = json_of(bytes), material = json["materials"][0];
+      EXPECT_EQ(material["name"], wanted.id);
+      const Json& pbr = material["pbrMetallicRoughness"];
+      for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_NEAR(pbr["baseColorFactor"][i].get<float>(), wanted.base[i], 1e-4f);
+      EXPECT_NEAR(pbr["roughnessFactor"].get<float>(), wanted.roughness, 1e-4f);
+      const bool used =
+          json.contains("extensionsUsed") &&
+          json["extensionsUsed"].dump().find("KHR_materials_clearcoat") != std::string::npos;
+      EXPECT_EQ(used, wanted.coat > 0.0f) << wanted.id;
+      EXPECT_EQ(material.contains("extensions"), used);
+      if (used) {
+        const Json& coat = material["extensions"]["KHR_materials_clearcoat"];
+        EXPECT_NEAR(coat["clearcoatFactor"].get<float>(), wanted.coat, 1e-4f);
+        EXPECT_NEAR(coat["clearcoatRoughnessFactor"].get<float>(), wanted.coat_roughness, 1e-4f);
+      }
+      EXPECT_TRUE(decode_glb(bytes, "x"));
+    }
+  EXPECT_EQ(encode_glb(mesh, {.material = "brick"}).error().kind, ErrorKind::bad_input);
 }
 
 TEST(Glb, ReadsPlainMeshesWithTransforms) {

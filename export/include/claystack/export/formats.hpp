@@ -108,6 +108,7 @@ struct FileContents {
   double wall_top_mm = 10.0;
   DracoSettings draco = {};
   GlbMesh glb = GlbMesh::draco;  ///< without Draco in this build, `draco` is `core`
+  std::string_view material = "terracotta";  ///< id of a clay or glaze, as for `--material` (GLB)
   bool one_body = false;         ///< the mesh has one shell; spares the search for several (3MF)
   /// Metadata of the 3MF model, as `claystack:KEY`.
   std::vector<std::pair<std::string, std::string>> notes = {};
@@ -133,13 +134,13 @@ ModelPart encode_3mf_model(const TriangleMesh& mesh, const FileContents& content
 /// setting. No dates, no random ids: equal contents give equal bytes.
 Result<std::string> pack_3mf(const ModelPart& model, const FileContents& contents);
 
-/// glTF 2.0 in one binary file: metres, y up, a clay material, `notes` in the asset's extras. The
-/// mesh is compressed by Draco (KHR_draco_mesh_compression) or by meshoptimizer
+/// glTF 2.0 in one binary file: metres, y up, a clay or a glaze (KHR_materials_clearcoat), `notes`
+/// in the asset's extras. The mesh is compressed by Draco (KHR_draco_mesh_compression) or by meshoptimizer
 /// (EXT_meshopt_compression; points of 16 bits, or float32 where these are too few), on the
 /// coarsest grid that keeps `draco.max_error_mm` with all roundings, and the accessors state the
 /// counts and bounds of the decoded mesh. `core`: float32 points and uint32 indices. With
 /// `wall_mm`, vertices have the wall map as COLOR_0, in linear light. Errors as for `encode_drc`;
-/// meshoptimizer also needs a triangle at every point.
+/// meshoptimizer also needs a triangle at every point. `bad_input` for an unknown material.
 Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& contents);
 
 /// What a reader accepts beyond its format.

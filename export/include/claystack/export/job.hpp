@@ -95,6 +95,7 @@ struct ExportOptions {
   double fill_line_mm = kFillLineMm;  ///< below the brim of the pot in use
   StepWalls step_walls = StepWalls::spline;
   GlbMesh glb = GlbMesh::draco;
+  std::string material = "terracotta";  ///< of a GLB, as in FileContents
   bool wall_map = false;           ///< colours of the wall in a GLB and a 3MF of a standing pot
   bool normals = false;            ///< write normals for shading (obj only)
   bool allow_pieces = false;       ///< accept pieces that do not touch
