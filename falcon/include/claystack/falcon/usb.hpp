@@ -55,8 +55,11 @@ struct SpaceMouseSettings {
 /// Refuses settings out of their ranges.
 [[nodiscard]] DeviceResult<void> check(const SpaceMouseSettings& settings);
 
-/// Integrates the speed. It is zero within the dead zone; beyond, it grows with the square of the
-/// deflection, for fine control.
+/// Part of the full speed, with the direction of the deflection: zero within the dead zone; beyond,
+/// it grows with the square of the deflection, for fine control.
+[[nodiscard]] glm::dvec3 rate_of(const glm::dvec3& deflection, double dead_zone) noexcept;
+
+/// Integrates the speed.
 class RateControl {
  public:
   explicit RateControl(const SpaceMouseSettings& settings) noexcept : settings_(settings) {}
