@@ -91,12 +91,13 @@ void GamepadHand::end(AppState& state) {
 
 /// Moves the tool beside the clay: it slides along the surface and never passes through a wall.
 void GamepadHand::lead(AppState& state, glm::dvec2 step_mm) const {
-  const ViewModel view = view_model(state);
-  const glm::dvec2 from = state.scene.pointed_mm().value_or(beside(state.stroke.view()));
-  const glm::dvec2 to = state.scene.free_at(view, from + step_mm);
-  const auto pixel = state.scene.pixel_of(to);
-  if (pixel && (state.scene.rect().holds(*pixel) || !state.scene.pointed_mm()))
-    state.scene.lead(to);
+  SceneView& scene = state.scene;
+  const bool in_view = scene.rect().holds(scene.pointer_px());
+  const auto pointed_mm = in_view ? scene.pointed_mm() : std::nullopt;
+  const glm::dvec2 from = pointed_mm.value_or(beside(state.stroke.view()));
+  const glm::dvec2 to = scene.free_at(view_model(state), from + step_mm);
+  const auto pixel = scene.pixel_of(to);
+  if (!pointed_mm || (pixel && scene.rect().holds(*pixel))) scene.lead(to);
 }
 
 /// Moves the target of the tool, but not further ahead of the tool than the leash.
