@@ -35,7 +35,7 @@ inline constexpr std::size_t kPadButtons = 15;
 }
 
 struct GamepadState {
-  glm::dvec2 left_stick{0.0}, right_stick{0.0};   ///< x to the right, y up, within +-1
+  glm::dvec2 left_stick{0.0}, right_stick{0.0};    ///< x to the right, y up, within +-1
   double left_trigger = 0.0, right_trigger = 0.0;  ///< 0 to 1
   unsigned buttons = 0;                            ///< bit_of each pressed button
   friend bool operator==(const GamepadState&, const GamepadState&) = default;

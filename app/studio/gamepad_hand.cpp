@@ -47,8 +47,7 @@ void GamepadHand::advance(AppState& state) {
   const double elapsed_s = std::clamp(now_s - last_s_, 0.0, kLongestFrameS);
   last_s_ = now_s;
   if (pressing_ && !state.stroke.throwing()) pressing_ = false;  // something else has ended it
-  const bool usable =
-      !name_.empty() && state.document.has_work() && state.ui.shows<NoDialog>();
+  const bool usable = !name_.empty() && state.document.has_work() && state.ui.shows<NoDialog>();
   if (!usable) return end(state);
   state.scene.turn(kStickRadPerS * elapsed_s * rate_of(pad_.right_stick));
   press(state);
@@ -79,8 +78,8 @@ void GamepadHand::begin(AppState& state) {
   const ToolMode mode = state.settings.tool.mode;
   pinching_ = pad_.left_trigger >= kPressFrom && !cuts_level(mode) && mode != ToolMode::trim_foot;
   Actions actions;
-  state.scene.shape_from(view_model(state), *place_mm,
-                         {.strength = strength(), .pinch = pinching_}, actions);
+  state.scene.shape_from(view_model(state), *place_mm, {.strength = strength(), .pinch = pinching_},
+                         actions);
   apply_all(state, actions);
   pressing_ = state.stroke.throwing() && !state.stroke.has_device();
 }

@@ -46,10 +46,10 @@ class GamepadHand {
 
   std::string name_;
   GamepadState pad_;
-  bool pressing_ = false;   // its own stroke is in progress
-  bool pinching_ = false;   // with both triggers
-  bool ready_ = true;       // the right trigger has been released since the last press
-  double last_s_ = 0.0;     // of the previous frame, on the host's clock
+  bool pressing_ = false;  // its own stroke is in progress
+  bool pinching_ = false;  // with both triggers
+  bool ready_ = true;      // the right trigger has been released since the last press
+  double last_s_ = 0.0;    // of the previous frame, on the host's clock
 };
 
 }  // namespace clay::studio

@@ -223,8 +223,8 @@ void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, const G
   const auto tool = chosen_tool(view);
   if (!tool || !view.document.has_work() || view.stroke.has_device() || view.stroke.paused())
     return;
-  ToolSpec spec = grip.pinch ? pinching(view.settings.tool)
-                             : tool_of(view.settings.tool, grip.inverted);
+  ToolSpec spec =
+      grip.pinch ? pinching(view.settings.tool) : tool_of(view.settings.tool, grip.inverted);
   glm::dvec2 start = pointed_mm;
   pinched_.reset();
   if (spec.mode != ToolMode::pinch)
@@ -232,8 +232,8 @@ void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, const G
   else if (!pinch_from(view, *tool, start, spec, actions))
     return;
   offset_mm_ = start - pointed_mm;
-  actions.emplace_back(PressClay{{spec, view.settings.wheel_rpm, on_wheel(start),
-                                  pinched_ ? pinched_->wall_mm : 0.0}});
+  actions.emplace_back(PressClay{
+      {spec, view.settings.wheel_rpm, on_wheel(start), pinched_ ? pinched_->wall_mm : 0.0}});
   strength_ = grip.strength;
   if (strength_) shape_to(view, pointed_mm, grip, actions);
 }
@@ -250,8 +250,7 @@ bool SceneView::pinch_from(const ViewModel& view, const Tool& tool, glm::dvec2& 
   }
   place_mm = pinch_place(*wall, place_mm);
   if (const double share = view.settings.tool.gap_share; share > 0.0)
-    spec.gap_mm =
-        std::max(kNarrowestGapMm, share * (wall->thickness_mm - 2.0 * kClearanceMm));
+    spec.gap_mm = std::max(kNarrowestGapMm, share * (wall->thickness_mm - 2.0 * kClearanceMm));
   pinched_ = {wall->thickness_mm, std::min(wall->thickness_mm, spec.gap_mm.value_or(0.0))};
   return true;
 }
@@ -351,8 +350,7 @@ std::optional<render::ToolView> SceneView::tool_view(const ViewModel& view) cons
 
 std::optional<render::ToolView> SceneView::hovering_tool(const ViewModel& view,
                                                          const Tool& tool) const {
-  if (!view.ui.shows<NoDialog>() || turning() || !rect_.holds(pointer_px()))
-    return std::nullopt;
+  if (!view.ui.shows<NoDialog>() || turning() || !rect_.holds(pointer_px())) return std::nullopt;
   const auto pointed = pointed_mm();
   if (!pointed) return std::nullopt;
   const render::PotView pot = shown_pot(view);

@@ -48,8 +48,7 @@ class SceneView {
   /// Call if the stroke could not begin.
   void stop_shaping() noexcept { drag_ = Drag::none; }
   /// A stroke from a point (rho, y) [mm] of the section plane, and on to others.
-  void shape_from(const ViewModel& view, glm::dvec2 pointed_mm, const Grip& grip,
-                  Actions& actions);
+  void shape_from(const ViewModel& view, glm::dvec2 pointed_mm, const Grip& grip, Actions& actions);
   void shape_to(const ViewModel& view, glm::dvec2 pointed_mm, const Grip& grip, Actions& actions);
   /// Where such a stroke leads the tool.
   [[nodiscard]] glm::dvec2 target_mm(glm::dvec2 pointed_mm) const noexcept;

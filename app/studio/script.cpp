@@ -247,11 +247,11 @@ void ScriptRunner::drive(const GamepadState& to, double seconds) {
   const int steps = std::max(1, static_cast<int>(std::ceil(seconds / kFrameS)));
   for (int i = 1; i <= steps; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(steps);
-    studio_.take(GamepadChanged{{glm::mix(from.left_stick, to.left_stick, part),
-                                 glm::mix(from.right_stick, to.right_stick, part),
-                                 glm::mix(from.left_trigger, to.left_trigger, part),
-                                 glm::mix(from.right_trigger, to.right_trigger, part),
-                                 to.buttons}});
+    studio_.take(
+        GamepadChanged{{glm::mix(from.left_stick, to.left_stick, part),
+                        glm::mix(from.right_stick, to.right_stick, part),
+                        glm::mix(from.left_trigger, to.left_trigger, part),
+                        glm::mix(from.right_trigger, to.right_trigger, part), to.buttons}});
     frames(1);
   }
 }
@@ -266,26 +266,16 @@ Result<void> ScriptRunner::screenshot(const std::string& path) {
 Result<void> ScriptRunner::act(const Words& words) {
   using Verb = Result<void> (ScriptRunner::*)(const Words&);
   static constexpr std::array<std::pair<std::string_view, Verb>, kForms.size()> kVerbs = {{
-      {"move", &ScriptRunner::point},
-      {"point", &ScriptRunner::point},
-      {"press", &ScriptRunner::button},
-      {"release", &ScriptRunner::button},
-      {"hold", &ScriptRunner::hold},
-      {"pressure", &ScriptRunner::pressure},
-      {"gamepad", &ScriptRunner::gamepad},
-      {"stick", &ScriptRunner::stick},
-      {"trigger", &ScriptRunner::trigger},
-      {"pad", &ScriptRunner::pad_button},
-      {"scroll", &ScriptRunner::scroll},
-      {"key", &ScriptRunner::key},
-      {"type", &ScriptRunner::type},
-      {"do", &ScriptRunner::run_command},
-      {"open", &ScriptRunner::open},
-      {"save", &ScriptRunner::save},
-      {"close", &ScriptRunner::close},
-      {"wait", &ScriptRunner::wait},
-      {"screenshot", &ScriptRunner::picture},
-      {"expect", &ScriptRunner::expect},
+      {"move", &ScriptRunner::point},         {"point", &ScriptRunner::point},
+      {"press", &ScriptRunner::button},       {"release", &ScriptRunner::button},
+      {"hold", &ScriptRunner::hold},          {"pressure", &ScriptRunner::pressure},
+      {"gamepad", &ScriptRunner::gamepad},    {"stick", &ScriptRunner::stick},
+      {"trigger", &ScriptRunner::trigger},    {"pad", &ScriptRunner::pad_button},
+      {"scroll", &ScriptRunner::scroll},      {"key", &ScriptRunner::key},
+      {"type", &ScriptRunner::type},          {"do", &ScriptRunner::run_command},
+      {"open", &ScriptRunner::open},          {"save", &ScriptRunner::save},
+      {"close", &ScriptRunner::close},        {"wait", &ScriptRunner::wait},
+      {"screenshot", &ScriptRunner::picture}, {"expect", &ScriptRunner::expect},
   }};
   const auto* verb = std::ranges::find(kVerbs, std::string_view(words.front()),
                                        &std::pair<std::string_view, Verb>::first);
@@ -321,8 +311,8 @@ Result<void> ScriptRunner::gamepad(const Words& words) {
 
 Result<void> ScriptRunner::stick(const Words& words) {
   GamepadState to = pad_;
-  (words[1] == "left" ? to.left_stick : to.right_stick) = {*number_of(words[2]),
-                                                           *number_of(words[3])};
+  glm::dvec2& moved = words[1] == "left" ? to.left_stick : to.right_stick;
+  moved = glm::dvec2(*number_of(words[2]), *number_of(words[3]));
   drive(to, over_s(words, 4));
   return {};
 }

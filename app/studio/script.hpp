@@ -66,7 +66,7 @@ class ScriptRunner {
   OffscreenHost& host_;
   Studio& studio_;
   glm::vec2 pointer_px_{0.0f};
-  unsigned mods_ = 0;  // modifier keys held during mouse events
+  unsigned mods_ = 0;               // modifier keys held during mouse events
   std::optional<double> pressure_;  // of a pen; none: a mouse
   GamepadState pad_;
 };

@@ -91,9 +91,8 @@ const std::array kFacts = {
          [](const AppState& s) { return s.gamepad.name().empty() ? "none" : s.gamepad.name(); }},
     Fact{"strength",
          [](const AppState& s) {
-           return s.stroke.throwing() && s.scene.strength()
-                      ? fmt::format("{}", *s.scene.strength())
-                      : std::string("none");
+           return s.stroke.throwing() && s.scene.strength() ? fmt::format("{}", *s.scene.strength())
+                                                            : std::string("none");
          }},
     Fact{"pull_mm", [](const AppState& s) { return fmt::format("{}", s.stroke.stretch_mm()); }},
     Fact{"gap_mm", [](const AppState& s) { return fmt::format("{}", s.stroke.status().gap_mm); }},

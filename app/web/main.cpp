@@ -101,8 +101,7 @@ EMSCRIPTEN_KEEPALIVE void claystack_resize(int width_px, int height_px, float sc
 }
 /// `strength`: of a pen, 0 to 1; negative: a mouse or a finger.
 EMSCRIPTEN_KEEPALIVE void claystack_pointer(float x_px, float y_px, double strength) {
-  take(studio::PointerMoved{{x_px, y_px},
-                            strength < 0.0 ? std::nullopt : std::optional(strength)});
+  take(studio::PointerMoved{{x_px, y_px}, strength < 0.0 ? std::nullopt : std::optional(strength)});
 }
 EMSCRIPTEN_KEEPALIVE void claystack_gamepad_plugged(const char* name) {
   take(studio::GamepadPlugged{name});

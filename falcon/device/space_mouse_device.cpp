@@ -89,8 +89,7 @@ class SpaceMouse final : public HapticDevice {
 std::unique_ptr<HapticDevice> make_space_mouse(std::string name, std::string place,
                                                const SpaceMouseSettings& settings,
                                                std::unique_ptr<ReportPort> port) {
-  return std::make_unique<SpaceMouse>(std::move(name), std::move(place), settings,
-                                      std::move(port));
+  return std::make_unique<SpaceMouse>(std::move(name), std::move(place), settings, std::move(port));
 }
 
 }  // namespace clay::falcon::inline device

@@ -113,10 +113,10 @@ TEST_F(Window, ArrowsWorkInMenusAndLettersDoNot) {
 }
 
 TEST_F(Window, LeftAndRightGoFromMenuToMenu) {
-  const Ran ran = run(
-      "key F10\nkey Right\nkey Right\nkey Left\nkey Right\nkey Up\nkey Enter\n"
-      "key F10\nkey Left\nkey Up\nkey Enter\nexpect overlay shortcuts\nkey Esc\n",
-      "--size 960x640 --log");
+  const Ran ran =
+      run("key F10\nkey Right\nkey Right\nkey Left\nkey Right\nkey Up\nkey Enter\n"
+          "key F10\nkey Left\nkey Up\nkey Enter\nexpect overlay shortcuts\nkey Esc\n",
+          "--size 960x640 --log");
   ASSERT_EQ(ran.status, 0) << ran.err;
   const auto tool = ran.out.find("action: tool.strength"), keys = ran.out.find("action: help.keys");
   EXPECT_NE(tool, std::string::npos) << "the last enabled row of the third menu\n" << ran.out;
