@@ -151,6 +151,10 @@ struct OpenMenu {
 struct SetToolMode {
   ToolMode mode = ToolMode::press;
 };
+/// The next tool that can be used, or the previous one.
+struct StepTool {
+  int by = 1;
+};
 struct SetToolShape {
   Shape shape = Shape::sphere;
 };
@@ -176,6 +180,7 @@ struct PressClay {
 };
 struct AimTool {
   MouseAim aim;
+  std::optional<double> gap_mm = std::nullopt;  ///< of a pinch
 };
 struct ReleaseTool {};
 
@@ -184,6 +189,9 @@ struct ReleaseTool {};
 enum class ViewFrom { home, front, right, top, lesson };
 struct LookFrom {
   ViewFrom from = ViewFrom::home;
+};
+struct Zoom {
+  double notches = 0.0;  ///< positive: nearer
 };
 struct ToggleCut {
   render::Cut cut = render::Cut::half;
@@ -239,9 +247,9 @@ using Action = std::variant<
     SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, ReplaceFiles, KeepFiles,
     CancelExport, ShowExportFolder, ChooseExportFolder, ChooseProcessFile, UseProcess, EditImport,
     TakeImport, ChooseTarget, UseTarget, UseSampleTarget, ClearTarget, SetGoal, ShowWarning,
-    CloseNotice, OpenMenu, SetToolMode, SetToolShape, ScaleTool, ChangeGap, SetStiffness,
+    CloseNotice, OpenMenu, SetToolMode, StepTool, SetToolShape, ScaleTool, ChangeGap, SetStiffness,
     DragToolSize, DragStiffness, TogglePause, Rearm, Back, PressClay, AimTool, ReleaseTool,
-    LookFrom, ToggleCut, TogglePanel, ToggleDiagnostics, FoldPanel, ToggleTheme, ScaleText,
+    LookFrom, Zoom, ToggleCut, TogglePanel, ToggleDiagnostics, FoldPanel, ToggleTheme, ScaleText,
     SetTheme, EditPicture, SetMaterial, ToggleThrowingLines, SetScale, SetUnit, SetWheelSpeed,
     SetTool, SetProcess, SetHints, SetFolder, SetHandSpeed, SetBite, SetWallMap, SetFullSection,
     ToggleWallMap, ToggleHints>;

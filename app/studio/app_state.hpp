@@ -6,6 +6,7 @@
 #include "app/studio/device_watch.hpp"
 #include "app/studio/fall_show.hpp"
 #include "app/studio/file_dialog.hpp"
+#include "app/studio/gamepad_hand.hpp"
 #include "app/studio/guide/guide.hpp"
 #include "app/studio/guide/play.hpp"
 #include "app/studio/host.hpp"
@@ -42,6 +43,7 @@ struct AppState {
   Guide guide;
   Play play;  ///< of the guide's strokes
   SceneView scene;
+  GamepadHand gamepad;
   UiState ui;
   FallShow fall;
   Exporter exporter;

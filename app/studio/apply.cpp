@@ -382,6 +382,18 @@ struct Performer {
 
   // --- Tool and wheel. ---------------------------------------------------------------------------
   void operator()(const SetToolMode& set) const { state.settings.tool.mode = set.mode; }
+  void operator()(const StepTool& step) const {
+    const ViewModel view = view_model(state);
+    std::vector<const Command*> tools;
+    std::size_t chosen = 0;
+    for (const Command& command : commands()) {
+      if (!std::holds_alternative<SetToolMode>(command.action) || !command.enabled(view)) continue;
+      if (command.checked(view)) chosen = tools.size();
+      tools.push_back(&command);
+    }
+    const std::size_t count = tools.size();
+    (*this)(RunCommand{tools[(chosen + count + static_cast<std::size_t>(step.by)) % count]->id});
+  }
   void operator()(const SetToolShape& set) const { state.settings.tool.shape = set.shape; }
   void operator()(const ScaleTool& scale) const { resize(state.settings.tool, scale.factor); }
   void operator()(const ChangeGap& change) const {
@@ -421,11 +433,15 @@ struct Performer {
     else
       state.scene.stop_shaping();
   }
-  void operator()(const AimTool& aim) const { state.stroke.aim(aim.aim); }
+  void operator()(const AimTool& aim) const {
+    state.stroke.aim(aim.aim);
+    if (aim.gap_mm) state.stroke.close_to(*aim.gap_mm);
+  }
   void operator()(const ReleaseTool&) const { state.stroke.release(); }
 
   // --- The view and the settings. ----------------------------------------------------------------
   void operator()(const LookFrom& look) const { show_from(look.from); }
+  void operator()(const Zoom& zoom) const { state.scene.zoom(zoom.notches); }
   void operator()(const ToggleCut& toggle) const {
     state.scene.cut = state.scene.cut == toggle.cut ? render::Cut::none : toggle.cut;
   }

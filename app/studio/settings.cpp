@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -103,6 +104,10 @@ void put_first(std::vector<std::string>& names, const std::string& name, std::si
 }
 
 }  // namespace
+
+double bite_at(double strength) noexcept {
+  return kSoftestBiteMm * std::pow(kFirmestBiteMm / kSoftestBiteMm, std::clamp(strength, 0.0, 1.0));
+}
 
 void remember(Settings& settings, const std::filesystem::path& path) {
   const std::string name = whole_name(path);

@@ -19,6 +19,8 @@ namespace clay::studio {
 inline constexpr double kSlowestHandMmPerS = 10.0, kFastestHandMmPerS = 200.0;
 /// How far the mouse digs the tool into the clay per turn of the wheel at most [mm].
 inline constexpr double kSoftestBiteMm = 0.5, kFirmestBiteMm = 20.0, kUsualBiteMm = 8.0;
+/// The bite of a press of this strength, 0 (soft) to 1 (firm).
+[[nodiscard]] double bite_at(double strength) noexcept;
 inline constexpr std::size_t kMostRecent = 8, kMostProcesses = 4;
 inline constexpr double kSlowestRpm = 20.0, kFastestRpm = 240.0;
 

@@ -76,14 +76,15 @@ Studio::~Studio() {
 }
 
 bool Studio::wakeful() const noexcept {
-  return moving() || fine_ != kFineness[0] || awake_frames_ > 0 || state_.readings.checking() ||
+  return !input_.empty() || moving() || fine_ != kFineness[0] || awake_frames_ > 0 || state_.readings.checking() ||
          state_.ui.thumbs_missing || state_.guide.busy() || state_.exporter.busy() ||
          state_.pictures.busy() || state_.file_dialog.open();
 }
 
 bool Studio::moving() const noexcept {
   return state_.stroke.throwing() || state_.guide.demonstration() != Demonstration::none ||
-         spin_ > 0.0 || state_.scene.turning() || state_.fall.running() ||
+         spin_ > 0.0 || state_.scene.turning() || state_.gamepad.moving() ||
+         state_.fall.running() ||
          (state_.document.scrubbing() && ImGui::IsMouseDown(ImGuiMouseButton_Left));
 }
 

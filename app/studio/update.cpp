@@ -324,6 +324,7 @@ void update(AppState& state) {
   update_thumbs(state);
   update_export(state);
   update_picture(state);
+  state.gamepad.advance(state);
   state.stroke.advance(now_ns);
   state.host.clock().sleep_until_ns(now_ns);  // in case no servo has advanced it
   update_strokes(state);

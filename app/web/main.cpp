@@ -3,6 +3,7 @@
 
 #include "app/studio/studio.hpp"
 #include "app/web/page_worker.hpp"
+#include "app/web/web_hid.hpp"
 #include "app/web/web_host.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -66,6 +67,7 @@ void begin(std::string_view theme) {
   studio::AppState& state = window->state();
   state.settings_file = studio::SettingsFile(studio::settings_path(), state.settings);
   state.document.keep_journals();
+  state.devices = std::make_unique<studio::DeviceWatch>(look_for_hid(host->clock()));
   state.recoverable = history::recoverable();
   if (!loaded.note.empty()) state.ui.notices.show(studio::Grade::warning, loaded.note);
   if (!state.recoverable.empty())
@@ -97,8 +99,18 @@ EMSCRIPTEN_KEEPALIVE void claystack_resize(int width_px, int height_px, float sc
   damaged = true;
   frames_wanted = kFramesAfterEvent;
 }
-EMSCRIPTEN_KEEPALIVE void claystack_pointer(float x_px, float y_px) {
-  take(studio::PointerMoved{{x_px, y_px}});
+/// `strength`: of a pen, 0 to 1; negative: a mouse or a finger.
+EMSCRIPTEN_KEEPALIVE void claystack_pointer(float x_px, float y_px, double strength) {
+  take(studio::PointerMoved{{x_px, y_px}, strength < 0.0 ? std::nullopt : std::optional(strength)});
+}
+EMSCRIPTEN_KEEPALIVE void claystack_gamepad_plugged(const char* name) {
+  take(studio::GamepadPlugged{name});
+}
+EMSCRIPTEN_KEEPALIVE void claystack_gamepad(double left_x, double left_y, double right_x,
+                                            double right_y, double left_trigger,
+                                            double right_trigger, unsigned buttons) {
+  take(studio::GamepadChanged{
+      {{left_x, left_y}, {right_x, right_y}, left_trigger, right_trigger, buttons}});
 }
 EMSCRIPTEN_KEEPALIVE void claystack_button(int button, bool down, unsigned mods) {
   take(studio::ButtonChanged{static_cast<studio::MouseButton>(button), down, mods});

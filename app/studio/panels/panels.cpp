@@ -4,6 +4,7 @@
 #include "app/studio/panels/widgets.hpp"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -44,11 +45,28 @@ bool is_open(const Settings& settings, const Panel& panel) {
   return remembered == settings.open.end() ? panel.open : remembered->second;
 }
 
-void draw_recent(const ViewModel& model, Actions& actions) {
-  if (!ImGui::BeginMenu("Recent", !model.settings.recent.empty())) return;
+/// Arrows that a menu within a menu needs.
+struct UsedArrows {
+  bool left = false, right = false;
+};
+
+UsedArrows draw_recent(const ViewModel& model, Actions& actions) {
+  const bool open = ImGui::BeginMenu("Recent", !model.settings.recent.empty());
+  if (!open) return {false, ImGui::IsItemFocused() && !model.settings.recent.empty()};
   for (const std::string& path : model.settings.recent)
     if (ImGui::MenuItem(path.c_str())) actions.emplace_back(OpenFile{path});
   ImGui::EndMenu();
+  return {true, true};
+}
+
+/// Left and Right go from an open menu to its neighbours.
+void walk_menus(std::size_t open, const UsedArrows& used, Actions& actions) {
+  const std::size_t count = menus().size();
+  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
+  const bool left = !used.left && pressed(ImGuiKey_LeftArrow);
+  if (!left && (used.right || !pressed(ImGuiKey_RightArrow))) return;
+  ImGui::NavMoveRequestCancel();  // otherwise ImGui closes the menu
+  actions.emplace_back(OpenMenu{(open + (left ? count - 1 : 1)) % count});
 }
 
 /// What is needed most, at the right end of the menu.
@@ -163,8 +181,10 @@ void draw_column(const ViewModel& model, Actions& actions, Column column, glm::v
 float draw_menu(const ViewModel& model, Actions& actions) {
   if (!ImGui::BeginMainMenuBar()) return 0.0f;
   if (model.ui.open_menu) ImGui::OpenPopup(menus()[*model.ui.open_menu].title);
-  for (const Menu& menu : menus()) {
+  for (std::size_t i = 0; i < menus().size(); ++i) {
+    const Menu& menu = menus()[i];
     if (!ImGui::BeginMenu(menu.title)) continue;
+    UsedArrows used;
     // Space between the title of a command and its keys.
     const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(2.5f * spacing.x, spacing.y));
@@ -176,10 +196,11 @@ float draw_menu(const ViewModel& model, Actions& actions) {
         actions.emplace_back(RunCommand{command.id});
       if (command.why_not != nullptr && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         if (const char* why_not = command.why_not(model)) ImGui::SetTooltip("%s", why_not);
-      if (command.id == "file.open") draw_recent(model, actions);
+      if (command.id == "file.open") used = draw_recent(model, actions);
     }
     ImGui::PopStyleVar();
     ImGui::EndMenu();
+    walk_menus(i, used, actions);
   }
   draw_main_buttons(model, actions);
   const float height = ImGui::GetWindowSize().y;

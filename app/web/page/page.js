@@ -50,7 +50,8 @@ function mods(event) {
 function point(event) {
   const box = canvas.getBoundingClientRect();
   studio._claystack_pointer((event.clientX - box.left) * canvas.width / box.width,
-                            (event.clientY - box.top) * canvas.height / box.height);
+                            (event.clientY - box.top) * canvas.height / box.height,
+                            event.pointerType === 'pen' ? event.pressure : -1);
 }
 
 const kButtons = [0, 2, 1];  // left, middle, right: those of the program
@@ -193,6 +194,7 @@ const page = {
       ask();
     }));
   },
+  sendReport(number, data) { mouse3d?.sendReport(number, data).catch(() => {}); },
   post(slot, question) { worker(slot).postMessage({question}, [question.buffer]); },
   stop(slot) {
     workers[slot]?.terminate();
@@ -344,6 +346,8 @@ async function start() {
   say('');
   listenToPointer();
   listenToKeys();
+  listenToGamepads();
+  listenToHid();
   new ResizeObserver(resize).observe(canvas);
   window.addEventListener('resize', resize);
   resize();
