@@ -123,6 +123,11 @@ bool diagnostics_open(const Settings& settings) {
   return remembered != settings.open.end() && remembered->second;
 }
 
+bool below_open(const Settings& settings) {
+  const auto remembered = settings.open.find(kBelow);
+  return remembered != settings.open.end() && remembered->second;
+}
+
 bool in_diagnostics(std::string_view id) {
   const auto* panel = std::ranges::find(kPanels, id, &Panel::id);
   return panel != kPanels.end() && panel->column == Column::diagnostics;
