@@ -67,8 +67,8 @@ export async function openPage(browser, folder, url, size, before = null) {
     {timeout: 120000}, id, pattern.source).catch(async () =>
       assert.match(await page.$eval('#' + id, element => element.textContent), pattern));
   await page.setViewport(size);
-  if ((await browser.version()).startsWith('Chrom') || (await browser.version()).startsWith('Headless')) {
-    const downloads = await browser.target().createCDPSession();
+  if (!(await page.browser().version()).startsWith('firefox')) {
+    const downloads = await page.browser().target().createCDPSession();
     await downloads.send('Browser.setDownloadBehavior', {behavior: 'allow', downloadPath: folder});
   }
   await page.goto(url);
