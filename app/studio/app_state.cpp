@@ -19,7 +19,8 @@ ViewModel view_model(AppState& state) {
           .export_running = state.exporter.running(),
           .export_stage = state.exporter.stage(),
           .now_s = state.now_s(),
-          .real_time = state.host.real_time()};
+          .real_time = state.host.real_time(),
+          .fingers = state.host.fingers()};
 }
 
 bool ViewModel::has_marks() const {

@@ -92,7 +92,8 @@ void set_sizes(float scale, bool fingers) {
   if (fingers) {
     style.FramePadding = {10.0f, 12.0f};
     style.ItemSpacing = {9.0f, 14.0f};
-    style.ScrollbarSize = style.GrabMinSize = 26.0f;
+    style.ScrollbarSize = 14.0f;
+    style.GrabMinSize = 26.0f;
   }
   style.ScaleAllSizes(scale);
 }
