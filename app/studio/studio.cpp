@@ -22,7 +22,7 @@ namespace {
 
 constexpr float kColumnEm = 16.0f, kNarrowestViewEm = 20.0f;
 constexpr float kBelowPart = 0.42f;  // of the height: the context below the view of a narrow window
-constexpr double kSpinUpS = 0.6;  // time of the wheel between rest and full speed
+constexpr double kSpinUpS = 0.6;     // time of the wheel between rest and full speed
 constexpr double kLongestFrameS = 0.1;
 constexpr double kSettledS = 0.15;  // after this time without a change, the view is at rest
 

@@ -28,7 +28,8 @@ void tell_pot(Report& report, const studio::AppState& state) {
   report.row("Largest diameter", length_text(2.0 * state.readings.widest_mm(), unit));
   report.row("Clay mass", studio::mass_text(state.readings.account().in_stack_g));
   if (!state.readings.fallen())
-    report.row("Capacity to the brim", studio::capacity_text(state.readings.account().capacity_mm3));
+    report.row("Capacity to the brim",
+               studio::capacity_text(state.readings.account().capacity_mm3));
 }
 
 void tell_check(Report& report, const studio::PotCheck& check, studio::LengthUnit unit) {
@@ -70,12 +71,12 @@ std::optional<std::string> summary_of(const studio::AppState& state) {
       state.guide.demonstration() != studio::Demonstration::none || !check)
     return std::nullopt;
   const studio::LengthUnit unit = state.settings.unit;
-  return fmt::format("{}: {} high, {} wide, {}. {}", state.document.name(),
-                     length_text(state.stroke.view().height_mm, unit),
-                     length_text(2.0 * state.readings.widest_mm(), unit),
-                     studio::mass_text(state.readings.account().in_stack_g),
-                     state.readings.fallen() ? "Fallen: undo removes the last stroke"
-                                             : ready_text(*check, unit));
+  return fmt::format(
+      "{}: {} high, {} wide, {}. {}", state.document.name(),
+      length_text(state.stroke.view().height_mm, unit),
+      length_text(2.0 * state.readings.widest_mm(), unit),
+      studio::mass_text(state.readings.account().in_stack_g),
+      state.readings.fallen() ? "Fallen: undo removes the last stroke" : ready_text(*check, unit));
 }
 
 std::string report_of(const studio::AppState& state) {

@@ -17,8 +17,8 @@ template <class Exact>
   return CGAL::to_double(x);
 }
 
-/// The exact numbers of builds without GMP, which a page is. CGAL would divide two doubles, which may
-/// both be infinite. Requires a result in the range of normal doubles.
+/// The exact numbers of builds without GMP, which a page is. CGAL would divide two doubles, which
+/// may both be infinite. Requires a result in the range of normal doubles.
 [[nodiscard]] inline double double_of(const CGAL::Quotient<boost::multiprecision::cpp_int>& x) {
   using Whole = boost::multiprecision::cpp_int;
   if (x.numerator() == 0) return 0.0;

@@ -30,8 +30,8 @@ inline constexpr const char* kBelow = "below";
 void draw_column(const ViewModel& model, Actions& actions, Column column, glm::vec2 corner_px,
                  glm::vec2 size_px);
 
-/// The strip of tools and views at the left edge. `panels`: with a button that shows the context below
-/// the view.
+/// The strip of tools and views at the left edge. `panels`: with a button that shows the context
+/// below the view.
 [[nodiscard]] float strip_width();
 void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, glm::vec2 size_px,
                 bool panels = false);
