@@ -329,7 +329,6 @@ async function phone(browser) {
   await picture(page, 'phone');
   const strokes = async () => (await page.announced()).filter(line => line === 'stroke started').length;
   const before = await page.screenshot();
-  await fingers('touchStart', [180, 300]);
   await fingers('touchStart', [180, 300], [260, 300]);
   for (let i = 1; i <= 20; ++i) {
     await fingers('touchMove', [180 - 2 * i, 300 + i], [260 + 2 * i, 300 + i]);
