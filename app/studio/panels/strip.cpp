@@ -120,7 +120,7 @@ bool icon_button(const char* label, void (*draw_icon)(const Pen&), bool enabled,
   const bool pressed = ImGui::Button("##icon", {width, kButtonEm * em});
   ImGui::PopStyleColor();
   ImGui::PopID();
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip.c_str());
+  if (ImGui::IsItemHovered() && !model.fingers) ImGui::SetTooltip("%s", tip.c_str());
   const ImU32 ink =
       ImGui::GetColorU32(enabled ? ImGui::GetStyleColorVec4(ImGuiCol_Text)
                                  : ImVec4(colours.faint.x, colours.faint.y, colours.faint.z, 0.5f));
