@@ -34,6 +34,7 @@ struct ViewModel {
   float picture_progress = 0.0f;  ///< the part of it that is done
   double now_s = 0.0;             ///< on the host's clock
   bool real_time = false;         ///< false in scripts: no figure may depend on the machine
+  bool fingers = false;           ///< as Host::fingers
 
   [[nodiscard]] const Palette& colours() const { return palette(settings.theme); }
   [[nodiscard]] bool at_rest() const { return document.has_work() && !stroke.throwing(); }

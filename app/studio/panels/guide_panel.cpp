@@ -61,17 +61,18 @@ void draw_present_step(const ViewModel& model, Actions& actions) {
   draw_progress(guide.progress(), colours);
   if (guide.demonstration() != Demonstration::none) {
     if (ImGui::Button("Stop")) actions.emplace_back(StopShowing{});
-    ImGui::SameLine();
-    ImGui::TextColored(colours.faint, "Watch, or press on the clay to take over.");
+    constexpr const char* kWatch = "Watch, or press on the clay to take over.";
+    same_line_if_room(kWatch);
+    faint_text(colours, kWatch);
     return;
   }
   if (ImGui::Button("Show me")) actions.emplace_back(ShowStep{});
-  ImGui::SameLine();
+  same_line_if_room("Next step");
   if (ImGui::Button("Next step")) actions.emplace_back(NextStep{});
-  ImGui::SameLine();
+  same_line_if_room("End the guide");
   if (ImGui::Button("End the guide")) actions.emplace_back(EndLesson{});
   if (plan == nullptr) return;
-  ImGui::SameLine();
+  same_line_if_room(name_of_tool(plan->mode));
   ImGui::TextColored(colours.faint, "%s", name_of_tool(plan->mode));
 }
 
@@ -81,9 +82,9 @@ void draw_finish(const ViewModel& model, Actions& actions) {
   ImGui::PopFont();
   ImGui::TextWrapped("Export it for printing, or go on shaping it as you like.");
   if (main_button("Export...", model.colours())) actions.emplace_back(RunCommand{"file.export"});
-  ImGui::SameLine();
+  same_line_if_room("Throw it yourself");
   if (ImGui::Button("Throw it yourself")) actions.emplace_back(YourTurn{});
-  ImGui::SameLine();
+  same_line_if_room("End the guide");
   if (ImGui::Button("End the guide")) actions.emplace_back(EndLesson{});
 }
 

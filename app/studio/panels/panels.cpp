@@ -141,6 +141,11 @@ bool diagnostics_open(const Settings& settings) {
   return remembered != settings.open.end() && remembered->second;
 }
 
+bool below_open(const Settings& settings) {
+  const auto remembered = settings.open.find(kBelow);
+  return remembered != settings.open.end() && remembered->second;
+}
+
 bool in_diagnostics(std::string_view id) {
   const auto* panel = std::ranges::find(kPanels, id, &Panel::id);
   return panel != kPanels.end() && panel->column == Column::diagnostics;
@@ -268,8 +273,10 @@ void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect) {
       model.guide.active())
     return;
   const char* text =
-      "Hold the left button on the clay and drag to shape it.  Middle or right button turns the "
-      "view, the wheel zooms.  Press ? for all keys.";
+      model.fingers ? "Drag a finger on the clay to shape it. Two fingers turn the view and zoom."
+                    : "Hold the left button on the clay and drag to shape it.  Middle or right "
+                      "button turns the "
+                      "view, the wheel zooms.  Press ? for all keys.";
   const float pad = ImGui::GetFontSize();
   const float width = std::min(rect.size_px.x - 2.0f * pad, 36.0f * pad);
   ImGui::SetNextWindowPos(

@@ -17,6 +17,9 @@ enum class Column { context, diagnostics };
 /// Key of the drawer in Settings::open.
 inline constexpr const char* kDiagnostics = "diagnostics";
 [[nodiscard]] bool diagnostics_open(const Settings& settings);
+/// Key in Settings::open: whether a window without room beside the view has the context below it.
+inline constexpr const char* kBelow = "below";
+[[nodiscard]] bool below_open(const Settings& settings);
 [[nodiscard]] bool in_diagnostics(std::string_view id);
 /// Whether the panel is unfolded and in sight; false for an unknown id.
 [[nodiscard]] bool panel_open(const Settings& settings, std::string_view id);
@@ -27,9 +30,11 @@ inline constexpr const char* kDiagnostics = "diagnostics";
 void draw_column(const ViewModel& model, Actions& actions, Column column, glm::vec2 corner_px,
                  glm::vec2 size_px);
 
-/// The strip of tools and views at the left edge.
+/// The strip of tools and views at the left edge. `panels`: with a button that shows the context
+/// below the view.
 [[nodiscard]] float strip_width();
-void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, glm::vec2 size_px);
+void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, glm::vec2 size_px,
+                bool panels = false);
 
 /// Returns its height [px].
 float draw_menu(const ViewModel& model, Actions& actions);

@@ -41,6 +41,13 @@ bool main_button(const char* text, const Palette& colours) {
   return clicked;
 }
 
+void same_line_if_room(const char* text) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  const float width = ImGui::CalcTextSize(text).x + 2.0f * style.FramePadding.x;
+  if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= right) ImGui::SameLine();
+}
+
 void dialog_title(const ViewModel& model, const char* text) {
   ImGui::PushFont(model.ui.fonts.title);
   ImGui::TextUnformatted(text);

@@ -21,6 +21,8 @@ void slider_label(const char* label, const std::string& value);
 
 /// A labelled slider for a length in mm, shown in `unit`. Returns true if it has moved.
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit);
+/// The next button or text, with this text, stands beside the last item if the window has room.
+void same_line_if_room(const char* text);
 
 /// The default button of a dialog.
 bool main_button(const char* text, const Palette& colours);
