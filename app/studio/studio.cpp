@@ -77,9 +77,9 @@ Studio::~Studio() {
 }
 
 bool Studio::wakeful() const noexcept {
-  return !input_.empty() || moving() || fine_ != kFineness[0] || awake_frames_ > 0 || state_.readings.checking() ||
-         state_.ui.thumbs_missing || state_.guide.busy() || state_.exporter.busy() ||
-         state_.pictures.busy() || state_.file_dialog.open();
+  return !input_.empty() || moving() || fine_ != kFineness[0] || awake_frames_ > 0 ||
+         state_.readings.checking() || state_.ui.thumbs_missing || state_.guide.busy() ||
+         state_.exporter.busy() || state_.pictures.busy() || state_.file_dialog.open();
 }
 
 bool Studio::moving() const noexcept {

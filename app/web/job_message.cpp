@@ -102,8 +102,8 @@ auto members(Like<studio::PotCheck> auto& of) {
                   seconds);
 }
 auto members(Like<studio::ExportChoices> auto& of) {
-  auto& [meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm, smoothing, smooth_length_mm,
-         process, min_wall_mm, shrinkage_percent] = of;
+  auto& [meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm, smoothing,
+         smooth_length_mm, process, min_wall_mm, shrinkage_percent] = of;
   return std::tie(meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm,
                   smoothing, smooth_length_mm, process, min_wall_mm, shrinkage_percent);
 }

@@ -3,8 +3,8 @@
 
 #include "app/studio/studio.hpp"
 #include "app/web/page_worker.hpp"
-#include "app/web/web_hid.hpp"
 #include "app/web/pot_text.hpp"
+#include "app/web/web_hid.hpp"
 #include "app/web/web_host.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"

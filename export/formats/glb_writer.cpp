@@ -200,8 +200,8 @@ Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& con
     return failure(ErrorKind::bad_input, "cannot write .glb: expected a clay or a glaze, found '" +
                                              one_line(contents.material) + "'");
   return packed(in_metres(mesh), contents).and_then([&](Packed packed) -> Result<std::string> {
-    const std::string json =
-        document(packed, *material, contents).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+    const std::string json = document(packed, *material, contents)
+                                 .dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
     std::string file(kGlbHeaderBytes, '\0');
     append_chunk(file, kJsonChunk, json, ' ');
     append_chunk(file, kBinaryChunk, std::move(packed.bytes), '\0');

@@ -58,8 +58,8 @@ class RevolveFiles {
   const ExportOptions& options_;
   Stages& stages_;
   std::optional<TriangleMesh> mesh_;
-  std::optional<PointWalls> walls_;    ///< once needed
-  std::optional<Result<void>> exact_;  ///< verdict on the mesh in float32, once needed
+  std::optional<PointWalls> walls_;              ///< once needed
+  std::optional<Result<void>> exact_;            ///< verdict on the mesh in float32, once needed
   std::optional<Result<void>> exact_in_metres_;  ///< the same, as a GLB rounds it
 };
 

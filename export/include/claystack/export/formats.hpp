@@ -107,9 +107,9 @@ struct FileContents {
   /// PLY has them as numbers. GLB and 3MF have them as colours, from 0 to this thickness [mm].
   double wall_top_mm = 10.0;
   DracoSettings draco = {};
-  GlbMesh glb = GlbMesh::draco;  ///< without Draco in this build, `draco` is `core`
+  GlbMesh glb = GlbMesh::draco;              ///< without Draco in this build, `draco` is `core`
   std::string_view material = "terracotta";  ///< id of a clay or glaze, as for `--material` (GLB)
-  bool one_body = false;         ///< the mesh has one shell; spares the search for several (3MF)
+  bool one_body = false;  ///< the mesh has one shell; spares the search for several (3MF)
   /// Metadata of the 3MF model, as `claystack:KEY`.
   std::vector<std::pair<std::string, std::string>> notes = {};
   std::string_view pot = {};            ///< a pot file, CBOR (3MF)
@@ -135,10 +135,10 @@ ModelPart encode_3mf_model(const TriangleMesh& mesh, const FileContents& content
 Result<std::string> pack_3mf(const ModelPart& model, const FileContents& contents);
 
 /// glTF 2.0 in one binary file: metres, y up, a clay or a glaze (KHR_materials_clearcoat), `notes`
-/// in the asset's extras. The mesh is compressed by Draco (KHR_draco_mesh_compression) or by meshoptimizer
-/// (EXT_meshopt_compression; points of 16 bits, or float32 where these are too few), on the
-/// coarsest grid that keeps `draco.max_error_mm` with all roundings, and the accessors state the
-/// counts and bounds of the decoded mesh. `core`: float32 points and uint32 indices. With
+/// in the asset's extras. The mesh is compressed by Draco (KHR_draco_mesh_compression) or by
+/// meshoptimizer (EXT_meshopt_compression; points of 16 bits, or float32 where these are too few),
+/// on the coarsest grid that keeps `draco.max_error_mm` with all roundings, and the accessors state
+/// the counts and bounds of the decoded mesh. `core`: float32 points and uint32 indices. With
 /// `wall_mm`, vertices have the wall map as COLOR_0, in linear light. Errors as for `encode_drc`;
 /// meshoptimizer also needs a triangle at every point. `bad_input` for an unknown material.
 Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& contents);
