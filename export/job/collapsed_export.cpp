@@ -4,6 +4,7 @@
 #include "claystack/export/solid.hpp"
 #include "claystack/export/walls.hpp"
 #include "core/content_hash.hpp"
+#include "export/formats/glb.hpp"
 #include "export/formats/draco_bits.hpp"
 #include "export/formats/stored_file.hpp"
 #include "export/job/left_out.hpp"
