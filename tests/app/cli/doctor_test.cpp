@@ -80,7 +80,7 @@ TEST(Manual, CompletesInBash) {
         .out;
   };
   EXPECT_EQ(complete("claystack exp"), "export\n");
-  EXPECT_EQ(complete("claystack export a --smo"), "--smooth\n");
+  EXPECT_EQ(complete("claystack export a --smo"), "--smooth --smooth-length\n");
   EXPECT_EQ(complete("claystack export a --smooth \"\""), "fair exact none\n");
 }
 

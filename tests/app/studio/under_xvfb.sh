@@ -42,7 +42,7 @@ until_line "action: wheel.zero_force" 2
 xdotool mousemove --window "$window" 640 300 sleep 0.3
 xdotool key --window "$window" F10
 until_line "action: help.menu"
-for key in Up Up Up Return; do
+for key in Up Up Up Up Up Return; do
   xdotool key --window "$window" "$key" sleep 0.1
 done
 until_line "action: file.export" 3

@@ -102,7 +102,7 @@ TEST_F(Window, KeysOpenDialogsAndEscClosesThem) {
 
 TEST_F(Window, ArrowsWorkInMenusAndLettersDoNot) {
   const Ran ran =
-      run("key F10\nkey H\nkey Up\nkey Up\nkey Up\nkey Enter\nexpect overlay export\n"
+      run("key F10\nkey H\nkey Up\nkey Up\nkey Up\nkey Up\nkey Up\nkey Enter\nexpect overlay export\n"
           "key Esc\nexpect overlay none\nkey F10\nkey Esc\nkey H\n",
           "--size 960x640 --log");
   ASSERT_EQ(ran.status, 0) << ran.err;
@@ -143,7 +143,7 @@ TEST_F(Window, KeysAloneMakeAPotAndItsFile) {
                    "expect overlay gallery\nkey Down\nkey Enter\nexpect overlay none\nwait 150\n"
                    "expect step finished\nexpect ready yes\nsave " +
                        folder.file("keys.work") +
-                       "\nkey F10\nkey Right\nkey Left\nkey Up\nkey Up\nkey Up\nkey Enter\n"
+                       "\nkey F10\nkey Right\nkey Left\nkey Up\nkey Up\nkey Up\nkey Up\nkey Up\nkey Enter\n"
                        "expect overlay export\nwait 0.2\nkey Ctrl+Enter\nwait 0.2\n"
                        "expect exported 1\n");
   const Ran ran = claystack("studio --script " + folder.file("s") + " --size 960x640");
