@@ -237,8 +237,9 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   if (!file) return tl::make_unexpected(file.error());
   const std::string& bytes = file->bytes();
   bool slicer_reads_less = false;
-  auto mesh = file->read({"checking", solid::check_memory(1)},
-                         {command.repair, &verdict.notes, .slicer_reads_less = &slicer_reads_less});
+  auto mesh = file->read(
+      {"checking", solid::check_memory(1)},
+      {.repair = command.repair, .notes = &verdict.notes, .slicer_reads_less = &slicer_reads_less});
   if (!mesh && mesh.error().kind == ErrorKind::bad_input && verdict.certificate) {
     // The file no longer matches its certificate.
     verify(bytes, format, command, verdict);

@@ -72,6 +72,10 @@ std::vector<Corners> changed_triangles(const TriangleMesh& mesh, const std::vect
       same = sorted_corners(other, like->triangle) == corners;
     if (!same) changed.push_back(corners);
   }
+  // Neighbours in space one after another: the search for the nearest begins at the last one.
+  std::sort(changed.begin(), changed.end(), [](const Corners& a, const Corners& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), before_point);
+  });
   return changed;
 }
 

@@ -208,6 +208,7 @@ void plant_faults(TriangleMesh& mesh) {
 void repair_and_decimate(std::size_t triangles) {
   TriangleMesh mesh = vase(triangles);
   plant_faults(mesh);
+  for (glm::dvec3& p : mesh.points) p = glm::dvec3(glm::vec3(p));  // as files hold
   std::printf("%zu triangles with a hole, a duplicate and a cube through the wall\n",
               mesh.triangles.size());
   TriangleMesh result;
