@@ -74,9 +74,13 @@ if(CLAYSTACK_EXPORT)
     set(draco draco)
     set(draco_flag -DCLAYSTACK_DRACO=1)
   endif()
+  set(meshopt "")
+  if(CLAYSTACK_MESHOPT)
+    set(meshopt -lmeshoptimizer)
+  endif()
   claystack_pkg_config(export DESCRIPTION "certified solids and mesh checks"
     REQUIRES claystack-engine REQUIRES_PRIVATE "openmesh gmp mpfr ${draco}" CFLAGS "${draco_flag}"
-    LIBS -lclaystack_export LIBS_PRIVATE "-lclaystack_core_json -lzip -lxml2 -lcairo -pthread")
+    LIBS -lclaystack_export LIBS_PRIVATE "-lclaystack_core_json -lzip -lxml2 -lcairo ${meshopt} -pthread")
 endif()
 if(CLAYSTACK_FALCON)
   claystack_pkg_config(falcon DESCRIPTION "haptic devices and the force guard" REQUIRES glm

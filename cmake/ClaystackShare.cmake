@@ -49,7 +49,7 @@ endif()
 
 install(DIRECTORY samples/ DESTINATION ${claystack_data}/samples COMPONENT program
   FILES_MATCHING
-  PATTERN "*.json" PATTERN "*.session" PATTERN "*.work" PATTERN "*.svg" PATTERN "*.dxf"
+  PATTERN "*.json" PATTERN "*.jsonl" PATTERN "*.session" PATTERN "*.work" PATTERN "*.svg" PATTERN "*.dxf"
   PATTERN "*.csv" PATTERN "*.script" PATTERN "sha256sums"
   PATTERN "consumer" EXCLUDE PATTERN "replay" EXCLUDE)
 install(DIRECTORY samples/consumer/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libclaystack-dev/examples COMPONENT dev)

@@ -60,7 +60,7 @@ run(${WORK}/engine-consumer/press_once)
 execute_process(COMMAND ldd ${WORK}/engine-consumer/press_once
   OUTPUT_VARIABLE libraries COMMAND_ERROR_IS_FATAL ANY)
 message(STATUS "libraries of the engine alone:\n${libraries}")
-if(libraries MATCHES "CGAL|gmp|mpfr|usb|hidapi|ftdi|libGL|libEGL|OpenMesh|draco")
+if(libraries MATCHES "CGAL|gmp|mpfr|usb|hidapi|ftdi|libGL|libEGL|OpenMesh|draco|meshoptimizer")
   message(FATAL_ERROR "the engine links libraries that it does not need")
 endif()
 if(NOT libraries MATCHES "libstdc")

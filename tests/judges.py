@@ -1,7 +1,12 @@
 #!/usr/bin/env python3
-"""judges.py CLAYSTACK SCENE [FOLDER]: exports a pot in every format that other programs read, and
-compares the volume that they find with the STL's. Programs that are not installed are named and
-passed over. Exit status 1 if a program finds another volume or refuses a file."""
+"""judges.py [--installed] CLAYSTACK SCENE [FOLDER]: exports a pot in every format that other programs
+read, and compares the volume that they find with the STL's; and 3MF packages that must be refused
+or accepted. Exit status 1 if a program finds another volume or refuses a file, or if a judge is
+missing. With --installed, as in the tests, missing judges are named and passed over.
+
+Judges by apt: prusa-slicer openscad assimp-utils python3-savitar lib3mf-dev occt-draw gmsh f3d
+chromium; by npm, in the folder that NODE_MODULES names: gltf-validator @gltf-transform/cli gltfpack
+three playwright-core."""
 import json
 import os
 import pathlib
@@ -12,12 +17,33 @@ import subprocess
 import sys
 import tempfile
 
-if len(sys.argv) < 3:
+arguments = [word for word in sys.argv[1:] if word != "--installed"]
+if len(arguments) < 2:
     sys.exit(__doc__)
-CLAYSTACK, SCENE = sys.argv[1], sys.argv[2]
-FOLDER = pathlib.Path(sys.argv[3] if len(sys.argv) > 3 else tempfile.mkdtemp())
+CLAYSTACK, SCENE = arguments[:2]
+FOLDER = pathlib.Path(arguments[2] if len(arguments) > 2 else tempfile.mkdtemp())
 FOLDER.mkdir(parents=True, exist_ok=True)
+JUDGES = pathlib.Path(__file__).resolve().parent / "judges"
+NODE_MODULES = pathlib.Path(os.environ.get("NODE_MODULES", "node_modules"))
+sys.path.insert(0, str(JUDGES))
+import packages_3mf  # noqa: E402
 failed = []
+
+
+def present(judge, there):
+    """Whether to ask this judge; one that is missing is a failure without --installed."""
+    if not there:
+        optional = "--installed" in sys.argv
+        print(f"{'    ' if optional else 'FAIL'} {judge} is not installed")
+        if not optional:
+            failed.append((judge, "not installed"))
+    return there
+
+
+def ruled(good, text, judge, file):
+    print(f"{'ok  ' if good else 'FAIL'} {judge}: {text}")
+    if not good:
+        failed.append((judge, file))
 
 
 def run(*words, timeout=200, environment={}):
@@ -142,18 +168,87 @@ def refuses_broken_step(file):
 
 
 def by_gltf_validator(file):
-    """The Khronos validator, from npm, where GLTF_VALIDATOR names its folder."""
-    folder = os.environ.get("GLTF_VALIDATOR")
-    if not folder:
-        return print("     gltf-validator: set GLTF_VALIDATOR to node_modules/gltf-validator")
+    """The Khronos validator. It does not decode Draco."""
     script = ("const v = require(process.argv[1]), fs = require('fs');"
               "v.validateBytes(new Uint8Array(fs.readFileSync(process.argv[2])))"
               ".then(r => console.log(JSON.stringify(r.issues)))")
-    code, out = run("node", "-e", script, folder, file)
-    errors = json.loads(out)["numErrors"] if code == 0 else out
-    print(f"{'ok  ' if errors == 0 else 'FAIL'} gltf-validator: {file.name}: {errors} errors")
-    if errors != 0:
-        failed.append(("gltf-validator", file))
+    code, out = run("node", "-e", script, NODE_MODULES / "gltf-validator", file)
+    issues = json.loads(out) if code == 0 else {"numErrors": out, "numWarnings": 0}
+    ruled(issues["numErrors"] == 0 and issues["numWarnings"] == 0,
+          f"{file.name}: {issues['numErrors']} errors, {issues['numWarnings']} warnings",
+          "gltf-validator", file)
+
+
+def by_gltf_transform(file, expected):
+    """Decodes the file and writes it again, uncompressed and in one piece; we count its volume."""
+    plain, stl = FOLDER / "transformed.glb", FOLDER / "transformed.stl"
+    for path in (plain, stl):
+        path.unlink(missing_ok=True)
+    tool = NODE_MODULES / ".bin" / "gltf-transform"
+    code, out = run(tool, "dequantize", file, plain)
+    good = code == 0 and run(CLAYSTACK, "check", "-q", plain, "--repair", "-o", stl)[0] == 0
+    verdict("gltf-transform", file, volume_in_stl(stl) if good else None, expected)
+
+
+def by_three(files, expected):
+    """three.js in a browser without a screen: the volume that it draws, and a picture."""
+    script = JUDGES / "three.mjs"
+    code, out = run("node", script, NODE_MODULES.resolve(), FOLDER / "three.png", *files,
+                    environment={"CHROMIUM": shutil.which("chromium") or ""})
+    if code != 0:
+        return ruled(False, out.strip()[-400:], "three.js", files[0])
+    for file, found in zip(files, json.loads(out)):
+        verdict("three.js", file, found["volume"], expected)
+        wall_map = "map" in file.name
+        ruled(found["colours"] == wall_map,
+              f"{file.name}: {'colours' if found['colours'] else 'no colours'}", "three.js", file)
+
+
+def by_f3d(file):
+    picture = FOLDER / "f3d.png"
+    picture.unlink(missing_ok=True)
+    run("xvfb-run", "-a", "f3d", file, "--output", picture, "--resolution", "300,300")
+    ruled(picture.exists() and picture.stat().st_size > 3000, f"{file.name}: a picture", "f3d", file)
+
+
+def against_gltfpack(core, ours, tolerance_mm):
+    """The size by gltfpack, with the fewest bits for the tolerance: half a step along each axis."""
+    bounds = json_in_glb(core)["accessors"][0]
+    side_mm = 1000.0 * max(h - l for l, h in zip(bounds["min"], bounds["max"]))
+    bits = next(b for b in range(1, 17)
+                if 3.0 ** 0.5 / 2.0 * side_mm / (2 ** b - 1) <= tolerance_mm)
+    packed = FOLDER / "gltfpack.glb"
+    code, out = run(NODE_MODULES / ".bin" / "gltfpack", "-i", core, "-o", packed, "-cc", "-vp", bits)
+    if code != 0:
+        return ruled(False, out, "gltfpack", core)
+    size, peer = ours.stat().st_size, packed.stat().st_size
+    ruled(size <= 1.1 * peer, f"{ours.name}: {size} bytes, by gltfpack with {bits} bits {peer}",
+          "gltfpack", ours)
+
+
+def json_in_glb(file):
+    data = file.read_bytes()
+    return json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
+
+
+def by_lib3mf(file, expected):
+    code, out = run("/usr/bin/python3", JUDGES / "lib3mf_volume.py", file)
+    verdict("lib3mf, strict", file, float(out) if code == 0 else None, expected)
+
+
+def rule_packages():
+    """Packages that must be refused, and that must be accepted."""
+    file = FOLDER / "case.3mf"
+    cases = [(what, data, 2) for what, data in packages_3mf.must_fail().items()]
+    cases += [(what, data, 0) for what, data in packages_3mf.must_pass().items()]
+    wrong = 0
+    for what, data, status in cases:
+        file.write_bytes(data)
+        code, out = run(CLAYSTACK, "check", file, timeout=20)
+        if code != status:
+            wrong += 1
+            ruled(False, f"{what}: expected status {status}, found {code}: {out}", "check", file)
+    ruled(wrong == 0, f"{len(cases)} packages of 3MF, {wrong} decided wrongly", "check", file)
 
 
 def kept_by_prusa_slicer(file, pot):
@@ -175,9 +270,7 @@ def kept_by_prusa_slicer(file, pot):
 
 def judge_step(pot):
     """Both kinds of walls, against the volume that the export states, which is the counted clay."""
-    occt = any(pathlib.Path("/usr/bin").glob("occt-draw-*"))
-    if not occt:
-        print("     occt-draw is not installed")
+    occt = present("occt-draw", any(pathlib.Path("/usr/bin").glob("occt-draw-*")))
     for walls in ("spline", "lines"):
         file = FOLDER / f"{walls}.step"
         code, out = run(CLAYSTACK, "export", "--json", "--step", walls, pot, file)
@@ -189,37 +282,72 @@ def judge_step(pot):
             by_prusa_slicer_step(file, stated["volume_mm3"])
         if occt:
             by_occt(file, stated["volume_mm3"])
-        if walls == "lines" and shutil.which("gmsh"):
+        if walls == "lines" and present("gmsh", shutil.which("gmsh")):
             by_gmsh(file, stated["volume_mm3"])
     if occt:
         refuses_broken_step(FOLDER / "lines.step")
 
 
+def judge_glb(stl, glb, tolerance_mm, expected):
+    """`glb`: files by the name of their compression."""
+    if present("gltf-validator", (NODE_MODULES / "gltf-validator").is_dir()):
+        for file in glb.values():
+            by_gltf_validator(file)
+    if present("gltf-transform", (NODE_MODULES / ".bin/gltf-transform").exists()):
+        for file in glb.values():
+            by_gltf_transform(file, expected)
+    if present("three, playwright-core and chromium", shutil.which("chromium") and all(
+            (NODE_MODULES / name).is_dir() for name in ("three", "playwright-core"))):
+        by_three(list(glb.values()), expected)
+    if present("gltfpack", (NODE_MODULES / ".bin/gltfpack").exists()):
+        against_gltfpack(glb["core"], glb["meshopt"], tolerance_mm)
+    if present("f3d and xvfb-run", shutil.which("f3d") and shutil.which("xvfb-run")):
+        by_f3d(glb["core"])  # Debian's build reads neither Draco nor meshopt
+    if present("assimp", shutil.which("assimp")):
+        by_assimp(glb["core"], expected, scale=1e9)  # metres
+    for name, file in glb.items():
+        print(f"     GLB, {name}: {file.stat().st_size} bytes, "
+              f"{100.0 * file.stat().st_size / stl.stat().st_size:.2f} % of the STL")
+
+
 def main():
+    tolerance_mm = 0.02
     pot, stl = FOLDER / "pot.pot.json", FOLDER / "pot.stl"
-    files = {ending: FOLDER / f"pot{ending}" for ending in (".ply", ".3mf", ".glb")}
+    files = {ending: FOLDER / f"pot{ending}" for ending in (".ply", ".3mf")}
     code, out = run(CLAYSTACK, "throw", "-q", SCENE, "-o", pot)
     assert code == 0, out
-    code, out = run(CLAYSTACK, "export", "--json", pot, stl, *files.values())
+    code, out = run(CLAYSTACK, "export", "--json", pot, stl, *files.values(), "--tolerance",
+                    tolerance_mm)
     assert code == 0, out
+    glb = {}
+    for mesh in ("core", "draco", "meshopt"):
+        for kind, words in ((mesh, []), (mesh + "-map", ["--wall-map"])):
+            glb[kind] = FOLDER / f"{kind}.glb"
+            code, done = run(CLAYSTACK, "export", "-q", pot, glb[kind], "--glb", mesh, "--tolerance",
+                             tolerance_mm, *words)
+            assert code == 0, done
+    coloured = FOLDER / "map.3mf"
+    code, done = run(CLAYSTACK, "export", "-q", pot, coloured, "--wall-map")
+    assert code == 0, done
     expected = volume_in_stl(stl)
     print(f"     STL: {expected} mm3, {json.loads(out)['triangles']} triangles")
-    judges = [("prusa-slicer", lambda: (by_prusa_slicer(files[".3mf"], expected),
-                                        kept_by_prusa_slicer(files[".3mf"], pot))),
-              ("openscad", lambda: by_openscad(files[".3mf"], expected)),
-              ("assimp", lambda: [by_assimp(files[".3mf"], expected),
-                                  by_assimp(files[".ply"], expected)])]
-    for program, judge in judges:
-        if shutil.which(program):
-            judge()
-        else:
-            print(f"     {program} is not installed")
-    judge_step(pot)
-    by_gltf_validator(files[".glb"])
-    if run("/usr/bin/python3", "-c", "import Savitar")[0] == 0:
+    if present("prusa-slicer", shutil.which("prusa-slicer")):
+        by_prusa_slicer(files[".3mf"], expected)
+        by_prusa_slicer(coloured, expected)
+        kept_by_prusa_slicer(files[".3mf"], pot)
+    if present("openscad", shutil.which("openscad")):
+        by_openscad(files[".3mf"], expected)
+    if present("assimp", shutil.which("assimp")):
+        by_assimp(files[".3mf"], expected)
+        by_assimp(files[".ply"], expected)
+    if present("lib3mf", run("/usr/bin/python3", "-c", "import ctypes; ctypes.CDLL('lib3MF.so.1')")[0] == 0):
+        by_lib3mf(files[".3mf"], expected)
+        by_lib3mf(coloured, expected)
+    if present("python3-savitar", run("/usr/bin/python3", "-c", "import Savitar")[0] == 0):
         by_libsavitar(files[".3mf"], expected)
-    else:
-        print("     python3-savitar is not installed")
+    rule_packages()
+    judge_step(pot)
+    judge_glb(stl, glb, tolerance_mm, expected)
     sys.exit(1 if failed else 0)
 
 

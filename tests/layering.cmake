@@ -109,13 +109,13 @@ function(forbid folders pattern why)
   endforeach()
 endfunction()
 
-set(solids "(CGAL|OpenMesh|draco|gmp|mpfr)")
+set(solids "(CGAL|OpenMesh|draco|meshoptimizer|gmp|mpfr)")
 set(devices "(libusb|hidapi|ftdi|libftdi)")
 set(windows "(GLFW|imgui|epoxy|EGL|GL/)")
 forbid("core;engine;falcon" ${solids} "only export may use solid libraries")
 forbid("core;engine;export;falcon/safety;falcon/sim" ${devices} "only falcon/device may use device libraries")
 forbid("core;engine;export;falcon;app/cli;app/servo;app/history" ${windows} "only app/render and app/studio may draw")
 forbid("core/include;engine/include;export/include;falcon/include;app/servo/include"
-  "(CGAL|OpenMesh|draco|nlohmann|libusb|hidapi|ftdi|fmt|CLI)"
+  "(CGAL|OpenMesh|draco|meshoptimizer|nlohmann|libusb|hidapi|ftdi|fmt|CLI)"
   "a public header may not include a library")
 forbid("engine/clay;engine/tool;engine/tick;engine/collapse;engine/wheel" "nlohmann" "only engine/files may use JSON")

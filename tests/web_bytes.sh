@@ -37,11 +37,9 @@ for sample in bowl vase bottle cylinder collapse; do
   compare $sample.pot.json
   run throw $sample.scene.json -o $sample.pot.cbor
   compare $sample.pot.cbor
-  if [ $sample = collapse ]; then
-    # The exact union of its parts needs GMP: docs/web.md.
-    (cd "$folder/web" && node "$top/tests/web/claystack.mjs" "$module" export $sample.pot.json \
-      $sample.stl >out.txt 2>&1) && differ=1
-    grep -q "fallen pot" "$folder/web/out.txt" || differ=1
+  if [ $sample = collapse ]; then  # no section: meshes only
+    run export $sample.pot.json $sample.stl $sample.obj $sample.drc
+    for ending in stl obj drc; do compare $sample.$ending; done
     continue
   fi
   run export $sample.pot.json $sample.stl $sample.obj $sample.drc $sample.3mf $sample.glb $sample.ply \

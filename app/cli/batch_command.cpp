@@ -1,6 +1,7 @@
 #include "app/cli/batch_pool.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/json_output.hpp"
+#include "app/cli/output_files.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "core/json/object_reader.hpp"
@@ -188,13 +189,14 @@ Json result_json(const BatchJob& job, const BatchOutcome& outcome) {
   return json;
 }
 
-Result<int> batch(const BatchOptions& options, const Console& console) {
+Result<int> batch(BatchOptions options, const Console& console) {
+  if (options.results == "-") options.results.clear();
   auto jobs = read_jobs(options.jobs).and_then([&](std::vector<BatchJob> all) {
     return part_of(std::move(all), options.part);
   });
   if (!jobs) return tl::make_unexpected(jobs.error());
-  if (auto distinct = check_distinct({options.results}, {options.jobs}); !distinct)
-    return tl::make_unexpected(distinct.error());
+  if (auto free = check_outputs({{options.results}}, {options.jobs}, console); !free)
+    return tl::make_unexpected(free.error());
   auto results = ResultFile::open(options.results);
   if (!results) return tl::make_unexpected(results.error());
   const std::size_t asked = jobs->size();
@@ -252,9 +254,10 @@ void add_batch_command(CLI::App& app, Console& console, int& exit) {
   command->add_option("--part", options->part,
                       "Run only the jobs K, K+N, K+2N, ...: K/N, for one task of a job array");
   command->footer(
-      "\nExamples:\n  claystack batch jobs.jsonl -o results.jsonl\n"
-      "  claystack batch jobs.jsonl -j 4 --time-limit 60\n"
-      "  claystack batch jobs.jsonl --part 3/10 -o results-3.jsonl\n\n"
+      "\nExamples:\n"
+      "  claystack batch samples/jobs.jsonl -o results.jsonl\n"
+      "  claystack batch samples/jobs.jsonl -j 4 --time-limit 60\n"
+      "  claystack batch samples/jobs.jsonl --part 1/2 -o results-1.jsonl\n\n"
       "Exit status: 0 every job ended with 0; 1 one did not; 2 a line of the file is "
       "wrong, and no job ran.");
   command->callback([options, &console, &exit] {

@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/json_output.hpp"
+#include "app/cli/output_files.hpp"
 
 #include "app/bench/registered_sections.hpp"
 #include "app/bench/report/report.hpp"
@@ -104,6 +105,11 @@ Result<int> run_bench(BenchOptions options, Console console) {
   if (options.report == "-" && console.json)
     return failure(ErrorKind::bad_input, "-: expected at most one output on standard output");
   if (options.report == "-") console.quiet = true;
+  if (auto free = check_outputs({{options.report, {".html"}}}, {}, console); !free)
+    return tl::make_unexpected(free.error());
+  for (const std::string& folder : {options.csv, options.svg})
+    if (auto free = check_output_folder(folder, console); !free)
+      return tl::make_unexpected(free.error());
   for (const std::string& folder : {options.csv, options.svg})
     if (auto opened = open_folder(folder); !opened) return tl::make_unexpected(opened.error());
   std::optional<AtomicFile> page;

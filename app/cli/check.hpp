@@ -92,7 +92,8 @@ struct Verdict {
 /// A verdict of one problem, for input that was not examined.
 Verdict not_examined(MeshState state, std::string what, std::string where);
 
-Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command);
+Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command,
+                          const Console& console);
 /// `input`: the file, if it has been read. Writes `command.out` if set. An error of kind `io`, in
 /// advance, for a mesh that needs more memory than available.
 Result<Verdict> check_mesh_file(solid::MeshFormat format, const CheckCommand& command,

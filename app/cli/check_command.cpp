@@ -1,5 +1,6 @@
 #include "app/cli/check.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/output_files.hpp"
 #include "core/text.hpp"
 
 #include "claystack/core/atomic_file.hpp"
@@ -41,7 +42,8 @@ Result<void> check_usage(const CheckCommand& command, const Console& console) {
     return failure(ErrorKind::bad_input,
                    "--certificate: expected no --repair or --max-triangles, because it verifies "
                    "the unchanged file");
-  return check_distinct({command.out}, {command.file, command.certificate});
+  return check_outputs({{command.dry_run ? std::string() : command.out}},
+                       {command.file, command.certificate, command.walls.process()}, console);
 }
 
 /// Standard input has no name: the ending that its first bytes suggest.
@@ -59,7 +61,7 @@ Result<Verdict> check_stream(const CheckCommand& command, const Console& console
   auto bytes = read_file(command.file);
   if (!bytes) return tl::make_unexpected(bytes.error());
   const std::string_view ending = ending_of(*bytes);
-  if (ending == ".json") return check_pot(*bytes, command);
+  if (ending == ".json") return check_pot(*bytes, command, console);
   const auto format = solid::mesh_format_of(std::string("stream").append(ending));
   if (!format) return tl::make_unexpected(format.error());
   return check_mesh_file(*format, command, console, std::move(*bytes));
@@ -70,7 +72,7 @@ Result<Verdict> check_file(const CheckCommand& command, const Console& console) 
   if (command.file == "-") return check_stream(command, console);
   if (is_pot(command.file))
     return read_file(command.file).and_then([&](const std::string& bytes) {
-      return check_pot(bytes, command);
+      return check_pot(bytes, command, console);
     });
   const auto format = solid::mesh_format_of(command.file);
   if (!format) {
@@ -177,12 +179,15 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
   add_repair_options(sub, command);
   add_output_options(sub, command);
   sub->footer(
-      "\nExamples:\n  claystack check bowl.stl --certificate bowl.stl.certificate.json\n"
-      "  claystack check bowl.pot.json --min-wall 3 "
-      "--json\n  claystack check found.stl --accept prints\n  claystack check found.stl --repair "
-      "--dry-run\n"
-      "  claystack check found.stl --repair -o repaired.stl\n"
-      "  claystack check scan.obj --repair --max-triangles 100000 -o small.stl --min-wall 2");
+      "\nExamples:\n"
+      "  claystack throw samples/bowl.scene.json -o bowl.pot.json\n"
+      "  claystack check bowl.pot.json --min-wall 3 --json\n"
+      "  claystack export bowl.pot.json bowl.stl bowl.obj --certificate\n"
+      "  claystack check bowl.stl --certificate bowl.stl.certificate.json\n"
+      "  claystack check bowl.stl --accept prints\n"
+      "  claystack check bowl.stl --repair --dry-run\n"
+      "  claystack check bowl.stl --repair -o repaired.stl\n"
+      "  claystack check bowl.obj --repair --max-triangles 10000 -o small.stl --min-wall 2");
   sub->callback([command, &console, &exit] { exit = check(*command, console); });
 }
 

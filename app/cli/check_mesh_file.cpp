@@ -268,6 +268,7 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   if (const auto limit = command.walls.demand().for_size(size_sum_mm(*mesh)))
     if (auto done = measure_wall(*mesh, *limit, command, console, verdict); !done)
       return tl::make_unexpected(done.error());
+  if (verdict.certificate) progress.stage("verifying the certificate");
   if (verdict.certificate) verify(bytes, format, command, verdict);
   return verdict;
 }

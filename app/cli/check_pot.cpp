@@ -67,7 +67,8 @@ Verdict verdict_on(const solid::ExportReport& report) {
 
 }  // namespace
 
-Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
+Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command,
+                          const Console& console) {
   if (command.changes_mesh())
     return failure(
         ErrorKind::bad_input,
@@ -75,6 +76,8 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
   if (!command.certificate.empty())
     return failure(ErrorKind::bad_input,
                    command.file + ": expected a mesh for --certificate, found a pot");
+  Progress progress(console, "check", 0);
+  progress.stage("reading");
   const auto pot = parse_pot(bytes, command.file);
   if (!pot) return tl::make_unexpected(pot.error());
   if (pot->collapse)
@@ -85,8 +88,10 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command) {
   solid::ExportOptions options;
   options.walls = command.walls.demand();
   options.allow_pieces = true;
-  const auto report = solid::run_export(*pot, {}, options);
+  const auto report =
+      solid::run_export(*pot, {}, options, [&](std::string_view stage) { progress.stage(stage); });
   if (!report) return not_examined(MeshState::will_not_print, "no solid", report.error().message);
+  progress.stage("checking");
   Verdict verdict = verdict_on(*report);
   if (pot->rounding)
     verdict.notes.push_back(fmt::format("radii rounded to {} mm", pot->rounding->to_mm));

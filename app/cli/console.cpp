@@ -68,6 +68,18 @@ int out_of_memory() noexcept {
   std::abort();
 }
 
+constexpr std::string_view kEraseLine = "\r\033[K";
+/// Whether the terminal shows a status line, which has to go before anything else is printed.
+bool line_shown = false;
+
+void write_err(std::string_view text) noexcept {
+  (void)std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+void erase_line() noexcept {
+  if (std::exchange(line_shown, false)) write_err(kEraseLine);
+}
+
 int unexpected(const char* what) noexcept {
   put_err("claystack: unexpected failure: ");
   put_err(what);
@@ -78,13 +90,15 @@ int unexpected(const char* what) noexcept {
 }  // namespace
 
 void put_out(std::string_view text) noexcept {
+  erase_line();
   (void)std::fwrite(text.data(), 1, text.size(), stdout);
 }
 
 bool flush_out() noexcept { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
 
 void put_err(std::string_view text) noexcept {
-  (void)std::fwrite(text.data(), 1, text.size(), stderr);
+  erase_line();
+  write_err(text);
 }
 
 void Console::print(std::string_view line) const {
@@ -96,28 +110,6 @@ void Console::detail(std::string_view line) const {
 }
 
 void Console::warn(std::string_view line) const { put_err(fmt::format("claystack: {}\n", line)); }
-
-Result<void> check_distinct(const std::vector<std::string>& outputs,
-                            const std::vector<std::string>& inputs) {
-  std::vector<std::filesystem::path> seen;
-  const auto place = [](const std::string& name) {
-    std::error_code ignored;
-    return std::filesystem::weakly_canonical(name, ignored);
-  };
-  const auto named = [](const std::string& name) { return !name.empty() && name != "-"; };
-  for (const std::string& input : inputs)
-    if (named(input)) seen.push_back(place(input));
-  for (const std::string& output : outputs) {
-    if (!named(output)) continue;
-    if (std::find(seen.begin(), seen.end(), place(output)) != seen.end())
-      return failure(
-          ErrorKind::bad_input,
-          output +
-              ": expected a separate output file, found another output or an input of that name");
-    seen.push_back(place(output));
-  }
-  return {};
-}
 
 std::function<std::string(const std::string&)> in_range(double low, double high) {
   return [=](const std::string& text) -> std::string {
@@ -211,13 +203,12 @@ bool StatusLine::due() {
 
 void StatusLine::show(std::string_view text) {
   if (!enabled_) return;
-  put_err(fmt::format("\r\033[K{}", text));
-  drawn_ = true;
+  write_err(fmt::format("{}{}", kEraseLine, text));
+  line_shown = true;
 }
 
 void StatusLine::clear() {
-  if (drawn_) put_err("\r\033[K");
-  drawn_ = false;
+  if (enabled_) erase_line();
 }
 
 Progress::Progress(const Console& console, std::string label, std::size_t total)

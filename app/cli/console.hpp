@@ -8,7 +8,6 @@
 #include <functional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace CLI {
 class App;
@@ -29,19 +28,15 @@ bool flush_out() noexcept;
 void put_err(std::string_view text) noexcept;
 
 struct Console {
-  bool json = false;     ///< data as JSON on stdout
-  bool quiet = false;    ///< no progress, no summary: errors and requested data only
-  bool verbose = false;  ///< also details for engineers
+  bool json = false;          ///< data as JSON on stdout
+  bool quiet = false;         ///< no progress, no summary: errors and requested data only
+  bool verbose = false;       ///< also details for engineers
+  bool no_overwrite = false;  ///< refuse outputs that exist
 
   void print(std::string_view line) const;   ///< to stdout, for people; silent with json or quiet
   void detail(std::string_view line) const;  ///< as `print`, if verbose
   void warn(std::string_view line) const;    ///< to stderr
 };
-
-/// Refuses, before any work, output files that are equal to each other or to an input. Ignores "-"
-/// and empty names.
-Result<void> check_distinct(const std::vector<std::string>& outputs,
-                            const std::vector<std::string>& inputs);
 
 /// For CLI options: accepts a finite number within the range; errors show the bounds in short form.
 [[nodiscard]] std::function<std::string(const std::string&)> in_range(double low, double high);
@@ -61,7 +56,8 @@ int report(const CLI::App& app, const CLI::ParseError& error);
 /// signal.
 int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexcept;
 
-/// One line on stderr that is overwritten; only on a terminal.
+/// One line on stderr that is overwritten, and goes when anything else is printed; only on a
+/// terminal.
 class StatusLine {
  public:
   explicit StatusLine(const Console& console);
@@ -75,11 +71,11 @@ class StatusLine {
  private:
   using Clock = std::chrono::steady_clock;
   bool enabled_;
-  bool drawn_ = false;
   Clock::time_point next_;
 };
 
-/// A progress bar on stderr; only on a terminal and for longer work.
+/// A progress bar on stderr; only on a terminal and for longer work. Everything that may take more
+/// than 2 s has one, or a stage.
 class Progress {
  public:
   Progress(const Console& console, std::string label, std::size_t total);

@@ -191,6 +191,8 @@ void add_doctor_command(CLI::App& app, Console& console, int& exit) {
       "\nExamples:\n  claystack doctor\n  claystack doctor --json\n\n"
       "Exit status: 0 nothing is missing; 1 something is.");
   command->callback([&console, &exit] {
+    Progress progress(console, "doctor", 0);
+    progress.stage("examining this machine");
     const std::vector<Finding> findings = examine();
     if (console.json) print_json(json_of(findings));
     print(findings, console);

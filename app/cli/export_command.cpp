@@ -1,27 +1,32 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/export_report.hpp"
 #include "app/cli/finish_options.hpp"
-#include "app/cli/html_report.hpp"
 #include "app/cli/memory_room.hpp"
+#include "app/cli/output_files.hpp"
 #include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
+#include "app/cli/report_file.hpp"
 #include "app/cli/wall_options.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/export/job.hpp"
+#include "core/material.hpp"
 #include "core/number_text.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace clay::cli {
@@ -38,7 +43,7 @@ struct ExportCommand {
   solid::ExportRequest request;
   std::string smooth = "fair";
   std::string verify = "margins";
-  std::optional<std::string> step, glb;
+  std::optional<std::string> step, glb, material;
   solid::Goal goal;
   bool fill_line = false;  ///< asked for
 
@@ -55,6 +60,16 @@ solid::Smoothing smoothing_of(std::string_view name) {
   for (const auto mode : {solid::Smoothing::fair, solid::Smoothing::exact})
     if (solid::name_of(mode) == name) return mode;
   return solid::Smoothing::none;
+}
+
+constexpr std::array kGlbMeshes{std::pair{"draco", solid::GlbMesh::draco},
+                                std::pair{"meshopt", solid::GlbMesh::meshopt},
+                                std::pair{"core", solid::GlbMesh::core}};
+
+solid::GlbMesh glb_mesh_of(std::string_view name) {
+  return std::ranges::find(kGlbMeshes, name,
+                           [](const auto& mesh) { return std::string_view(mesh.first); })
+      ->second;
 }
 
 /// "12%": a part, 0.12. Errors state what was expected.
@@ -93,12 +108,24 @@ Result<double> quantity_of(const std::string& text, const std::vector<Unit>& uni
                  fmt::format("expected a number above 0 in {}, found {}", names, text));
 }
 
-Result<void> check_names(const ExportCommand& command) {
-  std::vector<std::string> outputs = command.outputs;
-  outputs.push_back(command.request.report_path);
+/// "9mm", "9", "0"; "tool": empty.
+Result<std::optional<double>> smooth_length_of(const std::string& text) {
+  if (text == "tool") return std::optional<double>();
+  if (text == "0" || text == "0mm") return std::optional<double>(0.0);
+  return quantity_of(text, {{"mm", 1.0}, {"cm", 10.0}})
+      .map([](double mm) { return std::optional<double>(mm); })
+      .map_error([](const Error& error) {
+        return Error{error.kind, error.message + "; or tool"};
+      });
+}
+
+Result<void> check_names(const ExportCommand& command, const Console& console) {
+  std::vector<OutputFile> outputs;
+  for (const std::string& path : command.outputs) outputs.push_back({path});
+  outputs.push_back({command.request.report_path, {".html", ".json"}});
   if (command.request.certificates)
-    for (const std::string& path : command.outputs) outputs.push_back(path + ".certificate.json");
-  return check_distinct(outputs, {command.pot});
+    for (const std::string& path : command.outputs) outputs.push_back({path + ".certificate.json"});
+  return check_outputs(outputs, {command.pot, command.walls.process()}, console);
 }
 
 /// Refuses options that have no effect on any of the requested files.
@@ -136,6 +163,15 @@ Result<void> check_options(const ExportCommand& command) {
       .and_then([&] { return need(command.step.has_value(), "--step", "a .step", step); })
       .and_then(
           [&] { return need(command.glb.has_value(), "--glb", "a .glb", format(MeshFormat::glb)); })
+      .and_then([&] {
+        return need(command.request.options.wall_map, "--wall-map", "a .glb or a .3mf",
+                    [&](const FileRequest& file) {
+                      return format(MeshFormat::glb)(file) || format(MeshFormat::three_mf)(file);
+                    });
+      })
+      .and_then([&] {
+        return need(command.material.has_value(), "--material", "a .glb", format(MeshFormat::glb));
+      })
       .and_then(
           [&] { return need(command.ascii, "--ascii", "an .stl", format(MeshFormat::stl_ascii)); })
       .and_then([&] {
@@ -158,18 +194,19 @@ Result<FileRequest> file_of(const std::string& path, bool ascii) {
 }
 
 /// The request without the pot.
-Result<void> complete_request(ExportCommand& command) {
+Result<void> complete_request(ExportCommand& command, const Console& console) {
   if (auto loaded = command.walls.load(); !loaded) return loaded;
-  if (auto names = check_names(command); !names) return names;
   for (const std::string& path : command.outputs) {
     auto file = file_of(path, command.ascii);
     if (!file) return tl::make_unexpected(file.error());
     command.request.files.push_back(std::move(*file));
   }
+  if (auto names = check_names(command, console); !names) return names;
   solid::ExportOptions& options = command.request.options;
   options.smoothing = smoothing_of(command.smooth);
   if (command.step == "lines") options.step_walls = solid::StepWalls::lines;
-  if (command.glb == "core") options.glb = solid::GlbMesh::core;
+  if (command.glb) options.glb = glb_mesh_of(*command.glb);
+  options.material = command.material.value_or(options.material);
   options.full_verification = command.verify == "full";
   options.finish.glaze_mm = command.glaze_mm * solid::enlargement(options.shrinkage);
   options.walls = command.walls.demand();
@@ -211,30 +248,40 @@ Result<Pot> pot_at_goal(const Pot& pot, ExportCommand& command, const Console& c
       });
 }
 
+/// `--smooth-length tool` needs a pot that remembers its tool.
+Result<void> check_tool_length(const Pot& pot, const ExportCommand& command) {
+  if (command.request.options.smooth_length_mm) return {};
+  const auto refuse = [](const std::string& why) {
+    return failure(ErrorKind::bad_input, "--smooth-length tool: expected " + why);
+  };
+  if (command.smooth != "fair") return refuse("--smooth fair, found " + command.smooth);
+  if (pot.collapse) return refuse("a standing pot, found a collapsed one");
+  if (solid::tool_length_mm(pot) == 0.0)
+    return refuse("a pot that remembers its tool, found none in it; give the length in mm");
+  return {};
+}
+
 /// The exit status: done, or unsound if a wall is below the requested minimum.
 Result<int> export_pot(ExportCommand& command, const Console& console) {
+  Progress progress(console, "exporting", 0);
+  progress.stage("reading");
   const auto given = read_pot(command.pot);
   if (!given) return tl::make_unexpected(given.error());
-  if (auto complete = complete_request(command); !complete)
+  if (auto complete = complete_request(command, console); !complete)
     return tl::make_unexpected(complete.error());
+  if (auto length = check_tool_length(*given, command); !length)
+    return tl::make_unexpected(length.error());
+  progress.stage("scaling and copying");
   const auto pot = pot_at_goal(*given, command, console);
   if (!pot) return tl::make_unexpected(pot.error());
   const auto copies = add_copies(*pot, command);
   if (!copies) return tl::make_unexpected(copies.error());
+  progress.stage("drawing");
   std::optional<std::string> thumbnail;
   pack_pot(*pot, command.request, thumbnail);
-  const bool page = command.request.report_path.ends_with(".html");
-  const std::string picture = page ? picture_of(*pot) : std::string();
-  if (page) command.request.options.wall_spacing_mm = solid::kWallTableSpacingMm;
-  command.request.report_text = [&](const solid::ExportReport& report) {
-    const Json json = export_json(report, *copies);
-    return page ? html_report(json, report, command.request.options, picture) : pretty(json);
-  };
-  const auto report = [&] {
-    Progress progress(console, "exporting", 0);
-    return solid::export_files(*pot, command.request,
-                               [&](std::string_view stage) { progress.stage(stage); });
-  }();
+  set_report(*pot, command.request, *copies);
+  const auto report = solid::export_files(*pot, command.request,
+                                          [&](std::string_view stage) { progress.stage(stage); });
   if (!report) return tl::make_unexpected(report.error());
   if (console.json) print_json(export_json(*report, *copies));
   print_export(console, *report, *copies);
@@ -330,6 +377,19 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
                   "steps of the rings remain")
       ->check(CLI::IsMember({"fair", "exact", "none"}))
       ->capture_default_str();
+  sub->add_option_function<std::string>(
+         "--smooth-length",
+         [=](const std::string& text) {
+           if (const auto length = smooth_length_of(text))
+             command->request.options.smooth_length_mm = *length;
+         },
+         "With --smooth fair: continuous curvature; what is shorter along the height than this is "
+         "smoothed away, such as 9mm; tool: the radius of the pot's tool; 0: straight from ring to "
+         "ring (default: 0)")
+      ->check([](const std::string& text) {
+        const auto length = smooth_length_of(text);
+        return length ? std::string() : length.error().message;
+      });
   add_finish_options(*sub, command->request.options, command->glaze_mm);
   sub->add_option("--segments", command->request.options.segments,
                   "Facets around the axis (default: chosen from the tolerance)")
@@ -372,9 +432,14 @@ void add_file_options(CLI::App* sub, const SharedCommand& command) {
       ->check(CLI::IsMember({"spline", "lines"}));
   sub->add_option(
          "--glb", command->glb,
-         "Mesh in a .glb: draco: compressed, within the tolerance; core: plain, for readers "
-         "without Draco (default: draco)")
-      ->check(CLI::IsMember({"draco", "core"}));
+         "Mesh in a .glb: draco: compressed, within the tolerance; meshopt: compressed, larger, "
+         "unpacked faster; core: plain, for readers without either (default: draco)")
+      ->check(CLI::IsMember({"draco", "meshopt", "core"}));
+  sub->add_flag("--wall-map", command->request.options.wall_map,
+                "Colour a .glb and a .3mf by the wall thickness, as the window does");
+  sub->add_option("--material", command->material,
+                  "Clay or glaze of a .glb, as for render (default: terracotta)")
+      ->check(CLI::IsMember(material_ids()));
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");
   sub->add_flag("--normals", command->request.options.normals,
                 "Write .obj with normals, for shading");
@@ -400,7 +465,9 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   add_goal_options(sub, command);
   add_file_options(sub, command);
   sub->footer(
-      "\nExamples:\n  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"
+      "\nExamples:\n"
+      "  claystack throw samples/bowl.scene.json -o bowl.pot.json\n"
+      "  claystack export bowl.pot.json bowl.stl bowl.obj bowl.drc bowl.svg\n"
       "  claystack export bowl.pot.json bowl.step --process stoneware\n"
       "  claystack export bowl.pot.json bowl.3mf --holds 350ml --fired --shrinkage 12%\n"
       "  claystack export bowl.pot.json bowl.pdf bowl.dxf --shrinkage 12%\n"

@@ -125,8 +125,23 @@ void print_collapse(const Console& console, const solid::CollapsedSolid& collaps
                              collapsed.voids, cm3(collapsed.voids_mm3)));
 }
 
+/// What fairing moved, and where the walls made its length shorter.
+void print_fairing(const Console& console, const solid::FairingReport& fairing) {
+  if (fairing.length_mm == 0.0) return;
+  console.detail(
+      fmt::format("faired over {:g} mm: walls moved by at most {:.3f} mm, at a height of {:.1f} mm",
+                  fairing.length_mm, fairing.moved_mm, fairing.moved_at_mm));
+  if (fairing.shortened.empty()) return;
+  const solid::ShortenedFairing& first = fairing.shortened.front();
+  console.detail(fmt::format(
+      "fairing shortened for walls: {} stretch(es), the first from {:.2f} to {:.2f} mm ({:.3g} mm "
+      "there)",
+      fairing.shortened.size(), first.from_mm, first.to_mm, first.length_mm));
+}
+
 /// Where smoothing kept steps: one line for each reason.
 void print_smoothing(const Console& console, const ExportReport& report) {
+  print_fairing(console, report.section.smoothed.fairing);
   for (const auto reason : {solid::KeptFor::wall, solid::KeptFor::overshoot, solid::KeptFor::volume,
                             solid::KeptFor::certificate}) {
     const auto is = [&](const solid::KeptSteps& kept) { return kept.reason == reason; };
@@ -187,6 +202,18 @@ void print_solid(const Console& console, const ExportReport& report) {
 std::string clay_text(const ExportReport& report, double mm3) {
   return fmt::format("{:.0f} g ({:.2f} cm3)", 1e-3 * mm3 * report.maker->clay.density_g_cm3,
                      1e-3 * mm3);
+}
+
+Json fairing_json(const solid::FairingReport& fairing) {
+  Json json = {{"length_mm", fairing.length_mm},
+               {"moved_mm", fairing.moved_mm},
+               {"moved_at_mm", fairing.moved_at_mm},
+               {"shortened", Json::array()}};
+  for (const solid::ShortenedFairing& shortened : fairing.shortened)
+    json["shortened"].push_back({{"from_mm", shortened.from_mm},
+                                 {"to_mm", shortened.to_mm},
+                                 {"length_mm", shortened.length_mm}});
+  return json;
 }
 
 Json finish_json(const ExportReport& report) {
@@ -255,6 +282,8 @@ Json solid_json(const ExportReport& report) {
   if (report.section.finish.any()) json["finish"] = finish_json(report);
   if (report.section.smoothing == solid::Smoothing::exact)
     json["max_ring_error_relative"] = report.section.smoothed.max_ring_error_relative;
+  if (report.section.smoothed.fairing.length_mm > 0.0)
+    json["fairing"] = fairing_json(report.section.smoothed.fairing);
   if (report.walls.as_steps_mm) json["wall_as_steps_mm"] = *report.walls.as_steps_mm;
   if (report.section.smoothed.lip_fillet_mm > 0.0)
     json["lip_fillet_mm"] = report.section.smoothed.lip_fillet_mm;

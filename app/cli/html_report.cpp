@@ -2,12 +2,12 @@
 
 #include "app/cli/export_report.hpp"
 #include "core/base64.hpp"
+#include "core/colour_scale.hpp"
 #include "core/svg_writer.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -34,19 +34,10 @@ svg { width: 100%; height: auto; } figure { margin: 0; break-inside: avoid; }
 figcaption { font-size: 8.5pt; color: #555; } .long td:first-child { overflow-wrap: anywhere; }
 )css";
 
-/// cividis, from thin to thick.
-constexpr std::array<std::array<double, 3>, 5> kMap{
-    {{0, 32, 77}, {65, 77, 107}, {124, 123, 120}, {188, 175, 111}, {255, 234, 70}}};
-
 std::string colour_at(double part) {
-  const double place = std::clamp(part, 0.0, 1.0) * (kMap.size() - 1);
-  const auto low = std::min(static_cast<std::size_t>(place), kMap.size() - 2);
-  const double t = place - static_cast<double>(low);
-  const auto mix = [&](std::size_t i) { return (1.0 - t) * kMap[low][i] + t * kMap[low + 1][i]; };
-  return fmt::format("rgb({:.0f},{:.0f},{:.0f})", mix(0), mix(1), mix(2));
+  const auto [red, green, blue] = scale_colour(part);
+  return fmt::format("rgb({},{},{})", srgb_byte(red), srgb_byte(green), srgb_byte(blue));
 }
-
-double number(const Json& object, const char* field) { return object[field].get<double>(); }
 
 /// The walls along the section in colours; the scale is fitted to this pot.
 class WallMapFigure {
@@ -199,7 +190,7 @@ class Page {
       const auto line = [&](const char* name, const char* field, const char* unit, int digits) {
         std::vector<std::string> cells{name};
         for (const auto& state : states)
-          cells.push_back(fixed(number(*state.second, field), digits) + unit);
+          cells.push_back(fixed(number_in(*state.second, field), digits) + unit);
         row(cells);
       };
       line("diameter", "diameter_mm", " mm", 1);
@@ -213,8 +204,8 @@ class Page {
       row({"", "centre of gravity", "tips at"}, "th");
       for (const auto& [key, name] : {std::pair("empty", "empty"), std::pair("full", "full")})
         if (!maker[key].is_null())
-          row({name, fixed(number(maker[key], "centre_mm"), 1) + " mm above the foot",
-               fixed(number(maker[key], "tipping_deg"), 1) + " degrees"});
+          row({name, fixed(number_in(maker[key], "centre_mm"), 1) + " mm above the foot",
+               fixed(number_in(maker[key], "tipping_deg"), 1) + " degrees"});
     });
   }
 
@@ -227,6 +218,13 @@ class Page {
       if (const auto& limit = report_.walls.limit)
         row({"asked", fmt::format("{:.2f} mm ({})", limit->min_wall_mm, limit->asked_by())}, "td",
             false);
+      if (const auto& fairing = report_.section.smoothed.fairing; fairing.length_mm > 0.0)
+        row({"fairing",
+             fmt::format(
+                 "over {:g} mm; moved the walls by at most {:.2f} mm, at a height of {:.1f} "
+                 "mm",
+                 fairing.length_mm, fairing.moved_mm, fairing.moved_at_mm)},
+            "td", false);
       for (const auto& [what, clay] : finish_rows(report_)) row({what, clay}, "td", false);
       if (const auto& overhang = report_.process.overhang)
         row({"steepest overhang", fmt::format("{:.0f} degrees from the vertical at {:.1f} mm",
@@ -260,13 +258,13 @@ class Page {
     table("Proof", [&] {
       const Json& certificate = json_["certificate"];
       row({"proved", certificate["proved"].get<std::string>()}, "td", false);
-      row({"volume",
-           fmt::format("{:.3f} cm3; relative difference to the counted clay {:.1e}",
-                       1e-3 * number(json_, "volume_mm3"), number(json_, "volume_error_relative"))},
+      row({"volume", fmt::format("{:.3f} cm3; relative difference to the counted clay {:.1e}",
+                                 1e-3 * number_in(json_, "volume_mm3"),
+                                 number_in(json_, "volume_error_relative"))},
           "td", false);
-      row({"facets",
-           fmt::format("{} triangles, chordal error {:.3g} mm",
-                       json_["triangles"].get<std::size_t>(), number(json_, "chordal_error_mm"))},
+      row({"facets", fmt::format("{} triangles, chordal error {:.3g} mm",
+                                 json_["triangles"].get<std::size_t>(),
+                                 number_in(json_, "chordal_error_mm"))},
           "td", false);
     });
   }

@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/json_output.hpp"
+#include "app/cli/output_files.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/import/drawn_pot.hpp"
 #ifdef CLAYSTACK_EXPORT
@@ -84,7 +85,7 @@ Result<void> import_drawing(ImportOptions options, Console console) {
   if (options.pot == "-") console.quiet = true;
   if (auto named = check_pot_name(options.pot); !named) return named;
   if (auto axis = set_axis(options); !axis) return axis;
-  if (auto distinct = check_distinct({options.pot}, {options.drawing}); !distinct) return distinct;
+  if (auto free = check_outputs({{options.pot}}, {options.drawing}, console); !free) return free;
 #ifdef CLAYSTACK_EXPORT
   if (solid::mesh_format_of(options.drawing)) {
     for (const auto& [option, given] : {std::pair("--axis", !options.axis.empty()),
@@ -98,12 +99,15 @@ Result<void> import_drawing(ImportOptions options, Console console) {
                        {options.section.height_mm, options.pot_settings}, console);
   }
 #endif
+  Progress progress(console, "importing", 0);
+  progress.stage("reading");
   const auto bytes = read_file(options.drawing);
   if (!bytes) return tl::make_unexpected(bytes.error());
   auto drawing = read_drawing(*bytes, options.drawing, options.layer);
   if (!drawing) return tl::make_unexpected(drawing.error());
   const auto section = half_section(std::move(*drawing), options.section, options.drawing);
   if (!section) return tl::make_unexpected(section.error());
+  progress.stage("making rings");
   const auto pot = drawn_pot(*section, options.pot_settings, options.drawing);
   if (!pot) return tl::make_unexpected(pot.error());
   const PotEncoding encoding = pot_encoding_of(options.pot).value_or(PotEncoding::json);
@@ -159,11 +163,13 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
       ->check(in_range(0.1, 20.0))
       ->capture_default_str();
   command->footer(
-      "\nExamples:\n  claystack import vase.svg -o vase.pot.json --height 180\n"
-      "  claystack import outline.csv --wall 6 -o lump.pot.json\n"
-      "  claystack import scan.stl -o scan.pot.json\n"
-      "  claystack throw samples/bowl.scene.json --from lump.pot.json --device auto -o "
-      "mine.pot.json");
+      "\nExamples:\n"
+      "  claystack import samples/drawings/jug.svg -o jug.pot.json --height 180\n"
+      "  claystack import samples/drawings/tumbler.csv --wall 6 -o lump.pot.json\n"
+      "  claystack throw --from lump.pot.json --device auto -o "
+      "mine.pot.json\n"
+      "  claystack export jug.pot.json jug.stl\n"
+      "  claystack import jug.stl -o scan.pot.json");
   command->callback([options, &console, &exit] {
     const auto done = import_drawing(*options, console);
     exit = done ? kDone : report(done.error());

@@ -73,10 +73,13 @@ Result<void> import_mesh(const std::string& path, const std::string& pot,
                          const MeshPotSettings& settings, const Console& console) {
   const auto format = solid::mesh_format_of(path);
   if (!format) return tl::make_unexpected(format.error());
+  Progress progress(console, "importing", 0);
+  progress.stage("reading");
   const auto mesh = MeshFile::open(path, *format).and_then([](MeshFile file) {
     return file.read({"importing", kImportBytesPerTriangle});
   });
   if (!mesh) return tl::make_unexpected(mesh.error());
+  progress.stage("finding the axis and making rings");
   const auto made = mesh_pot(*mesh, settings, path);
   if (!made) return tl::make_unexpected(made.error());
   const PotEncoding encoding = pot_encoding_of(pot).value_or(PotEncoding::json);

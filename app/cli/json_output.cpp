@@ -25,6 +25,8 @@ void print_json(const Json& data) {
 
 bool json_printed() noexcept { return printed; }
 
+double number_in(const Json& object, const char* field) { return object[field].get<double>(); }
+
 Json json_count(WideQuanta count) {
   using Limits = std::numeric_limits<std::int64_t>;
   if (count < Limits::min() || count > Limits::max()) return to_string(count);

@@ -23,6 +23,9 @@ void print_json(const Json& data);
 /// As `report(error)`; the object on stdout also has these fields.
 int report(const Error& error, Json fields);
 
+/// The field of an object, which is a number.
+[[nodiscard]] double number_in(const Json& object, const char* field);
+
 /// A count for JSON: a number if it fits into 64 bits, otherwise decimal digits in a string.
 [[nodiscard]] Json json_count(WideQuanta count);
 

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <string>
 #include <string_view>
@@ -29,6 +30,8 @@ Examples:
 
 Once installed: cp -r )" CLAYSTACK_DATA R"(/samples .
 
+Output files replace older files of the same name, but never an input; with
+--no-overwrite they replace none.
 Exit status: 0 done and sound; 1 done, but the pot or mesh fails a check;
 2 bad usage or bad input; 3 could not read or write; 4 a device failed.)";
 
@@ -56,6 +59,12 @@ void add_memory_option(CLI::App& command) {
           "4GiB. A job that cannot fit is refused, with exit status 3")
       ->transform(CLI::AsSizeValue(false).description(""))
       ->type_name("SIZE");
+}
+
+bool writes_files(std::string_view command) {
+  static constexpr std::array kCommands = {"throw",  "export", "check", "strokes",
+                                           "import", "render", "bench"};
+  return std::ranges::find(kCommands, command) != kCommands.end();
 }
 
 void add_commands(CLI::App& app, Console& console, int& exit) {
@@ -90,6 +99,10 @@ void add_commands(CLI::App& app, Console& console, int& exit) {
     command->add_flag("--json", console.json, "Print data as JSON on standard output");
     command->add_flag("-q,--quiet", console.quiet, "Print errors only");
     add_memory_option(*command);
+    if (writes_files(command->get_name()))
+      command->add_flag("--no-overwrite", console.no_overwrite,
+                        "Refuse output files that exist (default: replace them; an input is never "
+                        "replaced)");
     if (command->get_name() == "throw" || command->get_name() == "export")
       command->add_flag("-v,--verbose", console.verbose, "Also print volumes, proofs and timings");
   }

@@ -21,8 +21,6 @@ Json balance_json(const solid::Balance& balance) {
 }
 #endif
 
-double number(const Json& object, const char* field) { return object[field].get<double>(); }
-
 /// "500 g as thrown, 364 g fired"; "500 g" if the shrinkage is not known.
 template <class Text>
 std::string by_state(const Json& numbers, Text text) {
@@ -31,25 +29,25 @@ std::string by_state(const Json& numbers, Text text) {
 }
 
 std::string size_text(const Json& state) {
-  return fmt::format("{:.1f} mm wide, {:.1f} mm high", number(state, "diameter_mm"),
-                     number(state, "height_mm"));
+  return fmt::format("{:.1f} mm wide, {:.1f} mm high", number_in(state, "diameter_mm"),
+                     number_in(state, "height_mm"));
 }
 
 std::string weight_text(const Json& state) {
-  return fmt::format("{:.0f} g", number(state, "weight_g"));
+  return fmt::format("{:.0f} g", number_in(state, "weight_g"));
 }
 
 std::string capacity_text(const Json& state) {
-  return fmt::format("{:.0f} ml", number(state, "capacity_ml"));
+  return fmt::format("{:.0f} ml", number_in(state, "capacity_ml"));
 }
 
 std::string capacity_row(const Json& numbers) {
   const bool fired = !numbers["fired"].is_null();
   const Json& used = fired ? numbers["fired"] : numbers["thrown"];
-  if (number(used, "capacity_ml") <= 0.0) return "none: no floor under an open bore";
+  if (number_in(used, "capacity_ml") <= 0.0) return "none: no floor under an open bore";
   return by_state(numbers, capacity_text) +
-         fmt::format(" to the brim; {:.0f} ml to {:g} mm below it{}", number(used, "to_line_ml"),
-                     number(numbers, "fill_line_mm"), fired ? ", fired" : "");
+         fmt::format(" to the brim; {:.0f} ml to {:g} mm below it{}", number_in(used, "to_line_ml"),
+                     number_in(numbers, "fill_line_mm"), fired ? ", fired" : "");
 }
 
 }  // namespace

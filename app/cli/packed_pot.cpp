@@ -6,6 +6,7 @@
 #include "app/render/image_file.hpp"
 #include "app/render/offscreen.hpp"
 #include "app/render/pot_view.hpp"
+#include "app/render/thumbnail.hpp"
 #endif
 
 #include <algorithm>
@@ -37,14 +38,17 @@ std::string png_of([[maybe_unused]] const Pot& pot, [[maybe_unused]] int pixels)
 std::string picture_of(const Pot& pot) { return png_of(pot, 480); }
 
 void pack_pot(const Pot& pot, solid::ExportRequest& request,
-              std::optional<std::string>& thumbnail) {
+              [[maybe_unused]] std::optional<std::string>& thumbnail) {
   const bool wanted = std::ranges::any_of(request.files, [](const solid::FileRequest& file) {
     return file.kind == solid::FileKind::mesh && file.format == solid::MeshFormat::three_mf;
   });
   if (!wanted) return;
   request.options.pot_file = write_pot(pot, PotEncoding::cbor);
-  if (!thumbnail) thumbnail = png_of(pot, 256);
+#ifdef CLAYSTACK_WINDOW
+  constexpr int kPixels = 256;
+  if (!thumbnail) thumbnail = render::png_of(render::thumbnail(render::view_of(pot), kPixels));
   request.options.thumbnail_png = *thumbnail;
+#endif
 }
 
 }  // namespace clay::cli

@@ -79,8 +79,10 @@ Result<void> plan_scene(const PlanOptions& options, const Console& console) {
   const auto wheel = Wheel::build(*scene);
   if (!wheel) return failure(wheel.error().kind, path + ": " + wheel.error().message);
 
+  Progress progress(console, "measuring", 0);
   Json json = {{"scene", scene->name}, {"in", Json::array()}, {"left_out", Json::array()}};
   for (const PlanLine& line : wheel->plan().lines) {
+    progress.stage(line.stage);
     const auto cost = line.in ? std::nullopt : cost_of(*scene, line.stage);
     const StageCost* saved = cost ? &*cost : nullptr;
     json[line.in ? "in" : "left_out"].push_back(line_json(line, saved));
@@ -111,7 +113,7 @@ void add_plan_command(CLI::App& app, Console& console, int& exit) {
 #endif
   command->footer(
       "\nExamples:\n  claystack plan samples/bowl.scene.json\n"
-      "  claystack plan samples/bowl.scene.json --rate 1000 --damping 2");
+      "  claystack plan samples/bowl.scene.json --rate 1000 --damping 0.002");
   command->callback([options, &console, &exit] {
     const auto done = plan_scene(*options, console);
     exit = done ? kDone : report(done.error());

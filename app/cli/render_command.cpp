@@ -3,8 +3,6 @@
 #include "app/cli/pot_input.hpp"
 #include "app/cli/render_job.hpp"
 
-#include "app/render/offscreen.hpp"
-
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -30,7 +28,7 @@ std::optional<render::Viewport> size_of(std::string_view text) {
 
 void add_size(CLI::App& sub, RenderCommand& command) {
   sub.add_option_function<std::string>(
-         "--size", [&command](const std::string& text) { command.size = *size_of(text); },
+         "--size", [&command](const std::string& text) { command.choices.size = *size_of(text); },
          "Width x height of the picture [px]")
       ->check([](const std::string& text) {
         return size_of(text) ? std::string()
@@ -40,16 +38,25 @@ void add_size(CLI::App& sub, RenderCommand& command) {
       ->default_str("1280x720");
 }
 
+void add_material(CLI::App& sub, render::PictureChoices& choices) {
+  sub.add_option_function<std::string>(
+         "--material", [&choices](const std::string& id) { choices.material = *find_material(id); },
+         "Clay or glaze of the surface")
+      ->check(CLI::IsMember(material_ids()))
+      ->default_str(std::string(choices.material.id));
+}
+
 void print_picture(const Console& console, const RenderCommand& command, const Rendered& done) {
-  const std::string size = fmt::format("{} x {} px", command.size.width_px, command.size.height_px);
+  const std::string size =
+      fmt::format("{} x {} px", command.choices.size.width_px, command.choices.size.height_px);
   if (!command.out.empty() && command.out != "-")
     console.print(fmt::format("{}: {}, {} bytes{}", command.out, size, done.png_bytes,
-                              command.style == render::Style::clay
-                                  ? "; its grooves and rounded rim are not in the pot"
+                              command.choices.style == render::Style::clay
+                                  ? "; its throwing lines and rounded rim are not in the pot"
                                   : ""));
   if (!command.turntable.empty() && command.turntable != "-")
-    console.print(fmt::format("{}: {} frames of {}, {} bytes", command.turntable, command.frames,
-                              size, done.gif_bytes));
+    console.print(fmt::format("{}: {} frames of {}, {} bytes", command.turntable,
+                              command.choices.frames, size, done.gif_bytes));
   if (done.map)
     console.print(fmt::format(
         "walls: dark blue 0 mm to yellow {:g} mm{}; thinnest {:.3f} mm", done.map->top_mm,
@@ -67,14 +74,15 @@ std::string_view style_name(render::Style style) {
 
 Json rendered_json(const RenderCommand& command, const Rendered& done) {
   Json json = {{"pot", command.pot},
-               {"width_px", command.size.width_px},
-               {"height_px", command.size.height_px},
-               {"style", style_name(command.style)},
+               {"width_px", command.choices.size.width_px},
+               {"height_px", command.choices.size.height_px},
+               {"style", style_name(command.choices.style)},
+               {"material", command.choices.material.id},
                {"renderer", done.renderer}};
   if (!command.out.empty()) json["png"] = {{"path", command.out}, {"bytes", done.png_bytes}};
   if (!command.turntable.empty())
     json["gif"] = {
-        {"path", command.turntable}, {"bytes", done.gif_bytes}, {"frames", command.frames}};
+        {"path", command.turntable}, {"bytes", done.gif_bytes}, {"frames", command.choices.frames}};
   if (done.map)
     json["wall_map"] = {{"limit_mm", done.map->limit_mm},
                         {"top_mm", done.map->top_mm},
@@ -108,40 +116,49 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
       ->required();
   sub->add_option("-o,--out", command->out, "File for the picture, .png");
   sub->add_option("--turntable", command->turntable, "File for an animation of one turn, .gif");
-  sub->add_option("--frames", command->frames, "Number of frames of the turntable")
-      ->check(CLI::Range(1, 720))
+  sub->add_option("--frames", command->choices.frames, "Number of frames of the turntable")
+      ->check(CLI::Range(1, render::kMostFrames))
       ->capture_default_str();
   add_size(*sub, *command);
-  sub->add_flag("--section", command->section, "Cut the pot open to show its walls");
+  sub->add_flag("--section", command->choices.section, "Cut the pot open to show its walls");
 #ifdef CLAYSTACK_EXPORT
   sub->add_flag("--wall-map", command->wall_map,
                 "Show wall thickness as colours; walls below --min-wall or --process are hatched");
   command->walls.add_to(*sub);
 #endif
   sub->add_option_function<std::string>(
-         "--theme", [command](const std::string& name) { command->dark = name == "dark"; },
+         "--theme",
+         [command](const std::string& name) {
+           command->choices.theme = name == "dark" ? render::Theme::dark : render::Theme::light;
+         },
          "Theme of the picture: light or dark")
       ->check(CLI::IsMember({"light", "dark"}))
       ->default_str("light");
   sub->add_option_function<std::string>(
          "--style",
          [command](const std::string& name) {
-           command->style = name == "clay" ? render::Style::clay : render::Style::geometry;
+           command->choices.style = name == "clay" ? render::Style::clay : render::Style::geometry;
          },
-         "geometry: the pot as its rings are; clay: with grooves and a rounded rim, which are not "
-         "in "
-         "the pot")
+         "geometry: the pot as its rings are; clay: with throwing lines, specks, a rounded rim and "
+         "a bare foot below a glaze, which are not in the pot")
       ->check(CLI::IsMember({"geometry", "clay"}))
       ->default_str("geometry");
-  sub->add_option("--azimuth", command->azimuth_deg, "Camera azimuth [deg] (default: about 34)")
+  add_material(*sub, command->choices);
+  sub->add_flag("--transparent", command->choices.alone,
+                "Draw the pot alone, without wheel, on a transparent background (not in a GIF)");
+  sub->add_option("--azimuth", command->choices.azimuth_deg,
+                  "Camera azimuth [deg] (default: about 34)")
       ->check(in_range(-3600.0, 3600.0));
-  sub->add_option("--elevation", command->elevation_deg,
+  sub->add_option("--elevation", command->choices.elevation_deg,
                   "Camera elevation [deg] (default: about 24)")
       ->check(in_range(-89.0, 89.0));
   sub->add_flag("--time", command->time, "Print the median time of a frame [ms]");
   sub->footer(
-      "\nExamples:\n  claystack render bowl.pot.json -o bowl.png\n"
+      "\nExamples:\n"
+      "  claystack throw samples/vase.scene.json -o vase.pot.json\n"
+      "  claystack render vase.pot.json -o vase.png\n"
       "  claystack render vase.pot.json -o walls.png --section --process porcelain\n"
+      "  claystack render vase.pot.json -o glazed.png --material celadon --style clay\n"
       "  claystack render vase.pot.json --turntable vase.gif --size 480x480 --theme dark");
   sub->callback([command, &console, &exit] { exit = run(*command, console); });
 }

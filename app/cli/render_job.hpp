@@ -2,7 +2,7 @@
 // The stages of `claystack render`: read the clay, measure its walls, draw, write.
 
 #include "app/cli/console.hpp"
-#include "app/render/picture.hpp"
+#include "app/render/pot_picture.hpp"
 #ifdef CLAYSTACK_EXPORT
 #include "app/cli/wall_options.hpp"
 #endif
@@ -19,11 +19,8 @@ struct RenderCommand {
   std::string pot;        ///< or a scene, of which the lump is drawn
   std::string out;        ///< .png; empty: none
   std::string turntable;  ///< .gif; empty: none
-  int frames = 36;
-  render::Viewport size;
-  bool section = false, wall_map = false, dark = false, time = false;
-  render::Style style = render::Style::geometry;
-  std::optional<double> azimuth_deg, elevation_deg;
+  render::PictureChoices choices;
+  bool wall_map = false, time = false;
 #ifdef CLAYSTACK_EXPORT
   WallOptions walls;
 #endif

@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 
 #include "app/cli/json_output.hpp"
+#include "app/cli/output_files.hpp"
 #include "app/cli/replay.hpp"
 #include "app/strokes/strokes.hpp"
 #include "claystack/core/atomic_file.hpp"
@@ -33,11 +34,12 @@ Result<std::vector<Pose>> poses_of(const StrokesOptions& options, const SceneSpe
 }
 
 Result<void> make_session(const StrokesOptions& options, const Console& console) {
-  if (!options.session.ends_with(".session"))
-    return failure(ErrorKind::bad_input,
-                   options.session + ": expected a name that ends in .session");
-  if (auto distinct = check_distinct({options.session}, {options.scene, options.script}); !distinct)
-    return distinct;
+  if (auto free = check_outputs({{options.session, {".session"}}}, {options.scene, options.script},
+                                console);
+      !free)
+    return free;
+  Progress progress(console, "strokes", 0);
+  progress.stage("playing");
   const auto scene = load_scene(options.scene);
   if (!scene) return tl::make_unexpected(scene.error());
   auto poses = poses_of(options, *scene);

@@ -63,6 +63,7 @@ void add_studio_options(CLI::App& parser, double smallest_scale, double largest_
   add_report_options(parser, options);
   parser.footer(
       "\nExamples:\n  claystack studio\n  claystack studio samples/bowl.scene.json\n"
+      "  claystack throw samples/vase.scene.json -o vase.pot.json\n"
       "  claystack studio vase.pot.json --script samples/window/throw.script");
 }
 

@@ -4,6 +4,7 @@
 #ifdef CLAYSTACK_FALCON
 #include "app/cli/live_throw.hpp"
 #endif
+#include "app/cli/output_files.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
 #include "app/cli/replay.hpp"
@@ -139,8 +140,11 @@ ReplayStats play(Wheel& wheel, const Session& session, TraceWriter* trace, const
 }
 
 /// Plays the session with both models, for the plot that compares them.
-Result<std::string> error_plot(const SceneSpec& scene, const Session& session) {
+Result<std::string> error_plot(const SceneSpec& scene, const Session& session,
+                               const Console& console) {
   std::vector<ErrorCurve> curves;
+  Progress progress(console, "throwing for the plot", 2 * session.poses.size());
+  std::size_t ticks = 0;
   for (const Model model : {Model::paper, Model::conserving}) {
     SceneSpec variant = scene;
     variant.model = model;
@@ -148,7 +152,11 @@ Result<std::string> error_plot(const SceneSpec& scene, const Session& session) {
     if (!wheel) return tl::make_unexpected(wheel.error());
     ErrorRows rows(session.poses.size());
     replay(*wheel, session.poses,
-           {.trace = [&](const TraceRow& row) { rows.add(row); }, .progress = {}});
+           {.trace = [&](const TraceRow& row) { rows.add(row); },
+            .progress =
+                [&](std::size_t) {
+                  if (++ticks % 256 == 0) progress.update(ticks);
+                }});
     curves.push_back({name_of(model), rows.take()});
   }
   return error_plot_svg(scene.name, curves);
@@ -182,7 +190,9 @@ Result<void> expect_room_after_throw(const Wheel& wheel, PotEncoding encoding,
 /// Writes all requested files, or none.
 Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encoding,
                            std::optional<TraceWriter>& trace, const SceneSpec& scene,
-                           const Session& session) {
+                           const Session& session, const Console& console) {
+  Progress progress(console, "throwing", 0);
+  progress.stage("writing");
   if (outputs.pot)
     if (auto written = outputs.pot->write(write_pot(history::remembering(scene, pot), encoding));
         !written)
@@ -190,7 +200,7 @@ Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encodin
   if (trace)
     if (auto written = trace->finish(); !written) return written;
   if (outputs.error_plot) {
-    auto plot = error_plot(scene, session);
+    auto plot = error_plot(scene, session, console);
     if (!plot) return tl::make_unexpected(plot.error());
     if (auto written = outputs.error_plot->write(*plot); !written) return written;
   }
@@ -211,7 +221,8 @@ Result<void> check_names(const ThrowOptions& options, const Console& console) {
   const std::vector<std::string> outputs = {options.pot, options.trace, options.error_plot};
   if (std::count(outputs.begin(), outputs.end(), "-") > (console.json ? 0 : 1))
     return failure(ErrorKind::bad_input, "-: expected at most one output on standard output");
-  return check_distinct(outputs, {options.scene, options.session, options.from});
+  return check_outputs({{options.pot}, {options.trace, {".csv"}}, {options.error_plot, {".svg"}}},
+                       {options.scene, options.session, options.from}, console);
 }
 
 Result<void> replay_pot(const ThrowOptions& options, Console console) {
@@ -219,6 +230,8 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   // Output to standard output must be the only one.
   for (const std::string& output : {options.pot, options.trace, options.error_plot})
     if (output == "-") console.quiet = true;
+  Progress progress(console, "throwing", 0);
+  progress.stage("reading");
   auto start = load_start(options.scene, options.from, console);
   if (!start) return tl::make_unexpected(start.error());
   SceneSpec& scene = start->scene;
@@ -244,7 +257,8 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   if (stats.ring_limit) console.warn("there is clay above the top ring: increase lump.max_rings");
 
   const Pot pot = wheel->pot();
-  if (auto written = write_outputs(*outputs, pot, encoding, trace, scene, *session); !written)
+  if (auto written = write_outputs(*outputs, pot, encoding, trace, scene, *session, console);
+      !written)
     return written;
 
   const Json json = summary(*wheel, stats, *session, pot);
@@ -266,7 +280,7 @@ Result<void> throw_work_file(const ThrowOptions& options, const Console& console
                        ": expected only --at, --list and -o with a work, which "
                        "holds scenes, poses and its first pot");
   if (auto named = check_pot_name(options.pot); !named) return named;
-  if (auto distinct = check_distinct({options.pot}, {options.scene}); !distinct) return distinct;
+  if (auto free = check_outputs({{options.pot}}, {options.scene}, console); !free) return free;
   return throw_work({options.scene, options.pot, options.at, options.list}, console);
 }
 
@@ -305,10 +319,12 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
           ErrorKind::bad_input,
           "--trace and --error-plot describe a replay: record with --record, then replay");
     if (auto named = check_pot_name(options.pot); !named) return named;
-    if (auto distinct = check_distinct({options.pot, options.live.record},
-                                       {options.scene, options.session, options.from});
-        !distinct)
-      return distinct;
+    if (auto free = check_outputs(
+            {{options.pot}, {options.live.record, {".session"}}},
+            {options.scene, options.session, options.from, options.live.falcon.firmware_path},
+            console);
+        !free)
+      return free;
     return throw_live({options.scene, options.session, options.pot, options.model, options.from},
                       options.live, console);
   }
@@ -352,15 +368,16 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
   std::erase(options->live_only, command->get_option("--device"));
 #endif
   command->footer(
-      "\nExamples:\n  claystack throw samples/vase.scene.json -o vase.pot.json\n"
+      "\nExamples:\n"
+      "  claystack throw samples/vase.scene.json -o vase.pot.json\n"
       "  claystack throw samples/vase.scene.json --device auto --record mine.session -o "
       "mine.pot.json\n"
+      "  claystack throw samples/vase.scene.json -s mine.session -o again.pot.json\n"
+      "  claystack throw --from vase.pot.json -s mine.session -o higher.pot.json\n"
       "  claystack throw samples/vase.scene.json --model paper --json\n"
-      "  claystack throw rim.scene.json -s rim.session --from vase.pot.json -o higher.pot.json\n"
-      "  claystack throw --from vase.pot.json -s rim.session -o higher.pot.json\n"
-      "  claystack throw mine.work --list\n"
-      "  claystack throw mine.work --at 3 -o early.pot.json\n"
-      "  claystack throw samples/vase.scene.json --error-plot vase-error.svg");
+      "  claystack throw samples/vase.scene.json --error-plot vase-error.svg\n"
+      "  claystack throw samples/mouse.work --list\n"
+      "  claystack throw samples/mouse.work --at 3 -o early.pot.json");
   command->callback([options, &console, &exit] {
     if (options->session.empty() && !options->scene.empty() && options->scene != "-" &&
         !options->scene.ends_with(".work"))

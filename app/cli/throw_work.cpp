@@ -68,6 +68,8 @@ Json pot_json(const Pot& pot) {
 
 Result<void> throw_work(const WorkJob& job, Console console) {
   if (job.pot_path == "-") console.quiet = true;
+  Progress progress(console, "throwing", 0);
+  progress.stage("replaying the strokes");
   auto loaded = history::load(job.work_path);
   if (!loaded) return tl::make_unexpected(loaded.error());
   history::Work& work = loaded->work;
@@ -87,6 +89,7 @@ Result<void> throw_work(const WorkJob& job, Console console) {
     if (!tree) return named(tree.error());
     json["nodes"] = std::move(*tree);
   }
+  progress.stage("replaying the strokes");
   const auto pot = work.pot(node);
   if (!pot) return named(pot.error());
   json.update(pot_json(**pot));

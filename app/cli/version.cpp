@@ -11,6 +11,9 @@ std::string version_text() {
 #ifdef CLAYSTACK_DRACO
   parts += " draco";
 #endif
+#ifdef CLAYSTACK_MESHOPT
+  parts += " meshopt";
+#endif
 #ifdef CLAYSTACK_DRAWINGS
   parts += " drawings";
 #endif

@@ -17,6 +17,8 @@ class WallOptions {
   void add_to(CLI::App& command);
 
   [[nodiscard]] bool asked() const noexcept { return min_wall_mm_ || !process_.empty(); }
+  /// The process as given: a name, or a file; empty if none is.
+  [[nodiscard]] const std::string& process() const noexcept { return process_; }
   /// Reads the process if one is given. Call it first, so that a bad name is reported before any
   /// work.
   Result<void> load();

@@ -1,13 +1,12 @@
 #include "app/render/legend.hpp"
 
-#include "app/render/look.hpp"
+#include "core/colour_scale.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/common.hpp>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wall"
@@ -24,12 +23,6 @@ namespace {
 constexpr int kLeastSide = 240;  // px: no legend in smaller pictures
 constexpr Swatch kThin{0xE7, 0x28, 0x30}, kInkLight{0x33, 0x33, 0x38}, kInkDark{0xE6, 0xE6, 0xEA};
 
-std::uint8_t srgb_byte(float linear) noexcept {
-  const float c =
-      linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(c, 0.0f, 1.0f)));
-}
-
 class Sheet {
  public:
   Sheet(Image& image, Swatch ink) : image_(image), ink_(ink) {}
@@ -41,6 +34,7 @@ class Sheet {
         p[0] = colour.red;
         p[1] = colour.green;
         p[2] = colour.blue;
+        p[3] = 255;
       }
   }
 
@@ -70,11 +64,8 @@ class Sheet {
 
 Swatch wall_swatch(const WallMap& map, double wall_mm) noexcept {
   if (wall_mm < map.limit_mm) return kThin;
-  const double at = std::clamp(wall_mm / map.top_mm, 0.0, 1.0) * (kMapColours - 1);
-  const auto below = std::min(static_cast<std::size_t>(at), std::size_t{kMapColours - 2});
-  const auto part = static_cast<float>(at - static_cast<double>(below));
-  const glm::vec4 colour = glm::mix(map_colours()[below], map_colours()[below + 1], part);
-  return {srgb_byte(colour.r), srgb_byte(colour.g), srgb_byte(colour.b)};
+  const auto [red, green, blue] = scale_colour(wall_mm / map.top_mm);
+  return {srgb_byte(red), srgb_byte(green), srgb_byte(blue)};
 }
 
 void draw_legend(const WallMap& map, Theme theme, Image& image) {

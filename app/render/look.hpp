@@ -12,18 +12,19 @@ namespace clay::render {
 /// Linear light of an sRGB colour, 0xRRGGBB.
 [[nodiscard]] glm::vec3 linear_of(unsigned rgb) noexcept;
 
-/// The colours of the wall map, linear, from zero thickness to the top of the range: cividis, which
-/// looks the same with any kind of colour vision (Nunez, Anderton and Renslow, PLoS ONE 13(7)
-/// 2018).
+/// `kScaleColours`, linear, for the shaders.
 [[nodiscard]] const std::array<glm::vec4, kMapColours>& map_colours() noexcept;
 
 struct Look {
   glm::vec3 lamp, sky, bounce, rim;
   glm::vec3 low, high;  ///< background
   glm::vec3 metal;      ///< wheel head
-  glm::vec3 tool, arrow, section;
+  glm::vec3 tool, arrow;
 };
 [[nodiscard]] const Look& look_of(Theme theme) noexcept;
+
+/// Linear colour of the cut through the clay: its body, paler.
+[[nodiscard]] glm::vec3 section_colour(const Material& material) noexcept;
 
 /// The lamps move with the camera, so that shape is visible from every side: (right, up, to the
 /// camera), unit.

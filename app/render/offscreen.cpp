@@ -91,6 +91,17 @@ Image read_pixels(int width, int height) {
   return image;
 }
 
+/// From colours weighted by their coverage, as anti-aliasing leaves them, to plain ones.
+void undo_coverage(Image& image) {
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+    const unsigned alpha = image.rgba[i + 3];
+    if (alpha == 0 || alpha == 255) continue;
+    for (std::size_t k = i; k < i + 3; ++k)
+      image.rgba[k] =
+          static_cast<std::uint8_t>(std::min(255u, (255u * image.rgba[k] + alpha / 2) / alpha));
+  }
+}
+
 }  // namespace
 
 struct Offscreen::State {
@@ -134,7 +145,9 @@ Result<Offscreen> Offscreen::create() {
 Result<Image> Offscreen::draw(const Picture& picture, Viewport viewport) {
   return state_->paint(picture, viewport, kSamples).map([&] {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->target->framebuffer());
-    return read_pixels(viewport.width_px, viewport.height_px);
+    Image image = read_pixels(viewport.width_px, viewport.height_px);
+    if (picture.alone) undo_coverage(image);
+    return image;
   });
 }
 

@@ -3,6 +3,7 @@
 // compare pictures. Lengths in mm, y up, the wheel head at y = 0.
 
 #include "app/render/camera.hpp"
+#include "core/material.hpp"
 
 #include <cstddef>
 #include <glm/mat4x4.hpp>
@@ -80,6 +81,7 @@ struct Picture {
   Camera camera;
   Theme theme = Theme::light;
   Style style = Style::clay;
+  Material material = kLeatherHard;
   Cut cut = Cut::none;
   /// Direction of the middle of the cut, like Camera::azimuth_rad; empty: towards the camera.
   std::optional<double> cut_azimuth_rad;
@@ -87,6 +89,9 @@ struct Picture {
   double wheel_turn_rad = 0.0;  ///< counterclockwise seen from above, of wheel and clay
   /// Of the wheel head; empty: the next standard size that holds the clay.
   std::optional<double> wheel_radius_mm;
+  /// The clay and the tool without wheel, floor and background: the rest of the picture is
+  /// transparent.
+  bool alone = false;
   friend bool operator==(const Picture&, const Picture&) = default;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
@@ -63,6 +64,13 @@ void SceneFrame::fill_block(Viewport viewport) {
   const auto turn = static_cast<float>(picture.wheel_turn_rad);
   block.to_lamp = glm::vec4(beside_camera(camera, lamp_direction()), std::cos(turn));
   block.to_rim_lamp = glm::vec4(beside_camera(camera, rim_lamp_direction()), std::sin(turn));
+  const auto sides = [](const glm::vec4& axis, glm::vec4& across, glm::vec4& upward) {
+    const glm::vec3 to(axis), side = glm::normalize(glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), to));
+    across = glm::vec4(side, 0.0f);
+    upward = glm::vec4(glm::cross(to, side), 0.0f);
+  };
+  sides(block.to_lamp, block.lamp_across, block.lamp_upward);
+  sides(block.to_rim_lamp, block.strip_across, block.strip_upward);
   block.lamp = glm::vec4(look.lamp, 0.0f);
   block.sky = glm::vec4(look.sky, 0.0f);
   block.bounce = glm::vec4(look.bounce, 0.0f);

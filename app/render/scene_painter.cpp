@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kFloor = 3.0;  // radius of the floor, in radii of the wheel head
 constexpr GLuint kBlockBinding = 0;
+constexpr float kFacingMirror = 0.04f;  // what clay, water and glass mirror, seen straight on
 
 Result<Program> frame_program(std::string_view name, const std::string& vertex,
                               const std::string& fragment) {
@@ -38,6 +39,7 @@ Result<ScenePainter> ScenePainter::create() {
   const Wanted all[] = {
       {&ScenePainter::background_, "background", background_vertex(), background_fragment()},
       {&ScenePainter::clay_, "clay", revolve_vertex(), clay_fragment()},
+      {&ScenePainter::coated_, "coated clay", revolve_vertex(), coated_clay_fragment()},
       {&ScenePainter::plain_, "plain", revolve_vertex(), plain_fragment()},
       {&ScenePainter::wheel_, "wheel", revolve_vertex(), wheel_fragment()},
       {&ScenePainter::ground_, "ground", revolve_vertex(), ground_fragment()},
@@ -68,7 +70,8 @@ void ScenePainter::paint(const Picture& picture, Viewport viewport) {
   glDisable(GL_STENCIL_TEST);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
-  glClear(GL_DEPTH_BUFFER_BIT);
+  glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+  glClear(picture.alone ? GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT : GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glEnable(GL_CULL_FACE);
@@ -81,8 +84,8 @@ void ScenePainter::paint(const Picture& picture, Viewport viewport) {
     paint_tool(frame);
     paint_arrow(frame);
   }
-  if (frame.from_above()) paint_wheel(frame);
-  paint_background();
+  if (!picture.alone && frame.from_above()) paint_wheel(frame);
+  if (!picture.alone) paint_background();
   glBindVertexArray(0);
   glUseProgram(0);
 }
@@ -121,23 +124,42 @@ void ScenePainter::revolve(const Program& program, const std::vector<Stretch>& m
   revolver_.draw(meridian, frame.sectors_for(static_cast<double>(radius)));
 }
 
+void ScenePainter::set_material(const Program& program, const Material& material) {
+  const auto colour = [](const Reflectance& c, float fourth) {
+    return glm::vec4(c[0], c[1], c[2], fourth);
+  };
+  set(program, "base", colour(material.base, material.speckle));
+  // Blinn's exponent for a roughness (glTF's alpha = roughness squared), with a lobe of equal
+  // energy.
+  const float alpha = material.roughness * material.roughness;
+  const float exponent = 2.0f / (alpha * alpha);
+  set(program, "lobe", glm::vec2{exponent, kFacingMirror * (exponent + 2.0f) / 8.0f});
+  if (material.coat <= 0.0f) return;
+  set(program, "coat", glm::vec2{material.coat, material.coat_roughness});
+  set(program, "thin", colour(material.thin, material.glaze ? 1.0f : 0.0f));
+  set(program, "bare", glm::vec3(colour(material.bare, 0.0f)));
+}
+
 void ScenePainter::paint_clay(const SceneFrame& frame) {
-  glUseProgram(clay_.get());
-  set(clay_, "sweep", frame.sweep);
-  set(clay_, "turn", static_cast<float>(frame.picture.wheel_turn_rad));
+  const Material& material = frame.picture.material;
+  const Program& program = material.coat > 0.0f ? coated_ : clay_;
+  glUseProgram(program.get());
+  set_material(program, material);
+  set(program, "sweep", frame.sweep);
+  set(program, "turn", static_cast<float>(frame.picture.wheel_turn_rad));
   const bool hands = frame.picture.style == Style::clay;
-  set(clay_, "hands", hands ? 1.0f : 0.0f);
-  set(clay_, "cut", frame.picture.cut == Cut::none ? 0.0f : 1.0f);
+  set(program, "hands", hands ? 1.0f : 0.0f);
+  set(program, "cut", frame.picture.cut == Cut::none ? 0.0f : 1.0f);
   for (const Body& body : frame.bodies) {
-    set(clay_, "rim", glm::vec2{body.levels.back().inner, body.levels.back().y});
-    revolve(clay_, meridian_of(body.levels, hands), body.place, frame);
+    set(program, "rim", glm::vec2{body.levels.back().inner, body.levels.back().y});
+    revolve(program, meridian_of(body.levels, hands), body.place, frame);
   }
 }
 
 void ScenePainter::paint_section(const SceneFrame& frame) {
   glUseProgram(slice_.get());
   glDisable(GL_CULL_FACE);
-  set(slice_, "section", glm::vec4(frame.look.section, 1.0f));
+  set(slice_, "section", glm::vec4(section_colour(frame.picture.material), 1.0f));
   for (const Body& body : frame.bodies) {
     set(slice_, "place", body.place);
     slices_.load(slices_of(body.levels));

@@ -22,6 +22,7 @@ class ScenePainter {
 
  private:
   void paint_background();
+  static void set_material(const Program& program, const Material& material);
   void paint_clay(const SceneFrame& frame);
   void paint_section(const SceneFrame& frame);
   void paint_tool(const SceneFrame& frame);
@@ -33,7 +34,7 @@ class ScenePainter {
   void revolve(const Program& program, const std::vector<Stretch>& meridian, const glm::mat4& place,
                const SceneFrame& frame);
 
-  Program background_, clay_, plain_, wheel_, ground_, slice_;
+  Program background_, clay_, coated_, plain_, wheel_, ground_, slice_;
   Buffer block_;
   VertexArray nothing_;  ///< for the background, whose vertices are computed from their indices
   Texture shadow_;

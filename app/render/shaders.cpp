@@ -10,6 +10,7 @@ layout(std140) uniform Frame {
   vec4 lamp, sky, bounce, rim;
   vec4 low, high;
   vec4 viewport, wall_map, wheel;
+  vec4 lamp_across, lamp_upward, strip_across, strip_upward;
 } frame;
 )";
 
@@ -49,6 +50,37 @@ vec3 lit_surface(vec3 base, vec3 n, vec3 v, float open, float lit, float gloss, 
   vec3 sheen = frame.lamp.rgb * (shine * pow(clamp(dot(n, h), 0.0, 1.0), gloss) * lit * facing) +
                frame.rim.rgb * edge * (0.10 + 0.9 * grazing) * (0.5 + 0.5 * base);
   return diffuse + sheen + frame.sky.rgb * grazing * 0.10 * open;
+}
+
+// A lamp as wide as its box: how much of the blurred reflection `r` it fills. `axis`: to its middle.
+float softbox(vec3 r, vec3 axis, vec3 across, vec3 upward, vec2 half_size, float blur) {
+  float ahead = max(dot(r, axis), 0.02);
+  vec2 off = abs(vec2(dot(r, across), dot(r, upward))) / ahead;
+  vec2 soft = vec2(0.02 + 1.4 * blur);
+  vec2 filled = 1.0 - smoothstep(half_size - soft, half_size + soft, off);
+  vec2 spread = half_size / (half_size + 0.5 * soft);
+  return filled.x * filled.y * spread.x * spread.y * step(0.03, ahead);
+}
+
+// The room that shiny surfaces reflect: a window at the lamp, a strip of light at the rim lamp, a
+// pale ceiling and a dark floor.
+vec3 studio(vec3 r, float blur) {
+  vec3 room = mix(0.3 * frame.bounce.rgb + 0.1 * frame.low.rgb, 0.75 * frame.sky.rgb,
+                  smoothstep(-0.35 - blur, 0.65 + blur, r.y));
+  float window = softbox(r, frame.to_lamp.xyz, frame.lamp_across.xyz, frame.lamp_upward.xyz,
+                         vec2(0.34, 0.42), blur);
+  float strip = softbox(r, frame.to_rim_lamp.xyz, frame.strip_across.xyz, frame.strip_upward.xyz,
+                        vec2(0.16, 0.75), blur);
+  return room + 7.0 * window * frame.lamp.rgb + 6.0 * strip * frame.rim.rgb;
+}
+
+// A clear layer over a surface: `coat` is its strength and its roughness.
+vec3 coated(vec3 under, vec3 n, vec3 v, float open, vec2 coat) {
+  // Smoothed normals at an outline face away; they would mirror the floor.
+  float away = 1.0 - clamp(dot(n, v), 0.15, 1.0), squared = away * away;
+  float mirrored = coat.x * (0.04 + 0.96 * squared * squared * away);
+  vec3 seen = studio(reflect(-v, n), coat.y) * mix(0.08, 1.0, open * open);
+  return mix(under, seen, mirrored);
 }
 
 // Compresses bright values instead of clipping them.
@@ -104,6 +136,13 @@ uniform vec2 rim;    // radius and height of the opening
 uniform float turn;  // rotation of the clay with the wheel
 uniform float cut;   // 1: light enters through the cut
 uniform float hands; // 1: with traces of fingers
+uniform vec4 base;   // colour; darkness of the specks
+uniform vec2 lobe;   // exponent and strength of the body's own shine
+#ifdef COATED
+uniform vec2 coat;   // strength, roughness
+uniform vec4 thin;   // colour where a glaze runs thin; 1: is a glaze
+uniform vec3 bare;   // of the clay below a glaze
+#endif
 out vec4 colour;
 
 // Slope of the wall due to spiral grooves from the fingers and to slower waves.
@@ -112,6 +151,18 @@ float grooves(float y, float azimuth, float size, float pixel) {
   float seen = 1.0 - smoothstep(0.15, 0.5, pixel * fine / 6.2832);
   return 0.050 * seen * sin(y * fine + azimuth) +
          0.035 * sin(y * coarse + azimuth + 1.3 * sin(y * coarse * 0.37));
+}
+
+// Specks of iron: at most one in each cell of a grid that turns with the clay.
+float speck(vec3 at, float size, float pixel) {
+  vec3 cell = floor(at / size), inside = at / size - cell - 0.5;
+  vec3 noise = fract(sin(vec3(dot(cell, vec3(12.99, 78.23, 37.72)),
+                              dot(cell, vec3(39.35, 11.14, 83.16)),
+                              dot(cell, vec3(73.16, 52.24, 9.15)))) * 4375.85);
+  float radius = 0.06 + 0.16 * noise.x * noise.x, edge = pixel / size + 0.02;
+  float off = length(inside - 0.5 * (noise - 0.5));
+  return step(0.72, noise.y) * (1.0 - smoothstep(radius - edge, radius + edge, off)) *
+         (1.0 - smoothstep(0.15, 0.5, pixel / size));
 }
 
 float passes(vec2 ring, vec3 l) {
@@ -140,10 +191,29 @@ void main() {
     colour = shown(base * mix(0.50, 1.0, facing * mix(0.5, 1.0, open)));
     return;
   }
-  // Iron and grog: faint bands and fainter specks.
-  float band = sin(own.y * 5.1 / (0.02 * size) + 2.0 * sin(azimuth)) * sin(own.y * 1.7 / (0.02 * size));
-  vec3 base = vec3(0.430, 0.178, 0.088) * (1.0 + 0.045 * band * hands + 0.9 * groove);
-  vec3 c = lit_surface(base, n, v, open, lit, 26.0, 0.16);
+  // Bands of the clay, and specks.
+  float band = sin(own.y * 5.1 / (0.02 * size) + 2.0 * sin(azimuth)) *
+               sin(own.y * 1.7 / (0.02 * size));
+  float rho = length(own.xz);
+  vec3 turned = vec3(rho * sin(azimuth), own.y, rho * cos(azimuth));
+  float specks = base.a * hands * speck(turned, 0.016 * size, length(fwidth(own)));
+#ifdef COATED
+  // A glaze runs thin over the lip, and on the ridges that fingers leave. It ends above the foot.
+  float lip = 1.0 - smoothstep(0.0, 0.030 * size, abs(own.y - rim.y));
+  float ridge = hands * upright * (0.5 + 8.0 * groove);
+  vec3 body = mix(base.rgb, thin.rgb, thin.a * clamp(0.9 * lip * lip + 0.16 * ridge, 0.0, 1.0));
+  float foot = thin.a * hands * (1.0 - smoothstep(0.028 * size, 0.033 * size, own.y)) *
+               step(neck.x, 0.0);
+  body = mix(body, bare, foot) * (1.0 + 0.045 * band * hands * (1.0 - thin.a) + 0.4 * groove);
+  vec2 layer = coat * vec2(1.0 - foot, 1.0);
+#else
+  vec3 body = base.rgb * (1.0 + 0.045 * band * hands + 0.9 * groove);
+#endif
+  body *= 1.0 - specks;
+  vec3 c = lit_surface(body, n, v, open, lit, lobe.x, lobe.y);
+#ifdef COATED
+  c = coated(c, n, v, open, layer);
+#endif
   colour = shown(exposed(c));
 }
 )";
@@ -271,6 +341,7 @@ std::string background_fragment() {
 }
 std::string revolve_vertex() { return joined(kRevolveVertex); }
 std::string clay_fragment() { return joined(kColour, kLight, kWallColour, kClayFragment); }
+std::string coated_clay_fragment() { return "#define COATED\n" + clay_fragment(); }
 std::string plain_fragment() { return joined(kColour, kLight, kPlainFragment); }
 std::string wheel_fragment() { return joined(kColour, kLight, kShadowMap, kWheelFragment); }
 std::string ground_fragment() { return joined(kColour, kShadowMap, kGroundFragment); }

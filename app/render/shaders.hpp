@@ -19,6 +19,8 @@ struct FrameBlock {
   glm::vec4 viewport{0.0f};  ///< width, height [px]; half side of the shadow map [mm]
   glm::vec4 wall_map{0.0f};  ///< limit, top [mm]; above 0: drawn
   glm::vec4 wheel{0.0f};     ///< turn [rad], radius, thickness; size of the clay [mm]
+  /// The sides of the lamp's window and of the rim lamp's strip, unit.
+  glm::vec4 lamp_across{0.0f}, lamp_upward{0.0f}, strip_across{0.0f}, strip_upward{0.0f};
 };
 
 /// std140 arrays of the wall map's colours.
@@ -28,7 +30,8 @@ inline constexpr int kMapColours = 17;
 [[nodiscard]] std::string background_fragment();
 [[nodiscard]] std::string revolve_vertex();  ///< Stretch, revolved
 [[nodiscard]] std::string clay_fragment();
-[[nodiscard]] std::string plain_fragment();  ///< tools and arrows
+[[nodiscard]] std::string coated_clay_fragment();  ///< below water or glass
+[[nodiscard]] std::string plain_fragment();        ///< tools and arrows
 [[nodiscard]] std::string wheel_fragment();
 [[nodiscard]] std::string ground_fragment();
 [[nodiscard]] std::string slice_vertex();  ///< Slice, turned about the axis

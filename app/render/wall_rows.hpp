@@ -25,6 +25,11 @@ struct MappedWalls {
 /// solid::run_export and solid::collapsed_parts.
 Result<MappedWalls> map_walls(const Pot& pot, const solid::WallDemand& demand, std::size_t rows);
 
+/// The top of the map in files, the same for every pot [mm].
+inline constexpr double kFileMapTopMm = 10.0;
+/// Measures the walls and colours the picture of the pot by them.
+Result<MappedWalls> show_walls(const Pot& pot, const solid::WallDemand& demand, Picture& picture);
+
 /// For each of `rows` equal parts of `height_mm`, the minimum thickness of the field on the outside
 /// and on the bore.
 [[nodiscard]] std::vector<RowWall> row_walls(std::span<const solid::WallSample> field,

@@ -7,6 +7,7 @@
 #include "app/studio/exporter.hpp"
 #include "app/studio/importing.hpp"
 #include "app/studio/mouse_hand.hpp"
+#include "app/studio/picture_writer.hpp"
 #include "app/studio/settings.hpp"
 #include "app/studio/stroke_controller.hpp"
 
@@ -82,7 +83,16 @@ struct EndScrub {};
 struct BranchHere {};
 
 // --- Dialogs. -----------------------------------------------------------------------------------
-enum class DialogKind { gallery, shortcuts, settings, open_file, save_file, export_files };
+enum class DialogKind {
+  gallery,
+  shortcuts,
+  settings,
+  open_file,
+  save_file,
+  export_files,
+  picture,
+  turntable
+};
 struct ShowDialog {
   DialogKind kind = DialogKind::gallery;
 };
@@ -96,7 +106,11 @@ struct DiscardAndContinue {};
 struct EditExport {
   ExportChoices choices;
 };
-/// Asks first if it would replace files that are not of the last export, unless `replace`.
+struct EditPicture {
+  PictureFile file;
+};
+/// Writes what the open dialog, of files or of a picture, asks for. Asks first if it would replace
+/// files that are not of the last export, unless `replace`.
 struct WriteExport {
   bool replace = false;
 };
@@ -137,6 +151,10 @@ struct OpenMenu {
 struct SetToolMode {
   ToolMode mode = ToolMode::press;
 };
+/// The next tool that can be used, or the previous one.
+struct StepTool {
+  int by = 1;
+};
 struct SetToolShape {
   Shape shape = Shape::sphere;
 };
@@ -162,6 +180,7 @@ struct PressClay {
 };
 struct AimTool {
   MouseAim aim;
+  std::optional<double> gap_mm = std::nullopt;  ///< of a pinch
 };
 struct ReleaseTool {};
 
@@ -170,6 +189,9 @@ struct ReleaseTool {};
 enum class ViewFrom { home, front, right, top, lesson };
 struct LookFrom {
   ViewFrom from = ViewFrom::home;
+};
+struct Zoom {
+  double notches = 0.0;  ///< positive: nearer
 };
 struct ToggleCut {
   render::Cut cut = render::Cut::half;
@@ -208,12 +230,14 @@ using SetTool = Set<&Settings::tool>;
 using SetProcess = Set<&Settings::process>;
 using SetGoal = Set<&Settings::goal>;
 using SetHints = Set<&Settings::hints>;
+using SetMaterial = Set<&Settings::material>;
 using SetFolder = Set<&Settings::folder>;
 using SetBite = Set<&Settings::bite_mm>;
 using SetHandSpeed = Set<&Settings::pressing_mm_s>;
 using SetWallMap = Set<&Settings::wall_map>;
 using SetFullSection = Set<&Settings::full_section>;
 using ToggleWallMap = Toggle<&Settings::wall_map>;
+using ToggleThrowingLines = Toggle<&Settings::throwing_lines>;
 using ToggleHints = Toggle<&Settings::hints>;
 
 using Action = std::variant<
@@ -223,11 +247,12 @@ using Action = std::variant<
     SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, ReplaceFiles, KeepFiles,
     CancelExport, ShowExportFolder, ChooseExportFolder, ChooseProcessFile, UseProcess, EditImport,
     TakeImport, ChooseTarget, UseTarget, UseSampleTarget, ClearTarget, SetGoal, ShowWarning,
-    CloseNotice, OpenMenu, SetToolMode, SetToolShape, ScaleTool, ChangeGap, SetStiffness,
+    CloseNotice, OpenMenu, SetToolMode, StepTool, SetToolShape, ScaleTool, ChangeGap, SetStiffness,
     DragToolSize, DragStiffness, TogglePause, Rearm, Back, PressClay, AimTool, ReleaseTool,
-    LookFrom, ToggleCut, TogglePanel, ToggleDiagnostics, FoldPanel, ToggleTheme, ScaleText,
-    SetTheme, SetScale, SetUnit, SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder,
-    SetHandSpeed, SetBite, SetWallMap, SetFullSection, ToggleWallMap, ToggleHints>;
+    LookFrom, Zoom, ToggleCut, TogglePanel, ToggleDiagnostics, FoldPanel, ToggleTheme, ScaleText,
+    SetTheme, EditPicture, SetMaterial, ToggleThrowingLines, SetScale, SetUnit, SetWheelSpeed,
+    SetTool, SetProcess, SetHints, SetFolder, SetHandSpeed, SetBite, SetWallMap, SetFullSection,
+    ToggleWallMap, ToggleHints>;
 
 /// In the order of creation.
 using Actions = std::vector<Action>;

@@ -18,8 +18,11 @@ ViewModel view_model(AppState& state) {
           .recoverable = state.recoverable,
           .export_running = state.exporter.running(),
           .export_stage = state.exporter.stage(),
+          .picture_running = state.pictures.busy(),
+          .picture_progress = state.pictures.progress(),
           .now_s = state.now_s(),
-          .real_time = state.host.real_time()};
+          .real_time = state.host.real_time(),
+          .fingers = state.host.fingers()};
 }
 
 bool ViewModel::has_marks() const {

@@ -6,6 +6,7 @@
 #include "app/studio/device_watch.hpp"
 #include "app/studio/fall_show.hpp"
 #include "app/studio/file_dialog.hpp"
+#include "app/studio/gamepad_hand.hpp"
 #include "app/studio/guide/guide.hpp"
 #include "app/studio/guide/play.hpp"
 #include "app/studio/host.hpp"
@@ -30,6 +31,7 @@ struct AppState {
         stroke(document, given.clock(), given.threads()),
         readings(given.real_time()),
         guide(given.threads()),
+        pictures(given.threads()),
         log(std::move(log_line)) {}
 
   Host& host;
@@ -41,9 +43,11 @@ struct AppState {
   Guide guide;
   Play play;  ///< of the guide's strokes
   SceneView scene;
+  GamepadHand gamepad;
   UiState ui;
   FallShow fall;
   Exporter exporter;
+  PictureWriter pictures;
   FileDialog file_dialog;                ///< the desktop's dialog, used instead of a text field
   std::unique_ptr<DeviceWatch> devices;  ///< null: do not look for devices
   std::vector<history::Recoverable> recoverable;

@@ -13,12 +13,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/trigonometric.hpp>
+#include <numbers>
 #include <utility>
 
 namespace clay::studio {
 namespace {
 
 constexpr double kGapShareStep = 0.05;
+constexpr render::Viewport kUsualPicture{1920, 1080}, kUsualTurntable{480, 480};
 constexpr double kNoteS = 5.0, kSavedNoteS = 4.0;
 
 bool is_process(const std::filesystem::path& path) {
@@ -182,14 +185,14 @@ struct Performer {
     const auto* asked = std::get_if<ReplaceDialog>(&state.ui.dialog);
     if (asked == nullptr) return;
     if (asked->save) return (*this)(SaveFile{asked->save->path, true});
-    state.ui.dialog = ExportDialog{};
+    back_to_export(*asked);
     (*this)(WriteExport{true});
   }
   void operator()(const KeepFiles&) const {
     const auto* asked = std::get_if<ReplaceDialog>(&state.ui.dialog);
     if (asked == nullptr) return;
-    Dialog before = ExportDialog{};
-    if (asked->save) before = *asked->save;
+    if (!asked->save) return back_to_export(*asked);
+    Dialog before = *asked->save;
     state.ui.dialog = std::move(before);
   }
   void operator()(const Save&) const {
@@ -252,6 +255,10 @@ struct Performer {
       case DialogKind::export_files:
         show_export();
         break;
+      case DialogKind::picture:
+      case DialogKind::turntable:
+        show_picture(show.kind == DialogKind::turntable);
+        break;
     }
   }
   void operator()(const CloseDialog&) const {
@@ -282,7 +289,14 @@ struct Performer {
     if (!state.done) state.document.keep_changes();
   }
   void operator()(const EditExport& edit) const { state.ui.exporting.choices = edit.choices; }
+  void operator()(const EditPicture& edit) const {
+    if (edit.file == state.ui.pictures.file) return;
+    state.ui.pictures.file = edit.file;
+    state.ui.pictures.problem.clear();
+    state.ui.pictures.result.clear();
+  }
   void operator()(const WriteExport& write) const {
+    if (state.ui.shows<PictureDialog>()) return write_picture(write.replace);
     ExportState& exporting = state.ui.exporting;
     std::vector<std::string> standing = standing_files(exporting.choices);
     // Those of the last export are the user's own, of this pot.
@@ -301,17 +315,26 @@ struct Performer {
     state.exporter.write(std::make_shared<const Pot>(state.document.pot_for_file()),
                          exporting.choices);
   }
-  void operator()(const CancelExport&) const { state.exporter.cancel(); }
+  void operator()(const CancelExport&) const {
+    if (state.pictures.busy()) return state.pictures.cancel();
+    state.exporter.cancel();
+  }
   void operator()(const ShowExportFolder&) const {
-    if (state.ui.exporting.written.empty()) return;
-    const auto folder = std::filesystem::path(state.ui.exporting.written.front()).parent_path();
+    const std::vector<std::string>& files = state.ui.exporting.written;
+    const std::string file = state.ui.shows<PictureDialog>() ? state.ui.pictures.written
+                             : files.empty()                 ? std::string()
+                                                             : files.front();
+    if (file.empty()) return;
+    const auto folder = std::filesystem::path(file).parent_path();
     if (!show_folder(folder))
       state.ui.notices.show(Grade::warning,
                             "No file manager is installed. The files are in " +
                                 (folder.empty() ? "the current folder" : folder.string()));
   }
   void operator()(const ChooseExportFolder&) const {
-    const auto start = std::filesystem::path(state.ui.exporting.choices.folder) / "";
+    const std::string& folder = state.ui.shows<PictureDialog>() ? state.ui.pictures.file.folder
+                                                                : state.ui.exporting.choices.folder;
+    const auto start = std::filesystem::path(folder) / "";
     if (!open_desktop_dialog(state, FileDialog::Kind::folder, start))
       note(state, Grade::warning,
            "No file dialog is installed (zenity, kdialog): type the name of the folder", kNoteS);
@@ -359,6 +382,18 @@ struct Performer {
 
   // --- Tool and wheel. ---------------------------------------------------------------------------
   void operator()(const SetToolMode& set) const { state.settings.tool.mode = set.mode; }
+  void operator()(const StepTool& step) const {
+    const ViewModel view = view_model(state);
+    std::vector<const Command*> tools;
+    std::size_t chosen = 0;
+    for (const Command& command : commands()) {
+      if (!std::holds_alternative<SetToolMode>(command.action) || !command.enabled(view)) continue;
+      if (command.checked(view)) chosen = tools.size();
+      tools.push_back(&command);
+    }
+    const std::size_t count = tools.size();
+    (*this)(RunCommand{tools[(chosen + count + static_cast<std::size_t>(step.by)) % count]->id});
+  }
   void operator()(const SetToolShape& set) const { state.settings.tool.shape = set.shape; }
   void operator()(const ScaleTool& scale) const { resize(state.settings.tool, scale.factor); }
   void operator()(const ChangeGap& change) const {
@@ -398,11 +433,15 @@ struct Performer {
     else
       state.scene.stop_shaping();
   }
-  void operator()(const AimTool& aim) const { state.stroke.aim(aim.aim); }
+  void operator()(const AimTool& aim) const {
+    state.stroke.aim(aim.aim);
+    if (aim.gap_mm) state.stroke.close_to(*aim.gap_mm);
+  }
   void operator()(const ReleaseTool&) const { state.stroke.release(); }
 
   // --- The view and the settings. ----------------------------------------------------------------
   void operator()(const LookFrom& look) const { show_from(look.from); }
+  void operator()(const Zoom& zoom) const { state.scene.zoom(zoom.notches); }
   void operator()(const ToggleCut& toggle) const {
     state.scene.cut = state.scene.cut == toggle.cut ? render::Cut::none : toggle.cut;
   }
@@ -513,16 +552,78 @@ struct Performer {
     if (!open_desktop_dialog(state, FileDialog::Kind::save, path))
       state.ui.dialog = SaveDialog{path.string(), std::move(next)};
   }
+  [[nodiscard]] std::string export_name() const {
+    const std::string& scene = state.document.scene().name;
+    const std::filesystem::path& file = state.document.file();
+    return !file.empty() ? file.stem().string() : scene.empty() ? "pot" : scene;
+  }
+  [[nodiscard]] std::string export_folder() const {
+    return state.settings.folder.empty() ? std::filesystem::current_path().string()
+                                         : state.settings.folder;
+  }
+  void back_to_export(const ReplaceDialog& asked) const {
+    if (asked.picture)
+      state.ui.dialog = PictureDialog{};
+    else
+      state.ui.dialog = ExportDialog{};
+  }
+  /// The pot as the view shows it: direction, surface, cut, map.
+  void show_picture(bool turntable) const {
+    state.stroke.release();
+    PictureState& pictures = state.ui.pictures;
+    if (state.pictures.busy()) {  // show its progress
+      state.ui.dialog = PictureDialog{};
+      return;
+    }
+    const Settings& settings = state.settings;
+    const bool first = pictures.file.name.empty() || pictures.file.turntable != turntable;
+    PictureFile file = pictures.file;
+    file.turntable = turntable;
+    if (first) {
+      file.look.size = turntable ? kUsualTurntable : kUsualPicture;
+      file.look.alone = false;
+      file.look.theme = settings.theme;
+    }
+    file.look.material = settings.material;
+    file.look.style = settings.throwing_lines ? render::Style::clay : render::Style::geometry;
+    file.look.section = state.scene.cut != render::Cut::none;
+    const render::Camera& camera = state.scene.camera();
+    // In tenths, to be typed after `render --azimuth` and `--elevation`.
+    const auto degrees = [](double rad) {
+      return 0.1 * std::round(10.0 * glm::degrees(std::remainder(rad, 2.0 * std::numbers::pi)));
+    };
+    file.look.azimuth_deg = degrees(camera.azimuth_rad);
+    file.look.elevation_deg = degrees(camera.elevation_rad);
+    file.wall_map = settings.wall_map;
+    file.process = settings.process;
+    file.name = export_name();
+    file.folder = export_folder();
+    pictures = {.file = std::move(file), .written = {}, .problem = {}, .result = {}};
+    state.ui.dialog = PictureDialog{};
+  }
+  void write_picture(bool replace) const {
+    PictureState& pictures = state.ui.pictures;
+    if (state.pictures.busy()) return;
+    const std::string path = path_of(pictures.file);
+    std::error_code ignored;
+    if (!replace && path != pictures.written && std::filesystem::exists(path, ignored)) {
+      state.log("prompt: replace");
+      state.ui.dialog = ReplaceDialog{replace_question({path}), std::nullopt, true};
+      return;
+    }
+    pictures.written.clear();
+    pictures.problem.clear();
+    pictures.result.clear();
+    state.log("picture started");
+    state.pictures.write(state.document.shared_pot(), pictures.file);
+  }
   void show_export() const {
     state.stroke.release();
     ExportState& exporting = state.ui.exporting;
     ExportChoices& choices = exporting.choices;
     if (choices.name.empty()) choices.process = state.settings.process;
-    const std::string& scene = state.document.scene().name;
-    const std::filesystem::path& file = state.document.file();
-    choices.name = !file.empty() ? file.stem().string() : scene.empty() ? "pot" : scene;
-    choices.folder = state.settings.folder;
-    if (choices.folder.empty()) choices.folder = std::filesystem::current_path().string();
+    choices.name = export_name();
+    choices.folder = export_folder();
     exporting = {.choices = choices, .preview = {}, .problem = {}, .written = {}, .result = {}};
     state.ui.dialog = ExportDialog{};
   }

@@ -46,8 +46,24 @@ bool can_export(View view) {
   return view.ui.shows<ExportDialog>() && !view.writing() && !choices.name.empty() &&
          choices.name.find('/') == std::string::npos && !paths_of(choices).empty();
 }
-bool writing(View view) { return view.writing(); }
-bool has_written(View view) { return !view.ui.exporting.written.empty(); }
+bool can_write_picture(View view) {
+  const std::string& name = view.ui.pictures.file.name;
+  return view.ui.shows<PictureDialog>() && !view.picture_running && !name.empty() &&
+         name.find('/') == std::string::npos;
+}
+bool can_write(View view) { return can_export(view) || can_write_picture(view); }
+bool writing(View view) { return view.writing() || view.picture_running; }
+bool has_written(View view) {
+  return view.ui.shows<PictureDialog>() ? !view.ui.pictures.written.empty()
+                                        : !view.ui.exporting.written.empty();
+}
+bool can_draw(View view) { return view.between_strokes() && PictureWriter::available(); }
+const char* why_no_pictures(View) {
+  return PictureWriter::available()
+             ? nullptr
+             : "A web page cannot write pictures. Open the pot in the program "
+               "for the desktop.";
+}
 bool can_import(View view) {
   const auto* import = std::get_if<ImportDialog>(&view.ui.dialog);
   return import != nullptr && import->made;
@@ -83,6 +99,7 @@ bool has_target(View view) { return view.ui.target != nullptr; }
 bool paused(View view) { return view.stroke.paused(); }
 bool is_light(View view) { return view.settings.theme == Theme::light; }
 bool has_wall_map(View view) { return view.settings.wall_map; }
+bool has_throwing_lines(View view) { return view.settings.throwing_lines; }
 bool has_diagnostics(View view) { return diagnostics_open(view.settings); }
 bool has_hints(View view) { return view.settings.hints; }
 
@@ -108,6 +125,8 @@ const std::array kCommands = {
     C{"file.save", "Save", key(GLFW_KEY_S, kCtrl), kNone, Save{}, between},
     C{"file.save_as", "Save as...", key(GLFW_KEY_S, kCtrlShift), kNone, ShowDialog{Kind::save_file}, between},
     C{"file.export", "Export...", key(GLFW_KEY_E, kCtrl), kNone, ShowDialog{Kind::export_files}, between},
+    C{"file.picture", "Export picture...", key(GLFW_KEY_E, kCtrlShift), kNone, ShowDialog{Kind::picture}, can_draw, nullptr, why_no_pictures},
+    C{"file.turntable", "Export turntable...", kNone, kNone, ShowDialog{Kind::turntable}, can_draw, nullptr, why_no_pictures},
     C{"file.settings", "Settings...", key(GLFW_KEY_COMMA, kCtrl), kNone, ShowDialog{Kind::settings}, always},
     C{"file.quit", "Quit", key(GLFW_KEY_Q, kCtrl), kNone, Quit{}, always},
 
@@ -125,7 +144,7 @@ const std::array kCommands = {
     C{"replace.cancel", "Cancel", kNone, kNone, KeepFiles{}, asks_to_replace},
     C{"recover.take", "Recover the unsaved work", key(GLFW_KEY_R, kCtrl), kNone, RecoverWork{0}, recoverable},
     C{"recover.discard", "Discard the unsaved work", kNone, kNone, DiscardRecoverable{0}, recoverable},
-    C{"export.write", "Export the files", key(GLFW_KEY_ENTER, kCtrl), kNone, WriteExport{}, can_export},
+    C{"export.write", "Export the files", key(GLFW_KEY_ENTER, kCtrl), kNone, WriteExport{}, can_write},
     C{"export.cancel", "Cancel the export", kNone, kNone, CancelExport{}, writing},
     C{"export.folder", "Open the folder", kNone, kNone, ShowExportFolder{}, has_written},
     C{"import.take", "Place on the wheel", key(GLFW_KEY_ENTER, kCtrlShift), kNone, TakeImport{}, can_import},
@@ -145,6 +164,8 @@ const std::array kCommands = {
     C{"tool.needle", "Level the rim", key(GLFW_KEY_L), kNone, SetToolMode{ToolMode::needle}, always, is_mode<ToolMode::needle>},
     C{"tool.wire", "Cut off the wheel", key(GLFW_KEY_K), kNone, SetToolMode{ToolMode::wire}, always, is_mode<ToolMode::wire>},
     C{"tool.trim_foot", "Trim the foot", key(GLFW_KEY_U), kNone, SetToolMode{ToolMode::trim_foot}, always, is_mode<ToolMode::trim_foot>},
+    C{"tool.next", "Next tool", kNone, kNone, StepTool{1}, always},
+    C{"tool.previous", "Previous tool", kNone, kNone, StepTool{-1}, always},
     C{"tool.sphere", "Sphere", key(GLFW_KEY_S), kNone, SetToolShape{Shape::sphere}, always, is_shape<Shape::sphere>},
     C{"tool.ellipse", "Ellipse", key(GLFW_KEY_E), kNone, SetToolShape{Shape::ellipse}, always, is_shape<Shape::ellipse>},
     C{"tool.rib", "Rib", key(GLFW_KEY_R), kNone, SetToolShape{Shape::rib}, always, is_shape<Shape::rib>},
@@ -163,9 +184,12 @@ const std::array kCommands = {
     C{"view.front", "Front", key(GLFW_KEY_1), key(GLFW_KEY_KP_1), LookFrom{ViewFrom::front}, has_work},
     C{"view.right", "Right side", key(GLFW_KEY_3), key(GLFW_KEY_KP_3), LookFrom{ViewFrom::right}, has_work},
     C{"view.top", "Top", key(GLFW_KEY_7), key(GLFW_KEY_KP_7), LookFrom{ViewFrom::top}, has_work},
+    C{"view.nearer", "Nearer", key(GLFW_KEY_PAGE_UP), kNone, Zoom{1.0}, has_work},
+    C{"view.farther", "Farther", key(GLFW_KEY_PAGE_DOWN), kNone, Zoom{-1.0}, has_work},
     C{"view.cut_half", "Cut away a half", key(GLFW_KEY_C), kNone, ToggleCut{render::Cut::half}, has_work, is_cut<render::Cut::half>},
     C{"view.cut_quarter", "Cut away a quarter", key(GLFW_KEY_C, kShift), kNone, ToggleCut{render::Cut::quarter}, has_work, is_cut<render::Cut::quarter>},
     C{"view.wall_map", "Wall thickness map", key(GLFW_KEY_W), kNone, ToggleWallMap{}, always, has_wall_map},
+    C{"view.throwing_lines", "Throwing lines", kNone, kNone, ToggleThrowingLines{}, always, has_throwing_lines},
     C{"view.goal", "Goal", key(GLFW_KEY_O), kNone, TogglePanel{kGoal}, always, is_open<kGoal>},
     C{"view.section", "Section", key(GLFW_KEY_X), kNone, TogglePanel{kSection}, always, is_open<kSection>},
     C{"view.walls", "Walls", kNone, kNone, TogglePanel{kWalls}, always, is_open<kWalls>},

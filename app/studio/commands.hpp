@@ -22,6 +22,8 @@ struct Command {
   Action action;
   bool (*enabled)(const ViewModel&);
   bool (*checked)(const ViewModel&) = nullptr;  ///< state of a command that toggles something
+  /// Why this program never offers the command; null: it does.
+  const char* (*why_not)(const ViewModel&) = nullptr;
 };
 
 /// In the order of the menus.

@@ -3,6 +3,7 @@
 #include "app/cli/memory_room.hpp"
 #include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
+#include "app/cli/report_file.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -18,6 +19,25 @@ glm::dvec2 on_pot(const solid::ProfilePoint& place, double shrinkage) {
   return glm::dvec2(place.rho, place.y) / solid::enlargement(shrinkage);
 }
 
+constexpr std::string_view kReportEnding = ".report.html";
+
+std::vector<cli::PotCopy> copies_in(const solid::ExportRequest& request, const Pot& pot) {
+  std::vector<cli::PotCopy> copies;
+  for (const solid::FileRequest& file : request.files)
+    if (const auto encoding = cli::pot_encoding_of(file.path))
+      copies.push_back(cli::describe_copy(pot, *encoding, file.bytes.size()));
+  return copies;
+}
+
+/// The process and the minimum wall, which files without a solid do not need.
+Result<void> set_walls(const ExportChoices& choices, solid::ExportOptions& options) {
+  if (choices.min_wall_mm > 0.0) options.walls.min_wall_mm = choices.min_wall_mm;
+  if (choices.process.empty()) return {};
+  return solid::read_process(choices.process).map([&](solid::ProcessLimits process) {
+    options.walls.process = std::move(process);
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> paths_of(const ExportChoices& choices) {
@@ -27,14 +47,22 @@ std::vector<std::string> paths_of(const ExportChoices& choices) {
     paths.push_back((std::filesystem::path(choices.folder) / name).string());
   };
   for (const solid::MeshFormat format : choices.meshes) add(solid::facts_of(format).ending);
+  if (choices.step) add(".step");
   if (choices.section) add(".svg");
+  if (choices.dxf) add(".dxf");
+  if (choices.pdf) add(".pdf");
   if (choices.pot) add(".pot.json");
+  if (choices.report) add(kReportEnding);
   return paths;
 }
 
 Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot& pot) {
   solid::ExportRequest request;
   for (const std::string& path : paths_of(choices)) {
+    if (path.ends_with(kReportEnding)) {
+      request.report_path = path;
+      continue;
+    }
     if (const auto encoding = cli::pot_encoding_of(path)) {
       if (auto room = cli::expect_room_to_write(pot.stack.size(), *encoding, path); !room)
         return tl::make_unexpected(room.error());
@@ -49,16 +77,14 @@ Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot&
   solid::ExportOptions& options = request.options;
   options.tolerance_mm = choices.tolerance_mm;
   options.smoothing = choices.smoothing;
+  if (choices.smoothing == solid::Smoothing::fair && !pot.collapse)
+    options.smooth_length_mm = choices.smooth_length_mm;
   options.name = options.source = choices.name;
-  const bool mesh = !choices.meshes.empty();
-  if (mesh || choices.section) options.shrinkage = 0.01 * choices.shrinkage_percent;
-  if (!mesh) return request;
-  if (choices.min_wall_mm > 0.0) options.walls.min_wall_mm = choices.min_wall_mm;
-  if (choices.process.empty()) return request;
-  return solid::read_process(choices.process).map([&](solid::ProcessLimits process) {
-    options.walls.process = std::move(process);
-    return std::move(request);
-  });
+  const bool solid = !choices.meshes.empty() || choices.step;
+  if (solid || choices.section || choices.dxf || choices.pdf || choices.report)
+    options.shrinkage = 0.01 * choices.shrinkage_percent;
+  if (!solid && !choices.report) return request;
+  return set_walls(choices, options).map([&] { return std::move(request); });
 }
 
 std::vector<std::string> standing_files(const ExportChoices& choices) {
@@ -80,6 +106,9 @@ ExportFigures figures_of(const solid::ExportReport& report) {
                         .fallen = report.collapsed.has_value(),
                         .thinnest_mm = report.thinnest_mm(),
                         .thinnest_at_mm = report.walls.thinnest.from.y,
+                        .faired_mm = report.section.smoothed.fairing.length_mm,
+                        .moved_mm = report.section.smoothed.fairing.moved_mm,
+                        .moved_at_mm = report.section.smoothed.fairing.moved_at_mm,
                         .problems = {},
                         .marks = {}};
   for (const solid::FileReport& file : report.files)
@@ -102,6 +131,7 @@ Result<ExportFigures> run_export(const Pot& pot, const ExportChoices& choices, E
           return cli::expect_room("writing meshes", bytes);
         };
         cli::pack_pot(pot, request, thumbnail);
+        if (kind == ExportKind::files) cli::set_report(pot, request, copies_in(request, pot));
         return kind == ExportKind::files ? solid::export_files(pot, request, show_stage)
                                          : solid::preview_export(pot, request, show_stage);
       })

@@ -19,16 +19,20 @@ namespace clay::studio {
 
 inline constexpr double kFinestMm = 0.001, kCoarsestMm = 1.0;  // tolerance [mm]
 inline constexpr double kThickestDemandMm = 20.0;
+inline constexpr double kLongestFairingMm = 50.0;
 
 /// The settings of the export dialog.
 struct ExportChoices {
   std::vector<solid::MeshFormat> meshes = {solid::MeshFormat::three_mf};
-  bool section = false, pot = false;
+  bool step = false;
+  bool section = false, dxf = false, pdf = false;  ///< the drawing; `section`: as SVG
+  bool report = false, pot = false;
   std::string folder, name;
   double tolerance_mm = 0.02;
   solid::Smoothing smoothing = solid::Smoothing::fair;
-  std::string process;       ///< as for --process; empty: none
-  double min_wall_mm = 0.0;  ///< 0: the limit of the process, if there is one
+  double smooth_length_mm = 0.0;  ///< of `fair`; 0: none
+  std::string process;            ///< as for --process; empty: none
+  double min_wall_mm = 0.0;       ///< 0: the limit of the process, if there is one
   double shrinkage_percent = 0.0;
   friend bool operator==(const ExportChoices&, const ExportChoices&) = default;
 };
@@ -51,6 +55,7 @@ struct ExportFigures {
   double diameter_mm = 0.0, height_mm = 0.0, shrinkage = 0.0;
   bool fallen = false;  ///< walls are not measured
   double thinnest_mm = 0.0, thinnest_at_mm = 0.0;
+  double faired_mm = 0.0, moved_mm = 0.0, moved_at_mm = 0.0;  ///< of the fairing, if there is one
   std::vector<std::string> problems;
   std::vector<Mark> marks;  ///< problems with a place
 };

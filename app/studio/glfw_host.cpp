@@ -99,6 +99,26 @@ void GlfwHost::connect() {
   });
 }
 
+void GlfwHost::read_gamepad() {
+  if (auto name = gamepad_.news()) studio_->take(GamepadPlugged{std::move(*name)});
+  if (const auto state = gamepad_.changed()) studio_->take(GamepadChanged{*state});
+}
+
+/// Waits for the next frame. GLFW does not wake for a gamepad, so a connected one is read as often
+/// as there are frames.
+void GlfwHost::wait_for_events() {
+  if (studio_->wakeful()) {
+    glfwPollEvents();
+    return read_gamepad();
+  }
+  const std::int64_t until_ns = clock_.now_ns() + static_cast<std::int64_t>(1e9 * kIdleS);
+  do {
+    glfwWaitEventsTimeout(gamepad_.connected() ? 1e-9 * static_cast<double>(kFrameNs) : kIdleS);
+    read_gamepad();
+  } while (gamepad_.connected() && !studio_->wakeful() && !damaged_ && size_px() == shown_ &&
+           clock_.now_ns() < until_ns);
+}
+
 void GlfwHost::run(Studio& studio, double seconds) {
   studio_ = &studio;
   connect();
@@ -106,10 +126,7 @@ void GlfwHost::run(Studio& studio, double seconds) {
   const std::int64_t end_ns =
       seconds > 0.0 ? next_ns + static_cast<std::int64_t>(1e9 * seconds) : INT64_MAX;
   while (!studio.done() && servo::ForceSignals::asked_to_stop() == 0 && clock_.now_ns() < end_ns) {
-    if (studio.wakeful())
-      glfwPollEvents();
-    else
-      glfwWaitEventsTimeout(kIdleS);
+    wait_for_events();
     const glm::ivec2 size = size_px();
     if (size.x > 0 && size.y > 0) {
       const bool damaged = std::exchange(damaged_, false) || size != std::exchange(shown_, size);

@@ -1,6 +1,7 @@
 #pragma once
 // A window on a screen.
 
+#include "app/studio/glfw_gamepad.hpp"
 #include "app/studio/host.hpp"
 #include "app/studio/studio.hpp"
 #include "claystack/core/result.hpp"
@@ -34,9 +35,12 @@ class GlfwHost final : public Host {
  private:
   explicit GlfwHost(GLFWwindow* window) : window_(window) {}
   void connect();
+  void read_gamepad();
+  void wait_for_events();
 
   GLFWwindow* window_;
   servo::MonotonicClock clock_;
+  GlfwGamepad gamepad_;
   Studio* studio_ = nullptr;
   bool damaged_ = true;  // the screen has lost the last frame
   glm::ivec2 shown_{0};  // size of the last frame

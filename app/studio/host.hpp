@@ -19,6 +19,8 @@ class Host {
   [[nodiscard]] virtual glm::ivec2 size_px() const = 0;
   /// Scale of the screen: 1 at 96 dots per inch.
   [[nodiscard]] virtual float content_scale() const = 0;
+  /// True if fingers touch the screen: controls need room.
+  [[nodiscard]] virtual bool fingers() const { return false; }
   /// Clock of the servo.
   [[nodiscard]] virtual servo::Clock& clock() = 0;
   /// True if that clock runs in real time. Otherwise every run gives the same result: background

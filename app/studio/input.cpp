@@ -26,6 +26,8 @@ constexpr std::array kNamedKeys = {
     NamedKey{"Delete", GLFW_KEY_DELETE},
     NamedKey{"Home", GLFW_KEY_HOME},
     NamedKey{"End", GLFW_KEY_END},
+    NamedKey{"PageUp", GLFW_KEY_PAGE_UP},
+    NamedKey{"PageDown", GLFW_KEY_PAGE_DOWN},
     NamedKey{"Left", GLFW_KEY_LEFT},
     NamedKey{"Right", GLFW_KEY_RIGHT},
     NamedKey{"Up", GLFW_KEY_UP},

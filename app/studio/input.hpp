@@ -2,6 +2,8 @@
 // Input of the window, from GLFW callbacks or from a script, in one queue, so that a script
 // exercises the same handlers as a person. Keys have names: "Ctrl+Shift+Z", "F", "[", "Home".
 
+#include "app/studio/gamepad.hpp"
+
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -19,6 +21,8 @@ enum class MouseButton { left, right, middle };
 
 struct PointerMoved {
   glm::vec2 place_px{0.0f};  ///< of the framebuffer, from its upper left corner
+  /// How hard a pen presses, 0 to 1; none: a mouse or a finger.
+  std::optional<double> strength = std::nullopt;
 };
 struct ButtonChanged {
   MouseButton button = MouseButton::left;
@@ -41,9 +45,16 @@ struct FilesDropped {
   std::vector<std::string> paths;
 };
 struct CloseAsked {};
+/// A gamepad has been connected, or disconnected.
+struct GamepadPlugged {
+  std::string name;  ///< empty: disconnected
+};
+struct GamepadChanged {
+  GamepadState state;
+};
 
 using Input = std::variant<PointerMoved, ButtonChanged, Scrolled, KeyChanged, TextTyped,
-                           FilesDropped, CloseAsked>;
+                           FilesDropped, CloseAsked, GamepadPlugged, GamepadChanged>;
 
 struct KeyChord {
   int key = 0;  ///< GLFW's code; 0: none

@@ -55,10 +55,12 @@ double MouseDevice::overlap_mm2(const glm::dvec3& place_mm) const noexcept {
 
 /// The part of a step that the strength of the hand permits. Along the clay and away from it the
 /// hand is free.
-double MouseDevice::yielding_part(const glm::dvec3& step_mm, double step_s) const noexcept {
+double MouseDevice::yielding_part(const glm::dvec3& step_mm, double step_s,
+                                  double bite_mm) const noexcept {
   if (resistance_.clay == nullptr) return 1.0;
   const Tool& tool = *resistance_.tool;
-  const double permitted = resistance_.bite_mm_s * step_s * (tool.high() - tool.low());
+  const double bite_mm_s = bite_mm * resistance_.wheel_rpm / 60.0;
+  const double permitted = bite_mm_s * step_s * (tool.high() - tool.low());
   const double now = overlap_mm2(place_mm_);
   double part = 1.0;
   constexpr int kHalvings = 5;
@@ -77,7 +79,7 @@ falcon::DeviceSample MouseDevice::read(std::int64_t) noexcept {
     const double step = std::min({far, aim.speed_mm_s * step_s, far * step_s / kLagS});
     if (far > 0.0 && step > 0.0) {
       const glm::dvec3 wanted = way * (step / far);
-      place_mm_ += yielding_part(wanted, step_s) * wanted;
+      place_mm_ += yielding_part(wanted, step_s, aim.bite_mm) * wanted;
     }
     stretch_mm_.store(glm::distance(aim.place_mm, place_mm_), std::memory_order_relaxed);
   }

@@ -22,6 +22,7 @@ inline constexpr double kPressingMmPerS = 80.0, kReachingMmPerS = 400.0;
 struct MouseAim {
   glm::dvec3 place_mm{0.0};  ///< target of the tool, in the frame of the wheel
   double speed_mm_s = kPressingMmPerS;
+  double bite_mm = 0.0;  ///< how far the whole tool may dig in per turn of the wheel
 };
 
 /// The clay that resists the hand.
@@ -29,7 +30,7 @@ struct Resistance {
   const ClayStack* clay =
       nullptr;  ///< of the wheel of the servo, which reads the mouse; null: none
   const Tool* tool = nullptr;
-  double bite_mm_s = 0.0;  ///< how fast the whole tool may dig in
+  double wheel_rpm = 0.0;
 };
 
 class MouseDevice final : public falcon::HapticDevice {
@@ -69,7 +70,8 @@ class MouseDevice final : public falcon::HapticDevice {
                            .half_workspace_mm = glm::dvec3(1000.0),
                            .rate_hz = 1000.0};
   [[nodiscard]] double overlap_mm2(const glm::dvec3& place_mm) const noexcept;
-  [[nodiscard]] double yielding_part(const glm::dvec3& step_mm, double step_s) const noexcept;
+  [[nodiscard]] double yielding_part(const glm::dvec3& step_mm, double step_s,
+                                     double bite_mm) const noexcept;
 
   Snapshot<MouseAim> aim_;
   Resistance resistance_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <utility>
@@ -28,6 +29,11 @@ std::optional<Tool> chosen_tool(const ViewModel& view) {
 render::PotView shown_pot(const ViewModel& view) {
   const render::PotView& pot = view.stroke.view();
   return view.settings.tool.mode == ToolMode::trim_foot ? render::turned(pot) : pot;
+}
+
+ToolSpec pinching(ToolChoice choice) {
+  choice.mode = ToolMode::pinch;
+  return tool_of(choice);
 }
 
 /// The middle of a wall, on the side of the pointer.
@@ -118,8 +124,27 @@ glm::dvec3 SceneView::on_wheel(glm::dvec2 place_mm) const {
   return place_mm.x * render::profile_direction(camera_) + glm::dvec3(0.0, place_mm.y, 0.0);
 }
 
+glm::dvec2 SceneView::in_section(const glm::dvec3& place_mm) const noexcept {
+  return {glm::dot(place_mm, render::profile_direction(camera_)), place_mm.y};
+}
+
 std::optional<glm::dvec2> SceneView::pointed_mm() const {
-  return render::profile_point(camera_, viewport(), glm::dvec2(pointer_px_ - rect_.corner_px));
+  if (led_mm_) return led_mm_;
+  return render::profile_point(camera_, viewport(), glm::dvec2(mouse_px_ - rect_.corner_px));
+}
+
+glm::vec2 SceneView::pointer_px() const noexcept {
+  return led_mm_ ? pixel_of(*led_mm_).value_or(mouse_px_) : mouse_px_;
+}
+
+glm::dvec2 SceneView::free_at(const ViewModel& view, glm::dvec2 place_mm) const {
+  const auto tool = chosen_tool(view);
+  return tool ? free_place(shown_pot(view), *tool, place_mm) : place_mm;
+}
+
+void SceneView::turn(glm::dvec2 by_rad) {
+  const double px_per_rad = viewport().height_px / std::numbers::pi;
+  camera_ = render::orbited(camera_, px_per_rad * by_rad, viewport());
 }
 
 std::optional<glm::vec2> SceneView::pixel_of(glm::dvec2 place_mm) const noexcept {
@@ -128,10 +153,12 @@ std::optional<glm::vec2> SceneView::pixel_of(glm::dvec2 place_mm) const noexcept
   return glm::vec2(*pixel) + rect_.corner_px;
 }
 
-bool SceneView::pointer_moved(const ViewModel& view, glm::vec2 place_px, Actions& actions) {
-  const glm::vec2 by = place_px - pointer_px_;
-  pointer_px_ = place_px;
-  if (drag_ == Drag::none) return rect_.holds(place_px);
+bool SceneView::pointer_moved(const ViewModel& view, const PointerMoved& moved, Actions& actions) {
+  const glm::vec2 by = moved.place_px - mouse_px_;
+  mouse_px_ = moved.place_px;
+  pen_ = moved.strength;
+  led_mm_.reset();
+  if (drag_ == Drag::none) return rect_.holds(mouse_px_);
   drag(view, by, actions);
   return true;
 }
@@ -153,7 +180,7 @@ void SceneView::drag(const ViewModel& view, glm::vec2 by_px, Actions& actions) {
           SetStiffness{std::clamp(view.document.stiffness() * factor, kSoftest, kStiffest)});
       break;
     case Drag::shape:
-      if (const auto place = pointed_mm()) shape_to(view, *place, actions);
+      if (const auto place = pointed_mm()) shape_to(view, *place, {.strength = pen_}, actions);
       break;
     case Drag::none:
       break;
@@ -172,7 +199,7 @@ bool SceneView::button(const ViewModel& view, const ButtonChanged& change, Actio
     drag_ = Drag::none;
     return true;
   }
-  if (!rect_.holds(pointer_px_) || drag_ != Drag::none) return false;
+  if (!rect_.holds(mouse_px_) || drag_ != Drag::none) return false;
   if (change.button == MouseButton::left)
     press(view, (change.mods & kControl) != 0, actions);
   else
@@ -181,40 +208,51 @@ bool SceneView::button(const ViewModel& view, const ButtonChanged& change, Actio
 }
 
 void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
-  const std::size_t before = actions.size();
-  if (const auto pointed = pointed_mm()) shape_from(view, *pointed, inverted, actions);
-  const bool begun = actions.size() > before && std::holds_alternative<PressClay>(actions.back());
+  led_mm_.reset();
+  if (const auto pointed = pointed_mm())
+    shape_from(view, *pointed, {.strength = pen_, .inverted = inverted}, actions);
+  const bool begun = std::ranges::any_of(
+      actions, [](const Action& action) { return std::holds_alternative<PressClay>(action); });
   if (begun) drag_ = Drag::shape;
 }
 
 /// A press on the clay moves the tool to the nearest free place; from there the tool follows the
 /// mouse.
-void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, bool inverted,
+void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, const Grip& grip,
                            Actions& actions) {
   const auto tool = chosen_tool(view);
   if (!tool || !view.document.has_work() || view.stroke.has_device() || view.stroke.paused())
     return;
-  ToolSpec spec = tool_of(view.settings.tool, inverted);
-  const render::PotView pot = shown_pot(view);
-  glm::dvec2 start = free_place(pot, *tool, pointed_mm);
-  double gap_mm = 0.0;
-  if (spec.mode == ToolMode::pinch) {
-    const auto wall = wall_above(pot, *tool, pointed_mm.y);
-    if (!wall) {
-      actions.emplace_back(
-          ShowWarning{"There is no wall here to pinch: open the clay with a press from above "
-                      "first, or point at "
-                      "the wall"});
-      return;
-    }
-    start = pinch_place(*wall, pointed_mm);
-    gap_mm = wall->thickness_mm;
-    if (const double share = view.settings.tool.gap_share; share > 0.0)
-      spec.gap_mm = std::max(kNarrowestGapMm, share * (gap_mm - 2.0 * kClearanceMm));
-  }
+  ToolSpec spec =
+      grip.pinch ? pinching(view.settings.tool) : tool_of(view.settings.tool, grip.inverted);
+  glm::dvec2 start = pointed_mm;
+  pinched_.reset();
+  if (spec.mode != ToolMode::pinch)
+    start = free_place(shown_pot(view), *tool, pointed_mm);
+  else if (!pinch_from(view, *tool, start, spec, actions))
+    return;
   offset_mm_ = start - pointed_mm;
-  actions.emplace_back(
-      PressClay{{spec, view.settings.wheel_rpm, on_wheel(start), view.settings.bite_mm, gap_mm}});
+  actions.emplace_back(PressClay{
+      {spec, view.settings.wheel_rpm, on_wheel(start), pinched_ ? pinched_->wall_mm : 0.0}});
+  strength_ = grip.strength;
+  if (strength_) shape_to(view, pointed_mm, grip, actions);
+}
+
+/// Finds the wall, and completes place and tool.
+bool SceneView::pinch_from(const ViewModel& view, const Tool& tool, glm::dvec2& place_mm,
+                           ToolSpec& spec, Actions& actions) {
+  const auto wall = wall_above(shown_pot(view), tool, place_mm.y);
+  if (!wall) {
+    actions.emplace_back(
+        ShowWarning{"There is no wall here to pinch: open the clay with a press from above first, "
+                    "or point at the wall"});
+    return false;
+  }
+  place_mm = pinch_place(*wall, place_mm);
+  if (const double share = view.settings.tool.gap_share; share > 0.0)
+    spec.gap_mm = std::max(kNarrowestGapMm, share * (wall->thickness_mm - 2.0 * kClearanceMm));
+  pinched_ = {wall->thickness_mm, std::min(wall->thickness_mm, spec.gap_mm.value_or(0.0))};
+  return true;
 }
 
 namespace {
@@ -251,17 +289,26 @@ glm::dvec2 along_wall(const ViewModel& view, glm::dvec2 aim_mm) {
 
 }  // namespace
 
-void SceneView::shape_to(const ViewModel& view, glm::dvec2 pointed_mm, Actions& actions) const {
-  glm::dvec2 aim = pointed_mm + offset_mm_;
-  aim.y = std::max(0.0, aim.y);
-  if (view.settings.tool.mode == ToolMode::pinch) aim = along_wall(view, aim);
+glm::dvec2 SceneView::target_mm(glm::dvec2 pointed_mm) const noexcept {
+  const glm::dvec2 target = pointed_mm + offset_mm_;
+  return {target.x, std::max(0.0, target.y)};
+}
+
+void SceneView::shape_to(const ViewModel& view, glm::dvec2 pointed_mm, const Grip& grip,
+                         Actions& actions) {
+  strength_ = grip.strength;
+  glm::dvec2 aim = target_mm(pointed_mm);
+  if (pinched_) aim = along_wall(view, aim);
   const double speed_mm_s =
       view.stroke.status().contact ? view.settings.pressing_mm_s : kReachingMmPerS;
-  actions.emplace_back(AimTool{{on_wheel(aim), speed_mm_s}});
+  const double bite_mm = strength_ ? bite_at(*strength_) : view.settings.bite_mm;
+  std::optional<double> gap_mm;
+  if (pinched_ && strength_) gap_mm = glm::mix(pinched_->wall_mm, pinched_->gap_mm, *strength_);
+  actions.emplace_back(AimTool{{on_wheel(aim), speed_mm_s, bite_mm}, gap_mm});
 }
 
 bool SceneView::scrolled(float steps) {
-  if (!rect_.holds(pointer_px_)) return false;
+  if (!rect_.holds(mouse_px_)) return false;
   zoom(static_cast<double>(steps));
   return true;
 }
@@ -295,16 +342,15 @@ std::optional<render::ToolView> SceneView::tool_view(const ViewModel& view) cons
   shown.place_mm = status.tool_mm;
   shown.contact = status.contact;
   shown.force_n = status.clay_n;
-  const ToolChoice& choice = view.settings.tool;
-  if (choice.mode == ToolMode::pinch)
-    shown.gap_mm = status.gap_mm > 0.0 ? status.gap_mm : choice.gap_mm;
+  if (view.document.scene().tool.mode == ToolMode::pinch)
+    shown.gap_mm = status.gap_mm > 0.0 ? status.gap_mm : view.settings.tool.gap_mm;
   shown.inside = inside(shown_pot(view), status.tool_mm);
   return shown;
 }
 
 std::optional<render::ToolView> SceneView::hovering_tool(const ViewModel& view,
                                                          const Tool& tool) const {
-  if (!view.ui.shows<NoDialog>() || turning() || !rect_.holds(pointer_px_)) return std::nullopt;
+  if (!view.ui.shows<NoDialog>() || turning() || !rect_.holds(pointer_px())) return std::nullopt;
   const auto pointed = pointed_mm();
   if (!pointed) return std::nullopt;
   const render::PotView pot = shown_pot(view);
@@ -335,6 +381,10 @@ render::Picture SceneView::picture(const ViewModel& view) const {
     picture.pot = render::turned(std::move(picture.pot));
   picture.camera = camera_;
   picture.theme = view.settings.theme;
+  picture.material = view.settings.material;
+  // The map shows the walls as they are.
+  picture.style = view.settings.throwing_lines && !picture.wall_map ? render::Style::clay
+                                                                    : render::Style::geometry;
   picture.cut = cut;
   picture.wheel_turn_rad = turn_rad_;
   if (wheel_radius_mm_ > 0.0) picture.wheel_radius_mm = wheel_radius_mm_;

@@ -22,10 +22,19 @@ struct ViewRect {
   }
 };
 
+/// How a hand holds the tool.
+struct Grip {
+  /// Of the press, 0 (soft) to 1 (firm): the bite, and in a pinch the part of the way that the
+  /// fingers have closed. None: as in the settings.
+  std::optional<double> strength = std::nullopt;
+  bool inverted = false;  ///< trims instead of pressing, and the other way round
+  bool pinch = false;     ///< pinches, whatever the mode
+};
+
 class SceneView {
  public:
   // --- Mouse. A bool result: the view used the event. --------------------------------------------
-  bool pointer_moved(const ViewModel& view, glm::vec2 place_px, Actions& actions);
+  bool pointer_moved(const ViewModel& view, const PointerMoved& moved, Actions& actions);
   bool button(const ViewModel& view, const ButtonChanged& change, Actions& actions);
   bool scrolled(float steps);
   /// The mouse sets the size of the tool, or the stiffness, until a click or Esc.
@@ -39,8 +48,21 @@ class SceneView {
   /// Call if the stroke could not begin.
   void stop_shaping() noexcept { drag_ = Drag::none; }
   /// A stroke from a point (rho, y) [mm] of the section plane, and on to others.
-  void shape_from(const ViewModel& view, glm::dvec2 pointed_mm, bool inverted, Actions& actions);
-  void shape_to(const ViewModel& view, glm::dvec2 pointed_mm, Actions& actions) const;
+  void shape_from(const ViewModel& view, glm::dvec2 pointed_mm, const Grip& grip, Actions& actions);
+  void shape_to(const ViewModel& view, glm::dvec2 pointed_mm, const Grip& grip, Actions& actions);
+  /// Where such a stroke leads the tool.
+  [[nodiscard]] glm::dvec2 target_mm(glm::dvec2 pointed_mm) const noexcept;
+  /// Strength of the press in progress; none: as in the settings.
+  [[nodiscard]] const std::optional<double>& strength() const noexcept { return strength_; }
+
+  // --- The pointer. ------------------------------------------------------------------------------
+  /// The point (rho, y) [mm] of the section plane under it; empty: it points past the plane.
+  [[nodiscard]] std::optional<glm::dvec2> pointed_mm() const;
+  [[nodiscard]] glm::vec2 pointer_px() const noexcept;
+  /// Another hand than the mouse leads the pointer until the mouse moves.
+  void lead(glm::dvec2 place_mm) noexcept { led_mm_ = place_mm; }
+  /// Such a point nearby at which the tool is clear of the clay.
+  [[nodiscard]] glm::dvec2 free_at(const ViewModel& view, glm::dvec2 place_mm) const;
   [[nodiscard]] bool turning() const noexcept { return drag_ == Drag::orbit || drag_ == Drag::pan; }
 
   // --- Camera. -----------------------------------------------------------------------------------
@@ -48,6 +70,8 @@ class SceneView {
   /// Moves back if the rim and 60 mm above it are not in sight.
   void keep_rim_in_view(const render::PotView& pot);
   void zoom(double notches) { camera_ = render::zoomed(camera_, notches); }
+  /// To the right and up.
+  void turn(glm::dvec2 by_rad);
   /// `covered_px`: the height at the foot of the view over which the timeline lies.
   void place(const ViewRect& rect, float covered_px = 0.0f) noexcept {
     rect_ = rect;
@@ -58,6 +82,8 @@ class SceneView {
   [[nodiscard]] render::Viewport viewport() const noexcept;
   /// Pixel of the window for a point (rho, y) [mm] of the section plane.
   [[nodiscard]] std::optional<glm::vec2> pixel_of(glm::dvec2 place_mm) const noexcept;
+  /// A place on the wheel, turned into the section plane.
+  [[nodiscard]] glm::dvec2 in_section(const glm::dvec3& place_mm) const noexcept;
   /// Call once a frame.
   void turn_wheel(const render::PotView& pot, double rad);
 
@@ -70,20 +96,30 @@ class SceneView {
 
  private:
   enum class Drag { none, shape, orbit, pan, size, stiffness };
+  /// The wall where a pinch began, and the gap that it closes to.
+  struct PinchedWall {
+    double wall_mm = 0.0, gap_mm = 0.0;
+  };
   void press(const ViewModel& view, bool inverted, Actions& actions);
+  [[nodiscard]] bool pinch_from(const ViewModel& view, const Tool& tool, glm::dvec2& place_mm,
+                                ToolSpec& spec, Actions& actions);
   void drag(const ViewModel& view, glm::vec2 by_px, Actions& actions);
   void lift_foot();
   [[nodiscard]] float free_height_px() const noexcept;
   [[nodiscard]] std::optional<render::ToolView> hovering_tool(const ViewModel& view,
                                                               const Tool& tool) const;
   [[nodiscard]] glm::dvec3 on_wheel(glm::dvec2 place_mm) const;
-  [[nodiscard]] std::optional<glm::dvec2> pointed_mm() const;
 
   ViewRect rect_;
   render::Camera camera_;
   Drag drag_ = Drag::none;
-  glm::vec2 pointer_px_{-1.0f};
-  glm::dvec2 offset_mm_{0.0};      // offset from the pointer to the tool since the press
+  glm::vec2 mouse_px_{-1.0f};
+  std::optional<double> pen_;         // strength of the pen; none: a mouse
+  std::optional<glm::dvec2> led_mm_;  // the place of another pointer
+  // Since the press: its strength, and the offset from the pointer to the tool.
+  std::optional<double> strength_;
+  glm::dvec2 offset_mm_{0.0};
+  std::optional<PinchedWall> pinched_;
   ToolChoice tool_before_;         // value before a change
   double stiffness_before_ = 0.0;  // value before a change
   double turn_rad_ = 0.0, wheel_radius_mm_ = 0.0;

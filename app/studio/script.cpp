@@ -5,6 +5,7 @@
 #include "claystack/core/atomic_file.hpp"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
@@ -32,6 +33,11 @@ constexpr std::array kForms = {
     Form{"press", 1, 1, "press left|right|middle"},
     Form{"release", 1, 1, "release left|right|middle"},
     Form{"hold", 0, 3, "hold [Ctrl] [Shift] [Alt]"},
+    Form{"pressure", 1, 3, "pressure PART|none [over SECONDS]"},
+    Form{"gamepad", 1, 1, "gamepad NAME|none"},
+    Form{"stick", 3, 5, "stick left|right X Y [over SECONDS]"},
+    Form{"trigger", 2, 4, "trigger left|right PART [over SECONDS]"},
+    Form{"pad", 1, 1, "pad BUTTON"},
     Form{"scroll", 1, 1, "scroll STEPS"},
     Form{"key", 1, 1, "key CHORD"},
     Form{"type", 1, 1, "type TEXT"},
@@ -98,6 +104,41 @@ bool is_number(std::string_view text, double least) {
   return number && *number >= least && *number <= kLongestWaitS;
 }
 
+/// The end of a command: `over SECONDS`, from this word on, or nothing.
+bool is_over(const std::vector<std::string>& words, std::size_t from) {
+  return words.size() == from ||
+         (words.size() == from + 2 && words[from] == "over" && is_number(words[from + 1], 0.0));
+}
+double over_s(const std::vector<std::string>& words, std::size_t from) {
+  return words.size() > from ? *number_of(words[from + 1]) : 0.0;
+}
+
+bool is_part(std::string_view text, double least) {
+  const auto number = number_of(text);
+  return number && *number >= least && *number <= 1.0;
+}
+
+/// The same for the commands of pens and gamepads.
+std::string fault_of_hand(const std::vector<std::string>& words) {
+  const std::string_view command = words[0];
+  const auto found = [&](std::string_view what, std::size_t word) {
+    return fmt::format("expected {}, found {}", what, words[word]);
+  };
+  if (command == "pad" && !pad_button_of(words[1])) return found("a button of a gamepad", 1);
+  if (command == "pressure") {
+    if (words[1] != "none" && !is_part(words[1], 0.0)) return found("0 to 1 or none", 1);
+    if (!is_over(words, 2)) return found("over SECONDS", 2);
+  }
+  if (command != "stick" && command != "trigger") return {};
+  if (words[1] != "left" && words[1] != "right") return found("left or right", 1);
+  const bool stick = command == "stick";
+  const std::size_t numbers = stick ? 2 : 1;
+  for (std::size_t word = 2; word < 2 + numbers; ++word)
+    if (!is_part(words[word], stick ? -1.0 : 0.0)) return found(stick ? "-1 to 1" : "0 to 1", word);
+  if (!is_over(words, 2 + numbers)) return found("over SECONDS", 2 + numbers);
+  return {};
+}
+
 /// What is wrong with the arguments of a command; empty: nothing. Their number is right.
 std::string fault_of(const std::vector<std::string>& words) {
   const std::string_view command = words[0];
@@ -107,8 +148,7 @@ std::string fault_of(const std::vector<std::string>& words) {
   if (command == "move" || command == "point") {
     if (!number_of(words[1]) || !number_of(words[2]))
       return fmt::format("expected two numbers, found {} {}", words[1], words[2]);
-    const bool over = words.size() == 5 && words[3] == "over" && is_number(words[4], 0.0);
-    if (words.size() > 3 && !over) return expected("over SECONDS", 3);
+    if (!is_over(words, 3)) return expected("over SECONDS", 3);
   }
   if ((command == "press" || command == "release") && !button_of(words[1]))
     return expected("left, right or middle");
@@ -120,7 +160,7 @@ std::string fault_of(const std::vector<std::string>& words) {
   if (command == "key" && !chord_of(words[1])) return expected("a key");
   if (command == "do" && find_command(words[1]) == nullptr) return expected("an action");
   if (command == "open" && words.size() == 3 && words[2] != "fails") return expected("fails", 2);
-  if (command != "expect") return {};
+  if (command != "expect") return fault_of_hand(words);
   if (!is_fact(words[1])) return expected("a fact");
   const bool limit = words.size() == 4;
   if (limit && ((words[2] != "below" && words[2] != "above") || !number_of(words[3])))
@@ -195,10 +235,25 @@ Result<void> ScriptRunner::move(glm::vec2 to_px, double seconds) {
   const int steps = std::max(1, static_cast<int>(std::ceil(seconds / kFrameS)));
   for (int i = 1; i <= steps; ++i) {
     pointer_px_ = glm::mix(from, to_px, static_cast<float>(i) / static_cast<float>(steps));
-    studio_.take(PointerMoved{pointer_px_});
+    studio_.take(PointerMoved{pointer_px_, pressure_});
     frames(1);
   }
   return {};
+}
+
+void ScriptRunner::drive(const GamepadState& to, double seconds) {
+  const GamepadState from = pad_;
+  pad_ = to;
+  const int steps = std::max(1, static_cast<int>(std::ceil(seconds / kFrameS)));
+  for (int i = 1; i <= steps; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(steps);
+    studio_.take(
+        GamepadChanged{{glm::mix(from.left_stick, to.left_stick, part),
+                        glm::mix(from.right_stick, to.right_stick, part),
+                        glm::mix(from.left_trigger, to.left_trigger, part),
+                        glm::mix(from.right_trigger, to.right_trigger, part), to.buttons}});
+    frames(1);
+  }
 }
 
 Result<void> ScriptRunner::screenshot(const std::string& path) {
@@ -211,21 +266,16 @@ Result<void> ScriptRunner::screenshot(const std::string& path) {
 Result<void> ScriptRunner::act(const Words& words) {
   using Verb = Result<void> (ScriptRunner::*)(const Words&);
   static constexpr std::array<std::pair<std::string_view, Verb>, kForms.size()> kVerbs = {{
-      {"move", &ScriptRunner::point},
-      {"point", &ScriptRunner::point},
-      {"press", &ScriptRunner::button},
-      {"release", &ScriptRunner::button},
-      {"hold", &ScriptRunner::hold},
-      {"scroll", &ScriptRunner::scroll},
-      {"key", &ScriptRunner::key},
-      {"type", &ScriptRunner::type},
-      {"do", &ScriptRunner::run_command},
-      {"open", &ScriptRunner::open},
-      {"save", &ScriptRunner::save},
-      {"close", &ScriptRunner::close},
-      {"wait", &ScriptRunner::wait},
-      {"screenshot", &ScriptRunner::picture},
-      {"expect", &ScriptRunner::expect},
+      {"move", &ScriptRunner::point},         {"point", &ScriptRunner::point},
+      {"press", &ScriptRunner::button},       {"release", &ScriptRunner::button},
+      {"hold", &ScriptRunner::hold},          {"pressure", &ScriptRunner::pressure},
+      {"gamepad", &ScriptRunner::gamepad},    {"stick", &ScriptRunner::stick},
+      {"trigger", &ScriptRunner::trigger},    {"pad", &ScriptRunner::pad_button},
+      {"scroll", &ScriptRunner::scroll},      {"key", &ScriptRunner::key},
+      {"type", &ScriptRunner::type},          {"do", &ScriptRunner::run_command},
+      {"open", &ScriptRunner::open},          {"save", &ScriptRunner::save},
+      {"close", &ScriptRunner::close},        {"wait", &ScriptRunner::wait},
+      {"screenshot", &ScriptRunner::picture}, {"expect", &ScriptRunner::expect},
   }};
   const auto* verb = std::ranges::find(kVerbs, std::string_view(words.front()),
                                        &std::pair<std::string_view, Verb>::first);
@@ -233,8 +283,55 @@ Result<void> ScriptRunner::act(const Words& words) {
 }
 
 Result<void> ScriptRunner::point(const Words& words) {
-  const double seconds = words.size() > 3 ? *number_of(words[4]) : 0.0;
-  return place_of(words).and_then([&](glm::vec2 to) { return move(to, seconds); });
+  return place_of(words).and_then([&](glm::vec2 to) { return move(to, over_s(words, 3)); });
+}
+
+/// A pen reports its pressure with its place.
+Result<void> ScriptRunner::pressure(const Words& words) {
+  const double from = pressure_.value_or(0.0);
+  if (words[1] == "none") {
+    pressure_.reset();
+    return move(pointer_px_, 0.0);
+  }
+  const double to = *number_of(words[1]);
+  const int steps = std::max(1, static_cast<int>(std::ceil(over_s(words, 2) / kFrameS)));
+  for (int i = 1; i <= steps; ++i) {
+    pressure_ = glm::mix(from, to, static_cast<double>(i) / static_cast<double>(steps));
+    if (auto moved = move(pointer_px_, 0.0); !moved) return moved;
+  }
+  return {};
+}
+
+Result<void> ScriptRunner::gamepad(const Words& words) {
+  pad_ = {};
+  studio_.take(GamepadPlugged{words[1] == "none" ? std::string() : words[1]});
+  frames(1);
+  return {};
+}
+
+Result<void> ScriptRunner::stick(const Words& words) {
+  GamepadState to = pad_;
+  glm::dvec2& moved = words[1] == "left" ? to.left_stick : to.right_stick;
+  moved = glm::dvec2(*number_of(words[2]), *number_of(words[3]));
+  drive(to, over_s(words, 4));
+  return {};
+}
+
+Result<void> ScriptRunner::trigger(const Words& words) {
+  GamepadState to = pad_;
+  (words[1] == "left" ? to.left_trigger : to.right_trigger) = *number_of(words[2]);
+  drive(to, over_s(words, 3));
+  return {};
+}
+
+/// Presses and releases a button.
+Result<void> ScriptRunner::pad_button(const Words& words) {
+  GamepadState pressed = pad_;
+  pressed.buttons |= bit_of(*pad_button_of(words[1]));
+  const GamepadState released = pad_;
+  drive(pressed, 0.0);
+  drive(released, 0.0);
+  return {};
 }
 
 Result<void> ScriptRunner::button(const Words& words) {

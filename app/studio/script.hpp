@@ -42,6 +42,11 @@ class ScriptRunner {
   Result<void> point(const Words& words);
   Result<void> button(const Words& words);
   Result<void> hold(const Words& words);
+  Result<void> pressure(const Words& words);
+  Result<void> gamepad(const Words& words);
+  Result<void> stick(const Words& words);
+  Result<void> trigger(const Words& words);
+  Result<void> pad_button(const Words& words);
   Result<void> scroll(const Words& words);
   Result<void> key(const Words& words);
   Result<void> type(const Words& words);
@@ -55,11 +60,15 @@ class ScriptRunner {
   void frames(int count);
   [[nodiscard]] Result<glm::vec2> place_of(const Words& words) const;
   Result<void> move(glm::vec2 to_px, double seconds);
+  /// Sends a gamepad that goes to this state.
+  void drive(const GamepadState& to, double seconds);
 
   OffscreenHost& host_;
   Studio& studio_;
   glm::vec2 pointer_px_{0.0f};
-  unsigned mods_ = 0;  // modifier keys held during mouse events
+  unsigned mods_ = 0;               // modifier keys held during mouse events
+  std::optional<double> pressure_;  // of a pen; none: a mouse
+  GamepadState pad_;
 };
 
 }  // namespace clay::studio

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace clay::studio {
 namespace {
@@ -16,9 +17,18 @@ std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 /// In the order of the alternatives of Dialog.
 const char* name_of(const Dialog& dialog) {
   constexpr std::array<const char*, std::variant_size_v<Dialog>> kNames = {
-      "none", "gallery", "shortcuts", "quit",     "open",
-      "save", "export",  "import",    "settings", "replace"};
+      "none",   "gallery", "shortcuts", "quit",    "open",   "save",
+      "export", "import",  "settings",  "replace", "picture"};
   return kNames[dialog.index()];
+}
+
+/// Place of the tool in the section plane; between strokes that of the pointer.
+std::string place_text(const AppState& state, double (*part)(glm::dvec2)) {
+  const auto& status = state.stroke.status();
+  const auto place = state.stroke.throwing() && status.ticks > 0
+                         ? std::optional(state.scene.in_section(status.tool_mm))
+                         : state.scene.pointed_mm();
+  return place ? fmt::format("{}", part(*place)) : std::string();
 }
 
 struct Fact {
@@ -74,9 +84,29 @@ const std::array kFacts = {
     Fact{"problem",
          [](const AppState& s) {
            const auto* import = std::get_if<ImportDialog>(&s.ui.dialog);
-           return import != nullptr ? import->problem : s.ui.exporting.problem;
+           if (import != nullptr) return import->problem;
+           return s.ui.shows<PictureDialog>() ? s.ui.pictures.problem : s.ui.exporting.problem;
          }},
     Fact{"closed", [](const AppState& s) { return yes_or_no(s.done); }},
+    Fact{"gamepad",
+         [](const AppState& s) { return s.gamepad.name().empty() ? "none" : s.gamepad.name(); }},
+    Fact{"strength",
+         [](const AppState& s) {
+           return s.stroke.throwing() && s.scene.strength() ? fmt::format("{}", *s.scene.strength())
+                                                            : std::string("none");
+         }},
+    Fact{"pull_mm", [](const AppState& s) { return fmt::format("{}", s.stroke.stretch_mm()); }},
+    Fact{"gap_mm", [](const AppState& s) { return fmt::format("{}", s.stroke.status().gap_mm); }},
+    Fact{"tool_rho_mm",
+         [](const AppState& s) { return place_text(s, [](glm::dvec2 at) { return at.x; }); }},
+    Fact{"tool_y_mm",
+         [](const AppState& s) { return place_text(s, [](glm::dvec2 at) { return at.y; }); }},
+    Fact{"azimuth_deg",
+         [](const AppState& s) {
+           return fmt::format("{}", glm::degrees(s.scene.camera().azimuth_rad));
+         }},
+    Fact{"distance_mm",
+         [](const AppState& s) { return fmt::format("{}", s.scene.camera().distance_mm); }},
     Fact{"device", [](const AppState& s) { return s.stroke.device_name(); }},
     Fact{"force",
          [](const AppState& s) { return s.ui.arm.guard.empty() ? "none" : s.ui.arm.guard; }},

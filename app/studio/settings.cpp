@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -29,6 +30,12 @@ constexpr std::array<std::string_view, 7> kModes = {"press",  "trim", "pinch",  
 constexpr std::array kModeValues = {ToolMode::press,    ToolMode::trim,   ToolMode::pinch,
                                     ToolMode::smooth,   ToolMode::needle, ToolMode::wire,
                                     ToolMode::trim_foot};
+
+constexpr auto kMaterialIds = [] {
+  std::array<std::string_view, kMaterials.size()> ids;
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = kMaterials[i].id;
+  return ids;
+}();
 
 template <class E, std::size_t N>
 void choice(PlainFields& io, std::string_view name, E& value,
@@ -73,6 +80,8 @@ void describe(PlainFields& io, Settings& s) {
   io.number("goal_height_mm", s.goal.height_mm, 0.0, kMostGoalMm);
   io.number("goal_diameter_mm", s.goal.diameter_mm, 0.0, kMostGoalMm);
   io.number("goal_shrinkage_percent", s.goal.shrinkage_percent, 0.0, kMostShrinkagePercent);
+  choice(io, "material", s.material, kMaterialIds, kMaterials);
+  io.flag("throwing_lines", s.throwing_lines);
   io.number("bite_mm", s.bite_mm, kSoftestBiteMm, kFirmestBiteMm);
 }
 
@@ -95,6 +104,10 @@ void put_first(std::vector<std::string>& names, const std::string& name, std::si
 }
 
 }  // namespace
+
+double bite_at(double strength) noexcept {
+  return kSoftestBiteMm * std::pow(kFirmestBiteMm / kSoftestBiteMm, std::clamp(strength, 0.0, 1.0));
+}
 
 void remember(Settings& settings, const std::filesystem::path& path) {
   const std::string name = whole_name(path);

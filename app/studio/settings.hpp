@@ -6,6 +6,7 @@
 #include "app/studio/tool_choice.hpp"
 #include "app/studio/units.hpp"
 #include "claystack/core/result.hpp"
+#include "core/material.hpp"
 
 #include <filesystem>
 #include <map>
@@ -18,6 +19,8 @@ namespace clay::studio {
 inline constexpr double kSlowestHandMmPerS = 10.0, kFastestHandMmPerS = 200.0;
 /// How far the mouse digs the tool into the clay per turn of the wheel at most [mm].
 inline constexpr double kSoftestBiteMm = 0.5, kFirmestBiteMm = 20.0, kUsualBiteMm = 8.0;
+/// The bite of a press of this strength, 0 (soft) to 1 (firm).
+[[nodiscard]] double bite_at(double strength) noexcept;
 inline constexpr std::size_t kMostRecent = 8, kMostProcesses = 4;
 inline constexpr double kSlowestRpm = 20.0, kFastestRpm = 240.0;
 
@@ -27,9 +30,11 @@ struct Settings {
   LengthUnit unit = LengthUnit::mm;
   double wheel_rpm = 120.0;  ///< kSlowestRpm to kFastestRpm
   ToolChoice tool;
-  bool wall_map = false;      ///< show wall thickness as colours on the pot
-  bool full_section = false;  ///< show both halves of the section
-  std::string process;        ///< process for walls and exports: a name or a file; empty: none
+  bool wall_map = false;       ///< show wall thickness as colours on the pot
+  Material material = kWet;    ///< what the pot seems to be made of
+  bool throwing_lines = true;  ///< show lines and specks, which are not in the pot
+  bool full_section = false;   ///< show both halves of the section
+  std::string process;         ///< process for walls and exports: a name or a file; empty: none
   std::vector<std::string> processes;  ///< custom process files, newest first
   PotGoal goal;                        ///< what the pot shall become
   bool hints = true;                   ///< the first-run hint has not been closed yet

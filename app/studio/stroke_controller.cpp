@@ -37,7 +37,7 @@ Result<void> StrokeController::press(const MousePress& press) {
   gap_mm_ = std::max(closed_gap_mm_, press.gap_mm);
   settings.gap_mm = gap_mm_;
   mouse_.begin_at(press.place_mm);
-  bite_mm_s_ = hand_is_free(press.tool.mode) ? 0.0 : press.bite_mm * press.wheel_rpm / 60.0;
+  resisting_rpm_ = hand_is_free(press.tool.mode) ? 0.0 : press.wheel_rpm;
   auto begun = begin_session(scene, mouse_, settings);
   if (begun) document_.set_scene(scene);
   return begun;
@@ -78,8 +78,8 @@ Result<void> StrokeController::start_servo(const SceneSpec& scene, falcon::Hapti
     (void)document_.end_stroke(std::nullopt, history::Recording::one_stroke);  // adds none
     return tl::make_unexpected(live.error());
   }
-  if (&device == &mouse_ && bite_mm_s_ > 0.0)
-    mouse_.meet({&wheel_->stack(), &wheel_->plan().tool, bite_mm_s_});
+  if (&device == &mouse_ && resisting_rpm_ > 0.0)
+    mouse_.meet({&wheel_->stack(), &wheel_->plan().tool, resisting_rpm_});
   live_.emplace(std::move(*live));
   live_->start(!threads_                ? servo::Pace::stepped
                : device.info().can_push ? servo::Pace::real_time
@@ -169,9 +169,9 @@ void StrokeController::advance(std::int64_t now_ns) {
   if (!live_ && device_waits_ && document_.has_work() && !document_.pot().collapse)
     begin_with_device();
   if (!live_) return;
-  if (gap_mm_ > closed_gap_mm_) {
-    const double elapsed_s = 1e-9 * static_cast<double>(now_ns - last_ns_);
-    gap_mm_ = std::max(closed_gap_mm_, gap_mm_ - kClosingMmPerS * elapsed_s);
+  if (gap_mm_ != closed_gap_mm_) {
+    const double step_mm = kClosingMmPerS * 1e-9 * static_cast<double>(now_ns - last_ns_);
+    gap_mm_ = std::clamp(closed_gap_mm_, gap_mm_ - step_mm, gap_mm_ + step_mm);
     command({servo::CommandKind::gap, gap_mm_});
   }
   last_ns_ = now_ns;

@@ -39,7 +39,6 @@ struct MousePress {
   ToolSpec tool;
   double wheel_rpm = 120.0;
   glm::dvec3 place_mm{0.0};  ///< start position on the wheel, clear of the clay
-  double bite_mm = 0.0;  ///< how far the tool digs in per turn of the wheel at most; 0: no limit
   double gap_mm =
       0.0;  ///< gap at the start of a pinch, as wide as the wall; it closes to the gap of the tool
 };
@@ -57,6 +56,8 @@ class StrokeController {
   /// Begins a stroke of the mouse, unless a device is in use.
   Result<void> press(const MousePress& press);
   void aim(const MouseAim& aim) noexcept { mouse_.aim(aim); }
+  /// The fingers of a pinch move to this gap, at their speed.
+  void close_to(double gap_mm) noexcept { closed_gap_mm_ = gap_mm; }
   void command(const servo::Command& command) noexcept;
   /// A pause separates tool and clay, in this stroke and in those that follow.
   void pause(bool on) noexcept;
@@ -132,8 +133,8 @@ class StrokeController {
   render::PotView view_;  // during a stroke
   double crown_mm_ = 0.0;
   StrokeNews news_;
-  double bite_mm_s_ = 0.0;                     // of the mouse
-  double gap_mm_ = 0.0, closed_gap_mm_ = 0.0;  // for a pinch that closes
+  double resisting_rpm_ = 0.0;  // speed of the wheel whose clay resists the mouse; 0: none does
+  double gap_mm_ = 0.0, closed_gap_mm_ = 0.0;  // of a pinch of the mouse: now, and where it goes
   std::int64_t last_ns_ = 0;                   // time of the previous frame
   std::int64_t measured_ns_ = 0;
   std::uint64_t measured_ticks_ = 0;

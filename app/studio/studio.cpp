@@ -21,7 +21,8 @@ namespace clay::studio {
 namespace {
 
 constexpr float kColumnEm = 16.0f, kNarrowestViewEm = 20.0f;
-constexpr double kSpinUpS = 0.6;  // time of the wheel between rest and full speed
+constexpr float kBelowPart = 0.42f;  // of the height: the context below the view of a narrow window
+constexpr double kSpinUpS = 0.6;     // time of the wheel between rest and full speed
 constexpr double kLongestFrameS = 0.1;
 constexpr double kSettledS = 0.15;  // after this time without a change, the view is at rest
 
@@ -76,14 +77,15 @@ Studio::~Studio() {
 }
 
 bool Studio::wakeful() const noexcept {
-  return moving() || fine_ != kFineness[0] || awake_frames_ > 0 || state_.readings.checking() ||
-         state_.ui.thumbs_missing || state_.guide.busy() || state_.exporter.busy() ||
-         state_.file_dialog.open();
+  return !input_.empty() || moving() || fine_ != kFineness[0] || awake_frames_ > 0 ||
+         state_.readings.checking() || state_.ui.thumbs_missing || state_.guide.busy() ||
+         state_.exporter.busy() || state_.pictures.busy() || state_.file_dialog.open();
 }
 
 bool Studio::moving() const noexcept {
   return state_.stroke.throwing() || state_.guide.demonstration() != Demonstration::none ||
-         spin_ > 0.0 || state_.scene.turning() || state_.fall.running() ||
+         spin_ > 0.0 || state_.scene.turning() || state_.gamepad.moving() ||
+         state_.fall.running() ||
          (state_.document.scrubbing() && ImGui::IsMouseDown(ImGuiMouseButton_Left));
 }
 
@@ -124,7 +126,7 @@ bool Studio::frame(Painting painting) {
 }
 
 void Studio::restyle() {
-  state_.ui.fonts = apply_style(state_.settings.theme, state_.scale());
+  state_.ui.fonts = apply_style(state_.settings.theme, state_.scale(), state_.host.fingers());
   ImGui_ImplOpenGL3_DestroyFontsTexture();
   ImGui_ImplOpenGL3_CreateFontsTexture();
   state_.ui.restyle = false;
@@ -177,7 +179,12 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   const float column = std::round(kColumnEm * em), strip = strip_width();
   const float left = size.x - strip >= kNarrowestViewEm * em ? strip : 0.0f;
   float right = size.x - left - column >= kNarrowestViewEm * em ? column : 0.0f;
-  if (left > 0.0f) draw_strip(model, actions, {0.0f, top}, {left, height});
+  const float below =
+      right > 0.0f || !below_open(model.settings) ? 0.0f : std::round(kBelowPart * height);
+  if (left > 0.0f) draw_strip(model, actions, {0.0f, top}, {left, height}, right == 0.0f);
+  if (below > 0.0f)
+    draw_column(model, actions, Column::context, {left, top + height - below},
+                {size.x - left, below});
   if (right > 0.0f)
     draw_column(model, actions, Column::context, {size.x - right, top}, {right, height});
   if (diagnostics_open(model.settings) && size.x - left - right - column > 0.0f) {
@@ -186,23 +193,23 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   }
   draw_status_bar(model, {0.0f, size.y - status}, {size.x, status});
   const float wide = std::max(1.0f, size.x - left - right);
-  const float timeline = timeline_height(model, {wide, height});
-  const ViewRect view{{left, top}, {wide, height}};
-  const ViewRect free{{left, top}, {wide, height - timeline}};  // of the timeline
+  const float tall = height - below, timeline = timeline_height(model, {wide, tall});
+  const ViewRect view{{left, top}, {wide, tall}};
+  const ViewRect free{{left, top}, {wide, tall - timeline}};  // of the timeline
   if (timeline > 0.0f)
-    draw_timeline(model, actions, {left, top + height - timeline}, {wide, timeline});
+    draw_timeline(model, actions, {left, top + tall - timeline}, {wide, timeline});
   const bool first = state_.scene.rect().size_px.x <= 1.0f;
   state_.scene.place(view, timeline);
   if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
   draw_target(model, view);
-  draw_marks(model, view);
+  const float verdict = draw_verdict(model, view);
+  draw_marks(model, view, verdict);
   draw_path(model, view);
   draw_at_tool(model, view);
   draw_pause(model, view);
-  draw_export_marks(model, view);
+  draw_export_marks(model, view, verdict);
   draw_hint(model, actions, free);
   draw_guide(model, actions, free);
-  draw_verdict(model, view);
   draw_dialog(model, actions, view);
   draw_banner(model, actions, view);
 }

@@ -97,7 +97,7 @@ class Studio {
   [[nodiscard]] const AppState& state() const noexcept { return state_; }
   [[nodiscard]] const FrameTimes& frame_times() const noexcept { return times_; }
   [[nodiscard]] bool done() const noexcept { return state_.done; }
-  /// True if the next frame differs from this one even without input.
+  /// True if the next frame differs from this one even without further input.
   [[nodiscard]] bool wakeful() const noexcept;
 
  private:
@@ -109,6 +109,10 @@ class Studio {
   void build_frame(double elapsed_s);
   void apply(const Input& input);
   void key(const KeyChanged& change);
+  void plug_gamepad(const std::string& name);
+  void gamepad(const GamepadState& pad);
+  void pad_button(const PadBinding& binding, bool down);
+  [[nodiscard]] int key_that_chooses() const;
   void name_window();
   void turn_wheel(double elapsed_s);
   void lay_out(const ViewModel& model, Actions& actions);
@@ -124,6 +128,7 @@ class Studio {
   std::optional<render::Painter> painter_;
   std::optional<render::Canvas> canvas_;
   std::deque<Input> input_;
+  std::array<int, kPadButtons> pad_keys_{};  // the key that each button holds down; 0: none
   std::int64_t moved_ns_ = 0;  // arrival of the first motion that no frame shows yet; 0: none
   std::string title_;
   double last_s_ = 0.0;

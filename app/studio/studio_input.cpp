@@ -81,8 +81,9 @@ void Studio::handle_input() {
   while (!input_.empty()) {
     const Input& next = input_.front();
     const bool is_move = std::holds_alternative<PointerMoved>(next);
-    const bool is_press =
-        std::holds_alternative<ButtonChanged>(next) || std::holds_alternative<KeyChanged>(next);
+    const bool is_press = std::holds_alternative<ButtonChanged>(next) ||
+                          std::holds_alternative<KeyChanged>(next) ||
+                          std::holds_alternative<GamepadChanged>(next);
     if ((is_press && (pressed || moved)) || (is_move && pressed)) return;
     moved = moved || is_move;
     pressed = pressed || is_press;
@@ -100,7 +101,7 @@ void Studio::apply(const Input& input) {
   const bool view = state_.ui.shows<NoDialog>() && !io.WantCaptureMouse;
   if (const auto* moved = std::get_if<PointerMoved>(&input)) {
     io.MousePos = {moved->place_px.x, moved->place_px.y};
-    state_.scene.pointer_moved(model, moved->place_px, actions);
+    state_.scene.pointer_moved(model, *moved, actions);
   } else if (const auto* change = std::get_if<ButtonChanged>(&input)) {
     // A press in the view ends a demonstration.
     if (view && change->down && change->button == MouseButton::left)
@@ -119,8 +120,54 @@ void Studio::apply(const Input& input) {
     if (!files->paths.empty()) actions.emplace_back(OpenFile{files->paths.front()});
   } else if (std::holds_alternative<CloseAsked>(input)) {
     actions.emplace_back(RunCommand{"file.quit"});
+  } else if (const auto* plugged = std::get_if<GamepadPlugged>(&input)) {
+    plug_gamepad(plugged->name);
+  } else if (const auto* pad = std::get_if<GamepadChanged>(&input)) {
+    gamepad(pad->state);
   }
   apply_all(state_, actions);
+}
+
+void Studio::plug_gamepad(const std::string& name) {
+  constexpr double kNoteS = 6.0;
+  gamepad({});  // releases all
+  const std::string lost = state_.gamepad.name();
+  state_.gamepad.plug(name);
+  state_.log(name.empty() ? "gamepad disconnected" : "gamepad: " + name);
+  if (name.empty())
+    note(state_, Grade::note, lost + " is disconnected", kNoteS);
+  else
+    note(state_, Grade::note, name + " is connected: F1 lists what it does", kNoteS);
+}
+
+void Studio::gamepad(const GamepadState& pad) {
+  const unsigned changed = state_.gamepad.pad().buttons ^ pad.buttons;
+  state_.gamepad.take(pad);
+  for (const PadBinding& binding : pad_bindings())
+    if ((changed & bit_of(binding.button)) != 0)
+      pad_button(binding, (pad.buttons & bit_of(binding.button)) != 0);
+}
+
+/// In menus and dialogs a button is a key, otherwise a command.
+void Studio::pad_button(const PadBinding& binding, bool down) {
+  int& held = pad_keys_[static_cast<std::size_t>(binding.button)];
+  if (!down) {
+    if (held != 0) key({std::exchange(held, 0), false, false, kNoMods});
+    return;
+  }
+  if (!menu_open() && state_.ui.shows<NoDialog>()) {
+    (void)run(*find_command(binding.command), state_);
+    return;
+  }
+  held = binding.key == GLFW_KEY_SPACE ? key_that_chooses() : binding.key;
+  if (held != 0) key({held, true, false, kNoMods});
+}
+
+/// In menus and the gallery Enter chooses, and in a text field it accepts the text.
+int Studio::key_that_chooses() const {
+  const bool enter = menu_open() || state_.ui.shows<GalleryDialog>() ||
+                     state_.ui.shows<OpenDialog>() || state_.ui.shows<SaveDialog>();
+  return enter ? GLFW_KEY_ENTER : GLFW_KEY_SPACE;
 }
 
 /// Arrows, Enter and Space move and choose in menus and dialogs, and do nothing else there. Over

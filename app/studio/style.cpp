@@ -74,7 +74,7 @@ void set_colours(const Greys& g, const Palette& p) {
   c[ImGuiCol_ModalWindowDimBg] = {0.0f, 0.0f, 0.0f, 0.45f};
 }
 
-void set_sizes(float scale) {
+void set_sizes(float scale, bool fingers) {
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowPadding = {12.0f, 10.0f};
   style.FramePadding = {8.0f, 5.0f};
@@ -89,6 +89,12 @@ void set_sizes(float scale) {
   style.ScrollbarRounding = 6.0f;
   style.WindowBorderSize = 0.0f;
   style.PopupBorderSize = 1.0f;
+  if (fingers) {
+    style.FramePadding = {10.0f, 12.0f};
+    style.ItemSpacing = {9.0f, 14.0f};
+    style.ScrollbarSize = 14.0f;
+    style.GrabMinSize = 26.0f;
+  }
   style.ScaleAllSizes(scale);
 }
 
@@ -142,9 +148,9 @@ ImVec4 ink_on(const ImVec4& face) {
 
 const Palette& palette(Theme theme) { return theme == Theme::dark ? kDark : kLight; }
 
-Fonts apply_style(Theme theme, float scale) {
+Fonts apply_style(Theme theme, float scale, bool fingers) {
   ImGui::GetStyle() = ImGuiStyle();
-  set_sizes(scale);
+  set_sizes(scale, fingers);
   set_colours(theme == Theme::dark ? kDarkGreys : kLightGreys, palette(theme));
   ImGui::GetIO().Fonts->Clear();
   Fonts fonts;

@@ -32,7 +32,8 @@ struct Fonts {
 };
 
 /// Sets colours, sizes and fonts of the current ImGui context; the font texture must be rebuilt
-/// afterwards. Without Inter and DejaVu it uses the default font of ImGui.
-Fonts apply_style(Theme theme, float scale);
+/// afterwards. Without Inter and DejaVu it uses the default font of ImGui. `fingers`: controls are
+/// at least 40 px high at a scale of 1.
+Fonts apply_style(Theme theme, float scale, bool fingers = false);
 
 }  // namespace clay::studio

@@ -67,15 +67,19 @@ struct SaveDialog {
 struct ReplaceDialog {
   std::string question;
   std::optional<SaveDialog> save;  ///< what is asked for; empty: the export
+  bool picture = false;            ///< the export is that of a picture
 };
 struct ExportDialog {
   std::optional<ExportChoices> previewed;  ///< choices of the current preview
 };
+/// A picture or a turntable of the pot.
+struct PictureDialog {};
 /// A drawing, its import settings, and the resulting pot.
 using ImportDialog = ImportCard;
 
-using Dialog = std::variant<NoDialog, GalleryDialog, ShortcutsDialog, UnsavedDialog, OpenDialog,
-                            SaveDialog, ExportDialog, ImportDialog, SettingsDialog, ReplaceDialog>;
+using Dialog =
+    std::variant<NoDialog, GalleryDialog, ShortcutsDialog, UnsavedDialog, OpenDialog, SaveDialog,
+                 ExportDialog, ImportDialog, SettingsDialog, ReplaceDialog, PictureDialog>;
 
 /// Choices and results of an export. They outlive the dialog, because an export continues after it
 /// is closed.
@@ -85,6 +89,13 @@ struct ExportState {
   std::string problem;               ///< why there is no preview, or no file
   std::vector<std::string> written;  ///< files of the last export
   std::string result;                ///< outcome as text
+};
+
+/// The same of a picture.
+struct PictureState {
+  PictureFile file;
+  std::string written;  ///< path of the last picture
+  std::string problem, result;
 };
 
 /// The last report about an arm, in the banner and the log.
@@ -104,6 +115,7 @@ struct UiState {
   Dialog dialog = GalleryDialog{};
   Notices notices;
   ExportState exporting;
+  PictureState pictures;
   ArmReport arm;
   JournalWatch journal;
   std::vector<Mark> marks;    ///< marks on the pot `marked`

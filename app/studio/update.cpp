@@ -174,7 +174,10 @@ void update_file_dialog(AppState& state) {
       apply(state, SaveFile{*chosen, true});  // the desktop has asked
       break;
     case FileDialog::Kind::folder:
-      state.ui.exporting.choices.folder = *chosen;
+      if (state.ui.shows<PictureDialog>())
+        state.ui.pictures.file.folder = *chosen;
+      else
+        state.ui.exporting.choices.folder = *chosen;
       break;
   }
 }
@@ -264,7 +267,7 @@ void take_preview(AppState& state, Exporter::Outcome outcome) {
 /// The choices that change the solid.
 ExportChoices solid_choices(ExportChoices choices) {
   choices.folder.clear();
-  choices.section = choices.pot = false;
+  choices.section = choices.dxf = choices.pdf = choices.report = choices.pot = false;
   return choices;
 }
 
@@ -289,6 +292,29 @@ void update_export(AppState& state) {
     take_preview(state, std::move(*outcome));
 }
 
+void update_picture(AppState& state) {
+  const auto outcome = state.pictures.take();
+  if (!outcome) return;
+  PictureState& pictures = state.ui.pictures;
+  if (outcome->cancelled) {
+    pictures.result = "Cancelled; no file was written";
+    return state.log("picture cancelled");
+  }
+  if (!outcome->bytes) {
+    pictures.problem = outcome->bytes.error().message;
+    return state.log("error: " + pictures.problem);
+  }
+  pictures.written = path_of(outcome->file);
+  pictures.result = fmt::format("{}: {} \xc3\x97 {} pixels, {:.2f} MB",
+                                std::filesystem::path(pictures.written).filename().string(),
+                                outcome->file.look.size.width_px, outcome->file.look.size.height_px,
+                                1e-6 * static_cast<double>(*outcome->bytes));
+  state.host.file_written(pictures.written);
+  state.log("exported: " + pictures.written);
+  if (!state.ui.shows<PictureDialog>()) note(state, Grade::note, pictures.result, kExportNoteS);
+  state.settings.folder = outcome->file.folder;
+}
+
 }  // namespace
 
 void update(AppState& state) {
@@ -297,6 +323,8 @@ void update(AppState& state) {
   update_file_dialog(state);
   update_thumbs(state);
   update_export(state);
+  update_picture(state);
+  state.gamepad.advance(state);
   state.stroke.advance(now_ns);
   state.host.clock().sleep_until_ns(now_ns);  // in case no servo has advanced it
   update_strokes(state);

@@ -30,8 +30,11 @@ struct ViewModel {
       recoverable;  ///< works of crashed programs, newest first
   std::optional<Exporter::Kind> export_running;
   std::string export_stage;  ///< of the running export
-  double now_s = 0.0;        ///< on the host's clock
-  bool real_time = false;    ///< false in scripts: no figure may depend on the machine
+  bool picture_running = false;
+  float picture_progress = 0.0f;  ///< the part of it that is done
+  double now_s = 0.0;             ///< on the host's clock
+  bool real_time = false;         ///< false in scripts: no figure may depend on the machine
+  bool fingers = false;           ///< as Host::fingers
 
   [[nodiscard]] const Palette& colours() const { return palette(settings.theme); }
   [[nodiscard]] bool at_rest() const { return document.has_work() && !stroke.throwing(); }

@@ -102,10 +102,10 @@ auto members(Like<studio::PotCheck> auto& of) {
                   seconds);
 }
 auto members(Like<studio::ExportChoices> auto& of) {
-  auto& [meshes, section, pot, folder, name, tolerance_mm, smoothing, process, min_wall_mm,
-         shrinkage_percent] = of;
-  return std::tie(meshes, section, pot, folder, name, tolerance_mm, smoothing, process, min_wall_mm,
-                  shrinkage_percent);
+  auto& [meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm, smoothing,
+         smooth_length_mm, process, min_wall_mm, shrinkage_percent] = of;
+  return std::tie(meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm,
+                  smoothing, smooth_length_mm, process, min_wall_mm, shrinkage_percent);
 }
 auto members(Like<ExportQuestion> auto& of) {
   auto& [kind, choices, pot] = of;
@@ -121,9 +121,9 @@ auto members(Like<studio::ExportFigures::Mesh> auto& of) {
 }
 auto members(Like<studio::ExportFigures> auto& of) {
   auto& [has_solid, triangles, meshes, diameter_mm, height_mm, shrinkage, fallen, thinnest_mm,
-         thinnest_at_mm, problems, marks] = of;
+         thinnest_at_mm, faired_mm, moved_mm, moved_at_mm, problems, marks] = of;
   return std::tie(has_solid, triangles, meshes, diameter_mm, height_mm, shrinkage, fallen,
-                  thinnest_mm, thinnest_at_mm, problems, marks);
+                  thinnest_mm, thinnest_at_mm, faired_mm, moved_mm, moved_at_mm, problems, marks);
 }
 
 // A value as CBOR: an optional or a pointer may be null, a class is the array of its members.

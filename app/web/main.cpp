@@ -3,6 +3,8 @@
 
 #include "app/studio/studio.hpp"
 #include "app/web/page_worker.hpp"
+#include "app/web/pot_text.hpp"
+#include "app/web/web_hid.hpp"
 #include "app/web/web_host.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -11,6 +13,7 @@
 #include <emscripten.h>
 #include <emscripten/html5.h>
 #include <fmt/format.h>
+#include <imgui.h>
 
 #include <memory>
 #include <string>
@@ -22,6 +25,7 @@ namespace {
 EM_JS(void, page_log, (const char* text, int size),
       { Module["page"].log(UTF8ToString(text, size)); });
 EM_JS(void, page_fail, (const char* text), { Module["page"].fail(UTF8ToString(text)); });
+EM_JS(void, page_tell, (const char* text), { Module["page"].tell(UTF8ToString(text)); });
 
 constexpr const char* kCanvas = "#canvas";
 constexpr int kFramesAfterEvent = 3;
@@ -30,11 +34,21 @@ std::unique_ptr<WebHost> host;
 std::unique_ptr<studio::Studio> window;
 int frames_wanted = kFramesAfterEvent;
 bool damaged = true;
+std::string told;    // by page_tell
+std::string report;  // of claystack_report
 
 void take(studio::Input input) {
   if (!window) return;
   window->take(std::move(input));
   frames_wanted = kFramesAfterEvent;
+}
+
+/// Tells people who do not see the picture.
+void tell() {
+  auto summary = summary_of(window->state());
+  if (!summary || *summary == told) return;
+  told = std::move(*summary);
+  page_tell(told.c_str());
 }
 
 /// The studio draws into canvases of its own, so the page needs neither samples nor depth.
@@ -49,9 +63,9 @@ bool create_context() {
   return context > 0 && emscripten_webgl_make_context_current(context) == EMSCRIPTEN_RESULT_SUCCESS;
 }
 
-void begin(std::string_view theme) {
+void begin(std::string_view theme, bool fingers) {
   if (!create_context()) return page_fail("This browser does not offer WebGL 2");
-  host = std::make_unique<WebHost>();
+  host = std::make_unique<WebHost>(fingers);
   auto loaded = studio::load_settings(studio::settings_path());
   std::error_code ignored;
   if (!std::filesystem::exists(studio::settings_path(), ignored))
@@ -66,6 +80,7 @@ void begin(std::string_view theme) {
   studio::AppState& state = window->state();
   state.settings_file = studio::SettingsFile(studio::settings_path(), state.settings);
   state.document.keep_journals();
+  state.devices = std::make_unique<studio::DeviceWatch>(look_for_hid(host->clock()));
   state.recoverable = history::recoverable();
   if (!loaded.note.empty()) state.ui.notices.show(studio::Grade::warning, loaded.note);
   if (!state.recoverable.empty())
@@ -87,6 +102,7 @@ EMSCRIPTEN_KEEPALIVE bool claystack_frame(double page_ms) {
   host->begin_frame(page_ms);
   window->frame(std::exchange(damaged, false) ? studio::Painting::always
                                               : studio::Painting::if_changed);
+  tell();
   if (frames_wanted > 0) --frames_wanted;
   return frames_wanted > 0 || window->wakeful();
 }
@@ -97,8 +113,18 @@ EMSCRIPTEN_KEEPALIVE void claystack_resize(int width_px, int height_px, float sc
   damaged = true;
   frames_wanted = kFramesAfterEvent;
 }
-EMSCRIPTEN_KEEPALIVE void claystack_pointer(float x_px, float y_px) {
-  take(studio::PointerMoved{{x_px, y_px}});
+/// `strength`: of a pen, 0 to 1; negative: a mouse or a finger.
+EMSCRIPTEN_KEEPALIVE void claystack_pointer(float x_px, float y_px, double strength) {
+  take(studio::PointerMoved{{x_px, y_px}, strength < 0.0 ? std::nullopt : std::optional(strength)});
+}
+EMSCRIPTEN_KEEPALIVE void claystack_gamepad_plugged(const char* name) {
+  take(studio::GamepadPlugged{name});
+}
+EMSCRIPTEN_KEEPALIVE void claystack_gamepad(double left_x, double left_y, double right_x,
+                                            double right_y, double left_trigger,
+                                            double right_trigger, unsigned buttons) {
+  take(studio::GamepadChanged{
+      {{left_x, left_y}, {right_x, right_y}, left_trigger, right_trigger, buttons}});
 }
 EMSCRIPTEN_KEEPALIVE void claystack_button(int button, bool down, unsigned mods) {
   take(studio::ButtonChanged{static_cast<studio::MouseButton>(button), down, mods});
@@ -114,6 +140,20 @@ EMSCRIPTEN_KEEPALIVE void claystack_paste(const char* text) {
   if (host) host->paste(text);
 }
 EMSCRIPTEN_KEEPALIVE void claystack_open(const char* path) { take(studio::FilesDropped{{path}}); }
+/// What a gesture or the key Tab is for: the pot, or a dialog or menu that is open.
+EMSCRIPTEN_KEEPALIVE bool claystack_dialog_open() {
+  return window && (!window->state().ui.shows<studio::NoDialog>() ||
+                    ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup));
+}
+/// True over the pot, false over panels and dialogs.
+EMSCRIPTEN_KEEPALIVE bool claystack_over_pot() {
+  return window && window->state().ui.shows<studio::NoDialog>() && !ImGui::GetIO().WantCaptureMouse;
+}
+/// The pot in words. Valid until the next call.
+EMSCRIPTEN_KEEPALIVE const char* claystack_report() {
+  report = window ? report_of(window->state()) : std::string();
+  return report.c_str();
+}
 /// The page is hidden: a stroke that is under way ends.
 EMSCRIPTEN_KEEPALIVE void claystack_hide() {
   if (!window) return;
@@ -142,6 +182,6 @@ EMSCRIPTEN_KEEPALIVE void claystack_stage(int worker, const char* text) {
 }
 
 int main(int argc, char** argv) {
-  begin(argc > 1 ? argv[1] : "dark");
+  begin(argc > 1 ? argv[1] : "dark", argc > 2 && argv[2] == std::string_view("fingers"));
   return 0;
 }

@@ -17,6 +17,8 @@ class WebHost final : public studio::Host {
  public:
   static constexpr double kLongestFrameMs = 100.0;
 
+  /// `fingers`: the main pointer is coarse, as on a phone.
+  explicit WebHost(bool fingers) : fingers_(fingers) {}
   void resize(glm::ivec2 size_px, float scale) noexcept {
     size_px_ = size_px;
     scale_ = scale;
@@ -27,6 +29,7 @@ class WebHost final : public studio::Host {
 
   [[nodiscard]] glm::ivec2 size_px() const override { return size_px_; }
   [[nodiscard]] float content_scale() const override { return scale_; }
+  [[nodiscard]] bool fingers() const override { return fingers_; }
   [[nodiscard]] servo::Clock& clock() override { return clock_; }
   [[nodiscard]] bool real_time() const override { return true; }
   [[nodiscard]] bool threads() const override { return false; }
@@ -37,6 +40,7 @@ class WebHost final : public studio::Host {
   void file_written(const std::string& path) override;
 
  private:
+  bool fingers_;
   glm::ivec2 size_px_{1, 1};
   float scale_ = 1.0f;
   studio::VirtualClock clock_;

@@ -12,7 +12,7 @@ stamp=$(cat "$0" "$here"/libraries/* "$here"/packages/* "$here"/include/*/* | sh
 # Headers of libraries that consist of headers, and the sources of those that have to be compiled.
 headers="libglm-dev libexpected-dev nlohmann-json3-dev libcli11-dev libfmt-dev libcgal-dev
   libboost1.74-dev libxxhash-dev libstb-dev libglfw3-dev libdraco-dev
-  libfast-float-dev fonts-inter"
+  libfast-float-dev libsvgpp-dev fonts-inter"
 sources="imgui openmesh draco zlib libzip libxml2"
 
 mkdir -p "$top/apt/lists/partial" "$top/debs" "$top/sources"

@@ -2,6 +2,7 @@
 
 #include "core/cancel.hpp"
 #include "export/solid/cgal_versions.hpp"
+#include "export/solid/exact_point.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
@@ -35,12 +36,6 @@ SurfaceMesh exact_mesh(const TriangleMesh& mesh) {
   return result;
 }
 
-/// The interval of a lazy number may be as wide as 1e-5 of it, so evaluate it exactly first.
-glm::dvec3 nearest(const Kernel::Point_3& point) {
-  const auto& p = point.exact();
-  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
-}
-
 TriangleMesh nearest_mesh(SurfaceMesh& mesh) {
   mesh.collect_garbage();
   TriangleMesh result;
@@ -48,7 +43,7 @@ TriangleMesh nearest_mesh(SurfaceMesh& mesh) {
   result.triangles.reserve(mesh.number_of_faces());
   for (const auto vertex : mesh.vertices()) {
     step_of_loop();
-    result.points.push_back(nearest(mesh.point(vertex)));
+    result.points.push_back(cgal::doubles_of(mesh.point(vertex)));
   }
   for (const auto face : mesh.faces()) {
     std::array<std::uint32_t, 3> corners{};

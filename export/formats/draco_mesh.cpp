@@ -71,7 +71,8 @@ Result<void> append_triangles(const draco::Mesh& mesh, const draco::PointAttribu
 }  // namespace
 
 std::unique_ptr<draco::Mesh> to_draco(const TriangleMesh& mesh,
-                                      const std::vector<glm::vec3>& points) {
+                                      const std::vector<glm::vec3>& points,
+                                      std::span<const std::array<std::uint16_t, 4>> colours) {
   auto result = std::make_unique<draco::Mesh>();
   draco::GeometryAttribute layout;
   layout.Init(draco::GeometryAttribute::POSITION, nullptr, 3, draco::DT_FLOAT32, false,
@@ -82,6 +83,13 @@ std::unique_ptr<draco::Mesh> to_draco(const TriangleMesh& mesh,
   for (std::uint32_t i = 0; i < count; ++i) {
     step_of_loop();
     result->attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &points[i]);
+  }
+  if (!colours.empty()) {
+    layout.Init(draco::GeometryAttribute::COLOR, nullptr, 4, draco::DT_UINT16, true,
+                sizeof colours[0], 0);
+    const int coloured = result->AddAttribute(layout, true, count);
+    for (std::uint32_t i = 0; i < count; ++i)
+      result->attribute(coloured)->SetAttributeValue(draco::AttributeValueIndex(i), &colours[i]);
   }
   result->SetNumFaces(mesh.triangles.size());
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {

@@ -6,6 +6,8 @@
 #include "claystack/export/solid.hpp"
 
 #include <draco/mesh/mesh.h>
+#include <array>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -16,8 +18,10 @@
 namespace clay::solid::inline formats {
 
 /// The triangles of `mesh` on `points`, its points as float32; indices are in range.
-[[nodiscard]] std::unique_ptr<draco::Mesh> to_draco(const TriangleMesh& mesh,
-                                                    const std::vector<glm::vec3>& points);
+/// `colours`: one for each point, or none.
+[[nodiscard]] std::unique_ptr<draco::Mesh> to_draco(
+    const TriangleMesh& mesh, const std::vector<glm::vec3>& points,
+    std::span<const std::array<std::uint16_t, 4>> colours = {});
 
 /// A stream as `encode_drc` makes it without claims, with what the decoded mesh holds.
 struct EncodedDraco {
@@ -25,8 +29,9 @@ struct EncodedDraco {
   std::size_t points = 0, triangles = 0;
   glm::vec3 low{0.0F}, high{0.0F};  ///< of the decoded points
 };
-[[nodiscard]] Result<EncodedDraco> encode_draco(const TriangleMesh& mesh,
-                                                const DracoSettings& settings);
+[[nodiscard]] Result<EncodedDraco> encode_draco(
+    const TriangleMesh& mesh, const DracoSettings& settings,
+    std::span<const std::array<std::uint16_t, 4>> colours);
 
 /// Checks everything: Draco's decoder returns sizes, maps and indices as the file states them.
 /// Corners share a point if Draco maps them to one position.

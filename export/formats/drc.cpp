@@ -68,8 +68,9 @@ Result<void> check_mesh_for_draco(const TriangleMesh& mesh, const std::vector<gl
 }
 
 Result<EncodedDraco> encode_on_grid(const TriangleMesh& mesh, const std::vector<glm::vec3>& points,
-                                    const DracoGrid& grid, int speed) {
-  const auto input = to_draco(mesh, points);
+                                    const DracoGrid& grid, int speed,
+                                    std::span<const std::array<std::uint16_t, 4>> colours = {}) {
+  const auto input = to_draco(mesh, points, colours);
   draco::ExpertEncoder encoder(*input);
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
   const bool entropy_coded = grid.bits <= kMaxEntropyCodedBits;
@@ -164,13 +165,15 @@ Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& se
   return failure(ErrorKind::unsound, std::string("cannot write .drc: ") + error.what());
 }
 
-Result<EncodedDraco> encode_draco(const TriangleMesh& mesh, const DracoSettings& settings) try {
+Result<EncodedDraco> encode_draco(const TriangleMesh& mesh, const DracoSettings& settings,
+                                  std::span<const std::array<std::uint16_t, 4>> colours) try {
   const std::vector<glm::vec3> points = file_points(mesh.points);
   return check_settings(settings)
       .and_then([&] { return check_mesh_for_draco(mesh, points); })
       .and_then([&] { return choose_grid(points, settings); })
-      .and_then(
-          [&](const DracoGrid& grid) { return encode_on_grid(mesh, points, grid, settings.speed); })
+      .and_then([&](const DracoGrid& grid) {
+        return encode_on_grid(mesh, points, grid, settings.speed, colours);
+      })
       .and_then([](EncodedDraco encoded) {
         return decode_plain(encoded.bytes, "draco as encoded")
             .map([&](const TriangleMesh& decoded) {

@@ -3,6 +3,7 @@
 // two points and find an open edge.
 
 #include <charconv>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
@@ -31,6 +32,13 @@ template <class Number>
 void append_number(std::string& text, Number value) {
   char digits[32];
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+/// Two digits.
+inline void append_hexadecimal(std::string& text, std::uint8_t byte) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  text += kDigits[byte >> 4U];
+  text += kDigits[byte & 15U];
 }
 
 /// "PREFIX x y z\n"

@@ -4,6 +4,7 @@
 #include "export/formats/file_floats.hpp"
 #include "export/formats/glb.hpp"
 #include "export/formats/mesh_limits.hpp"
+#include "export/formats/meshopt_view.hpp"
 #include "export/solid/vertex_welder.hpp"
 
 #include <algorithm>
@@ -109,6 +110,42 @@ std::vector<double> numbers_in(const Json& json, const char* key, std::vector<do
   return absent;
 }
 
+// ---- numbers
+
+/// How a coordinate is stored.
+struct Component {
+  std::size_t size = 0;  ///< bytes; 0: no coordinate is stored so
+  double most = 0.0;     ///< the number that stands for 1, if normalised; 0: none
+  double (*read)(const char* at) = nullptr;
+};
+
+template <class Whole>
+double whole_at(const char* at) {
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < sizeof(Whole); ++i)
+    bits |= std::uint32_t{static_cast<unsigned char>(at[i])} << 8U * i;
+  return static_cast<double>(static_cast<Whole>(bits));
+}
+
+double float_at(const char* at) { return double{load_f32(at)}; }
+
+Component component_of(std::size_t type) {
+  switch (std::min<std::size_t>(type, 0xFFFF)) {
+    case kInt8:
+      return {1, 127.0, whole_at<std::int8_t>};
+    case kUint8:
+      return {1, 255.0, whole_at<std::uint8_t>};
+    case kInt16:
+      return {2, 32767.0, whole_at<std::int16_t>};
+    case kUint16:
+      return {2, 65535.0, whole_at<std::uint16_t>};
+    case kFloat32:
+      return {4, 0.0, float_at};
+    default:
+      return {};
+  }
+}
+
 // ---- meshes
 
 class GlbReader {
@@ -132,10 +169,12 @@ class GlbReader {
     if (required == json_.end()) return;
     for (const Json& extension : *required) {
       const std::string text = extension.is_string() ? extension.get<std::string>() : "";
-      if (text != kDraco && !text.starts_with("KHR_materials_") &&
-          !text.starts_with("KHR_texture_"))
-        throw BadGlb("expected no required extension but " + std::string(kDraco) +
-                     " and those of materials, found '" + one_line(text.substr(0, 60)) + "'");
+      if (text != kDraco && text != kMeshopt && text != kQuantization &&
+          !text.starts_with("KHR_materials_") && !text.starts_with("KHR_texture_"))
+        throw BadGlb("expected no required extension but " +
+                     std::string(kDraco).append(", ").append(kMeshopt).append(", ") +
+                     std::string(kQuantization) + " and those of materials, found '" +
+                     one_line(text.substr(0, 60)) + "'");
     }
   }
 
@@ -248,8 +287,24 @@ class GlbReader {
 
   // ---- buffers
 
-  [[nodiscard]] std::string_view view(std::size_t index) const {
+  /// What an element is the extension of, if it has it.
+  [[nodiscard]] static const Json* meshopt_in(const Json& json) {
+    const auto extensions = json.find("extensions");
+    if (extensions == json.end() || !extensions->is_object()) return nullptr;
+    const auto found = extensions->find(kMeshopt);
+    if (found != extensions->end() && !found->is_object())
+      throw BadGlb(std::string(kMeshopt) + ": expected an object");
+    return found == extensions->end() ? nullptr : &*found;
+  }
+
+  [[nodiscard]] std::string_view view(std::size_t index) {
     const Json& view = object_at(json_, "bufferViews", index);
+    const Json* const compressed = meshopt_in(view);
+    return compressed == nullptr ? bytes_of(view, index) : unpacked(*compressed, view, index);
+  }
+
+  /// The bytes in the file of a view, or of its extension.
+  [[nodiscard]] std::string_view bytes_of(const Json& view, std::size_t index) const {
     const Json& buffer = object_at(json_, "buffers", count_in(view, "buffer"));
     if (count_in(view, "buffer") != 0 || buffer.contains("uri"))
       throw BadGlb("expected the buffer of the file itself, found another");
@@ -260,6 +315,30 @@ class GlbReader {
     return chunks_.binary.substr(offset, size);
   }
 
+  /// Each view is unpacked once.
+  [[nodiscard]] std::string_view unpacked(const Json& compressed, const Json& view,
+                                          std::size_t index) {
+    const auto [place, added] = unpacked_.try_emplace(index);
+    if (!added) return place->second;
+    const std::string place_name = "bufferView " + std::to_string(index) + ": ";
+    const std::string mode = compressed.value("mode", ""),
+                      filter = compressed.value("filter", "NONE");
+    const MeshoptView shape{mode, filter, count_in(compressed, "count"),
+                            count_in(compressed, "byteStride")};
+    const std::string_view packed = bytes_of(compressed, index);
+    if (shape.stride == 0 || shape.count > kMaxFileBytes / shape.stride ||
+        shape.count * shape.stride > kMaxFileBytes - unpacked_bytes_)
+      throw BadGlb(place_name + "expected at most 1 GiB unpacked");
+    if (count_in(view, "byteLength") != shape.count * shape.stride ||
+        count_in(view, "byteStride", shape.stride) != shape.stride)
+      throw BadGlb(place_name + "expected the length and stride of what it unpacks to, " +
+                   std::to_string(shape.count) + " times " + std::to_string(shape.stride));
+    unpacked_bytes_ += shape.count * shape.stride;
+    auto bytes = unpacked_by_meshopt(packed, shape);
+    if (!bytes) throw BadGlb(place_name + bytes.error().message);
+    return place->second = std::move(*bytes);
+  }
+
   struct Values {
     std::string_view bytes;
     std::size_t count = 0, stride = 0;
@@ -267,7 +346,7 @@ class GlbReader {
   };
 
   /// The values of an accessor, of `size` bytes each, all within its view.
-  [[nodiscard]] Values values(const Json& accessor, std::size_t size) const {
+  [[nodiscard]] Values values(const Json& accessor, std::size_t size) {
     if (accessor.contains("sparse")) throw BadGlb("expected no sparse accessor, found one");
     const std::size_t number = count_in(accessor, "bufferView");
     const Json& json = object_at(json_, "bufferViews", number);
@@ -283,25 +362,32 @@ class GlbReader {
     return found;
   }
 
-  void add_points(std::size_t index, std::vector<glm::dvec3>& points) const {
+  /// Whole numbers stand for themselves or, normalised, for a part of their largest.
+  void add_points(std::size_t index, std::vector<glm::dvec3>& points) {
     const Json& accessor = object_at(json_, "accessors", index);
-    if (count_in(accessor, "componentType") != kFloat32 || accessor.value("type", "") != "VEC3")
-      throw BadGlb("POSITION: expected 3 float32");
-    const Values found = values(accessor, 12);
+    const Component component = component_of(count_in(accessor, "componentType"));
+    const bool normalized = accessor.value("normalized", false);
+    if (component.size == 0 || accessor.value("type", "") != "VEC3" ||
+        (normalized && component.most == 0.0))
+      throw BadGlb("POSITION: expected 3 float32, or whole numbers of 8 or 16 bits");
+    const Values found = values(accessor, 3 * component.size);
     if (points.size() + found.count > kMaxPoints)
       throw BadGlb("expected at most 60000000 vertices");
     for (std::size_t i = 0; i < found.count; ++i) {
       step_of_loop();
-      const char* const at = found.at(i);
-      const glm::vec3 point(load_f32(at), load_f32(at + 4), load_f32(at + 8));
-      if (const auto bad = find_bad_coordinate(point))
+      glm::dvec3 point;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double value =
+            component.read(found.at(i) + static_cast<std::size_t>(axis) * component.size);
+        point[axis] = normalized ? std::max(value / component.most, -1.0) : value;
+      }
+      if (const auto bad = find_bad_coordinate(glm::vec3(point)))
         throw BadGlb("position " + std::to_string(i + 1) + ": " + *bad);
       points.emplace_back(point);
     }
   }
 
-  [[nodiscard]] std::vector<std::uint32_t> indices_of(std::size_t index,
-                                                      std::uint32_t points) const {
+  [[nodiscard]] std::vector<std::uint32_t> indices_of(std::size_t index, std::uint32_t points) {
     const Json& accessor = object_at(json_, "accessors", index);
     const std::size_t type = count_in(accessor, "componentType");
     const std::size_t size = type == kUint8 ? 1 : type == kUint16 ? 2 : type == kUint32 ? 4 : 0;
@@ -354,6 +440,8 @@ class GlbReader {
   std::string_view name_;
   std::map<std::size_t, TriangleMesh> meshes_;
   std::map<std::size_t, bool> visited_;
+  std::map<std::size_t, std::string> unpacked_;  ///< views by number
+  std::size_t unpacked_bytes_ = 0;
   std::vector<std::pair<std::size_t, glm::dmat4>> placed_;
   std::uint64_t stored_ = 0;
   TriangleMesh mesh_;

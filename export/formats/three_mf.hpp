@@ -19,6 +19,8 @@ inline constexpr std::string_view kCertificatePath = "Metadata/claystack.certifi
 
 inline constexpr std::string_view kCore =
     "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
+inline constexpr std::string_view kMaterials =
+    "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
 inline constexpr std::string_view kModelRelation =
     "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
 inline constexpr std::string_view kThumbnailRelation =

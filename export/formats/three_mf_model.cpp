@@ -18,8 +18,6 @@ constexpr std::size_t kMaxPlaced = 1'000'000;
 constexpr std::size_t kMaxMetadata = 1000, kMaxPotText = std::size_t{8} << 20;
 constexpr std::uint32_t kMaxId = 0x7FFFFFFF;
 
-constexpr std::string_view kMaterials =
-    "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
 // Its ids need no support; its paths to other model parts are refused.
 constexpr std::string_view kProduction =
     "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";

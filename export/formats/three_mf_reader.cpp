@@ -2,6 +2,7 @@
 #include "core/base64.hpp"
 #include "export/formats/mesh_limits.hpp"
 #include "export/formats/three_mf.hpp"
+#include "export/formats/three_mf_check.hpp"
 #include "export/formats/three_mf_model.hpp"
 #include "export/formats/xml_reader.hpp"
 #include "export/formats/zip_package.hpp"
@@ -189,6 +190,28 @@ Result<PackedParts> parts_in_3mf(std::string_view bytes, std::string_view name) 
 Result<std::string> model_in_3mf(std::string_view bytes, std::string_view name) {
   return with_model(bytes, name, [&](const ZipPackage& package, const std::string& path) {
     return package.read(path, kMaxFileBytes);
+  });
+}
+
+Result<void> check_model_in_3mf(std::string_view bytes, std::string_view model,
+                                std::string_view name) {
+  const auto other = [&] {
+    return failure(ErrorKind::unsound,
+                   std::string(name).append(": the model part is not the one that was packed"));
+  };
+  return with_model(bytes, name, [&](const ZipPackage& package, const std::string& path) {
+    std::string_view left = model;
+    return package
+        .read(path,
+              [&](std::string_view piece) -> Result<void> {
+                if (!left.starts_with(piece)) return other();
+                left.remove_prefix(piece.size());
+                return {};
+              })
+        .and_then([&]() -> Result<void> {
+          if (left.empty()) return {};
+          return other();
+        });
   });
 }
 

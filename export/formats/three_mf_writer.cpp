@@ -2,11 +2,15 @@
 #include "claystack/version.hpp"
 #include "core/base64.hpp"
 #include "core/cancel.hpp"
+#include "core/colour_scale.hpp"
 #include "export/formats/file_floats.hpp"
 #include "export/formats/three_mf.hpp"
 #include "export/formats/zip_package.hpp"
 #include "export/solid/mesh_bodies.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -16,6 +20,7 @@ namespace {
 
 using namespace three_mf;
 
+constexpr std::size_t kColourSteps = 64;
 constexpr std::string_view kDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 
 /// For attributes and text.
@@ -51,11 +56,14 @@ class ModelWriter {
         .append("<model unit=\"millimeter\" xml:lang=\"en-US\" xmlns=\"")
         .append(kCore)
         .append("\" xmlns:claystack=\"")
-        .append(kOwn)
-        .append("\">\n");
+        .append(kOwn);
+    if (coloured()) text_.append("\" xmlns:m=\"").append(kMaterials);
+    text_ += "\">\n";
     add_metadata();
     text_ += "<resources>\n";
-    const std::size_t built = add_objects();
+    const std::vector<std::vector<std::uint32_t>> bodies = bodies_in_order();
+    if (coloured()) add_colours(bodies.size() + 2);
+    const std::size_t built = add_objects(bodies);
     text_.append("</resources>\n<build>\n<item objectid=\"")
         .append(std::to_string(built))
         .append("\"/>\n</build>\n</model>\n");
@@ -68,6 +76,11 @@ class ModelWriter {
     add_metadatum("Application", "claystack " CLAYSTACK_VERSION);
     for (const auto& [key, value] : contents_.notes)
       add_metadatum(std::string(kOwnPrefix) + key, escaped(value));
+    if (coloured()) {
+      std::string range = "0 to ";
+      append_number(range, contents_.wall_top_mm);
+      add_metadatum(std::string(kOwnPrefix) + "wall_map", range + " mm");
+    }
     if (!contents_.pot.empty() && contents_.pot.size() <= kMostCopiedPotBytes)
       add_metadatum(kPotMetadata, to_base64(contents_.pot));
   }
@@ -78,21 +91,41 @@ class ModelWriter {
     text_.append(">").append(value).append("</metadata>\n");
   }
 
-  /// Returns the id of the object to build.
-  std::size_t add_objects() {
-    if (contents_.one_body) {
-      std::vector<std::uint32_t> all(mesh_.triangles.size());
-      std::iota(all.begin(), all.end(), 0U);
-      add_object(1, name_, all);
-      return 1;
+  [[nodiscard]] bool coloured() const noexcept { return !contents_.wall_mm.empty(); }
+
+  [[nodiscard]] std::vector<std::vector<std::uint32_t>> bodies_in_order() const {
+    if (!contents_.one_body) return bodies_of(mesh_);
+    std::vector<std::uint32_t> all(mesh_.triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    return {std::move(all)};
+  }
+
+  /// The scale of the wall map in steps; readers mix the colours of the corners.
+  void add_colours(std::size_t id) {
+    colour_id_ = std::to_string(id);
+    text_ += "<m:colorgroup id=\"" + colour_id_ + "\">\n";
+    for (std::size_t step = 0; step <= kColourSteps; ++step) {
+      text_ += "<m:color color=\"#";
+      for (const float light : scale_colour(static_cast<double>(step) / kColourSteps))
+        append_hexadecimal(text_, srgb_byte(light));
+      text_ += "FF\"/>\n";
     }
-    const std::vector<std::vector<std::uint32_t>> bodies = bodies_of(mesh_);
+    text_ += "</m:colorgroup>\n";
+  }
+
+  [[nodiscard]] std::uint32_t colour_of(std::uint32_t point) const {
+    const double part = double{contents_.wall_mm[point]} / contents_.wall_top_mm;
+    return static_cast<std::uint32_t>(std::lround(kColourSteps * std::clamp(part, 0.0, 1.0)));
+  }
+
+  /// Returns the id of the object to build.
+  std::size_t add_objects(const std::vector<std::vector<std::uint32_t>>& bodies) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
       add_object(i + 1, bodies.size() == 1 ? name_ : name_ + " part " + std::to_string(i + 1),
                  bodies[i]);
     if (bodies.size() == 1) return 1;
     const std::size_t whole = bodies.size() + 1;
-    begin_object(whole, name_);
+    begin_object(whole, name_, false);
     text_ += "<components>\n";
     for (std::size_t i = 1; i < whole; ++i)
       text_ += "<component objectid=\"" + std::to_string(i) + "\"/>\n";
@@ -100,13 +133,15 @@ class ModelWriter {
     return whole;
   }
 
-  void begin_object(std::size_t id, const std::string& name) {
-    text_ += "<object id=\"" + std::to_string(id) + "\" type=\"model\" name=\"" + name + "\">\n";
+  void begin_object(std::size_t id, const std::string& name, bool properties) {
+    text_ += "<object id=\"" + std::to_string(id) + "\" type=\"model\" name=\"" + name + "\"";
+    if (properties) text_ += " pid=\"" + colour_id_ + "\" pindex=\"0\"";
+    text_ += ">\n";
   }
 
   void add_object(std::size_t id, const std::string& name,
                   const std::vector<std::uint32_t>& triangles) {
-    begin_object(id, name);
+    begin_object(id, name, coloured());
     sizes_.push_back(triangles.size());
     text_ += "<mesh>\n<vertices>\n";
     const std::vector<std::uint32_t> number = add_vertices(triangles);
@@ -119,9 +154,19 @@ class ModelWriter {
         append_number(text_, number[mesh_.triangles[t][corner]]);
         text_ += '"';
       }
+      if (coloured()) add_corner_colours(mesh_.triangles[t]);
       text_ += "/>\n";
     }
     text_ += "</triangles>\n</mesh>\n</object>\n";
+  }
+
+  void add_corner_colours(const std::array<std::uint32_t, 3>& triangle) {
+    text_.append(" pid=\"").append(colour_id_).append("\"");
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      text_.append(" p").append(1, static_cast<char>('1' + corner)).append("=\"");
+      append_number(text_, colour_of(triangle[corner]));
+      text_ += '"';
+    }
   }
 
   /// Returns the number in the object of each point that the triangles use.
@@ -149,7 +194,7 @@ class ModelWriter {
 
   const TriangleMesh& mesh_;
   const FileContents& contents_;
-  std::string name_, text_;
+  std::string name_, text_, colour_id_;
   std::vector<std::size_t> sizes_;
 };
 

@@ -4,6 +4,7 @@
 #include "claystack/export/solid.hpp"
 #include "claystack/export/walls.hpp"
 #include "core/content_hash.hpp"
+#include "export/formats/glb.hpp"
 #include "export/formats/draco_bits.hpp"
 #include "export/formats/stored_file.hpp"
 #include "export/job/left_out.hpp"
@@ -30,7 +31,9 @@ Result<void> check_options(const ExportOptions& options) {
                    std::string(option).append(": expected a standing pot, found a collapsed one"));
   };
   if (options.normals) return refuse("normals");
+  if (options.wall_map) return refuse("wall map");
   if (options.wall_spacing_mm) return refuse("field of walls");
+  if (options.smooth_length_mm.value_or(0.0) != 0.0) return refuse("smooth length");
   if (options.lip_fillet_mm.value_or(0.0) > 0.0) return refuse("lip fillet");
   if (options.finish.asked()) return refuse("finish");
   return {};
@@ -156,9 +159,10 @@ class CollapsedExport {
 
   Result<void> write_all() {
     for (const Output& output : outputs_) {
-      auto file = named(output.format == MeshFormat::drc || output.format == MeshFormat::glb
-                            ? write_on_grid(output.format, *output.store)
-                            : write_exact(output.format, *output.store),
+      const bool on_grid = output.format == MeshFormat::drc ||
+                           (output.format == MeshFormat::glb && options_.glb != GlbMesh::core);
+      auto file = named(on_grid ? write_on_grid(output.format, *output.store)
+                                : write_exact(output.format, *output.store),
                         output.name.empty() ? options_.source : output.name);
       if (!file) return tl::make_unexpected(file.error());
       report_.files.push_back(std::move(*file));
@@ -171,9 +175,10 @@ class CollapsedExport {
         .run(stage_name("encode", format),
              [&] { return encode_mesh(mesh_, format, solid_contents(options_)); })
         .and_then([&](const std::string& bytes) {
-          return verify(bytes, format, float_rounding_mm(mesh_)).and_then([&](double moved) {
-            return written(bytes, format, moved, store);
-          });
+          // A GLB is in metres: rounded in mm, in metres, and in mm again by a reader.
+          const double roundings = roundings_of(format);
+          return verify(bytes, format, roundings * float_rounding_mm(mesh_))
+              .and_then([&](double moved) { return written(bytes, format, moved, store); });
         });
   }
 

@@ -6,8 +6,12 @@
 
 namespace clay::solid::inline job {
 
-/// The wall [mm] at each point of `revolve(rule)`, in its order: see `vertex_walls`. `rule` is a
-/// layout of this profile.
-[[nodiscard]] std::vector<float> walls_of_points(const RevolveLayout& rule, const Profile& profile);
+struct PointWalls {
+  std::vector<float> mm;  ///< at each point of `revolve(rule)`, in its order: see `vertex_walls`
+  double top_mm = 0.0;    ///< of the scale of colours for them
+};
+
+/// `rule` is a layout of this profile.
+[[nodiscard]] PointWalls walls_of_points(const RevolveLayout& rule, const Profile& profile);
 
 }  // namespace clay::solid::inline job

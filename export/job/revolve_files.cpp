@@ -1,14 +1,16 @@
 #include "export/job/revolve_files.hpp"
 
-#include "export/job/point_walls.hpp"
 #include "export/job/solid_contents.hpp"
 
 #include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
+#include "core/parallel_parts.hpp"
 #include "export/formats/draco_bits.hpp"
+#include "export/formats/glb.hpp"
 #include "export/formats/shaded_obj.hpp"
 #include "export/formats/stl_stream.hpp"
 #include "export/formats/stored_file.hpp"
+#include "export/formats/three_mf_check.hpp"
 #include "export/proof/describe.hpp"
 #include "export/proof/revolve_match.hpp"
 #include "export/proof/rounded_claims.hpp"
@@ -66,8 +68,8 @@ Result<FileReport> RevolveFiles::write(MeshFormat format, FileStore& store) {
     case MeshFormat::drc:
       return write_on_grid(format, store);
     case MeshFormat::glb:
-      return options_.glb == GlbMesh::draco ? write_on_grid(format, store)
-                                            : write_whole(format, store);
+      return options_.glb == GlbMesh::core ? write_whole(format, store)
+                                           : write_on_grid(format, store);
     case MeshFormat::three_mf:
       return write_3mf(store);
     default:
@@ -80,21 +82,26 @@ const TriangleMesh& RevolveFiles::mesh() {
   return *mesh_;
 }
 
-/// The margins, if they cover the rounding; otherwise the exact test of the mesh in float32.
-Result<Proof> RevolveFiles::prove_rounded(double rounding_mm) {
+/// The margins, if they cover the rounding; otherwise the exact test of the mesh as rounded.
+Result<Proof> RevolveFiles::prove_rounded(MeshFormat format, double rounding_mm) {
   if (rounding_mm < claims_.margins.safe_rounding_mm()) return Proof::margins;
-  if (!exact_) {
-    const TriangleMesh& solid = mesh();
-    exact_ = stages_.run(
-        "exact_test", [&] { return check_sound(rounded_to_float(solid), "the pot in float32"); });
+  const bool in_metres = format == MeshFormat::glb;
+  std::optional<Result<void>>& exact = in_metres ? exact_in_metres_ : exact_;
+  if (!exact) {
+    TriangleMesh rounded = mesh();
+    for (glm::dvec3& point : rounded.points) point = held_point(point, format);
+    exact = stages_.run("exact_test", [&] {
+      return check_sound(rounded,
+                         in_metres ? "the pot in float32 of metres" : "the pot in float32");
+    });
   }
-  return exact_->map([] { return Proof::exact_test; });
+  return exact->map([] { return Proof::exact_test; });
 }
 
 Result<FileReport> RevolveFiles::stream(FileStore& store) {
   constexpr auto kFormat = MeshFormat::stl_binary;
   const double rounding = float_rounding_mm(rule_);
-  const auto proof = prove_rounded(rounding);
+  const auto proof = prove_rounded(kFormat, rounding);
   if (!proof) return tl::make_unexpected(proof.error());
   const auto file =
       stages_.run(stage_name("encode", kFormat), [&] { return stream_stl(rule_, store); });
@@ -114,20 +121,21 @@ Result<FileReport> RevolveFiles::stream(FileStore& store) {
 FileContents RevolveFiles::contents_of(MeshFormat format) {
   FileContents contents = solid_contents(options_);
   contents.one_body = rule_.shells().size() == 1;
-  if (format != MeshFormat::ply) return contents;
-  if (!wall_mm_)
-    wall_mm_ = stages_.run("vertex_walls", [&] { return walls_of_points(rule_, claims_.profile); });
-  contents.wall_mm = *wall_mm_;
+  const bool coloured = format == MeshFormat::glb || format == MeshFormat::three_mf;
+  if (format != MeshFormat::ply && !(coloured && options_.wall_map)) return contents;
+  if (!walls_)
+    walls_ = stages_.run("vertex_walls", [&] { return walls_of_points(rule_, claims_.profile); });
+  contents.wall_mm = walls_->mm;
+  contents.wall_top_mm = walls_->top_mm;
   return contents;
 }
 
 /// Printed digits read back as the same float32. A reader that uses doubles gets up to half a unit
 /// in the last place more error; binary numbers have no more than their own.
 Result<FileReport> RevolveFiles::write_whole(MeshFormat format, FileStore& store) {
-  // A GLB is in metres: rounded in mm, in metres, and in mm again by a reader.
-  const double roundings = format == MeshFormat::glb ? 3.0 : facts_of(format).decimal ? 2.0 : 1.0;
+  const double roundings = facts_of(format).decimal ? 2.0 : roundings_of(format);
   const double rounding = roundings * float_rounding_mm(rule_);
-  return prove_rounded(rounding).and_then([&](Proof proof) {
+  return prove_rounded(format, rounding).and_then([&](Proof proof) {
     const TriangleMesh& solid = mesh();
     const FileContents contents = contents_of(format);
     return stages_
@@ -175,7 +183,8 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
           .and_then([&](const TriangleMesh& decoded) {
             // A coarse grid may be sound and yet exchange close vertices.
             return check_sound(decoded, as_written(format)).and_then([&] {
-              return match_revolve(decoded, rule_, allowed, as_written(format)).map([](double) {});
+              return match_revolve(decoded, rule_, allowed, format, as_written(format))
+                  .map([](double) {});
             });
           });
     });
@@ -188,7 +197,7 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
 Result<FileReport> RevolveFiles::write_3mf(FileStore& store) {
   constexpr auto kFormat = MeshFormat::three_mf, kPart = MeshFormat::three_mf_model;
   const double rounding = 2.0 * float_rounding_mm(rule_);
-  return prove_rounded(rounding).and_then([&](Proof proof) {
+  return prove_rounded(kFormat, rounding).and_then([&](Proof proof) {
     FileContents contents = contents_of(kFormat);
     const ModelPart model = stages_.run(stage_name("encode", kPart),
                                         [&] { return encode_3mf_model(mesh(), contents); });
@@ -199,11 +208,49 @@ Result<FileReport> RevolveFiles::write_3mf(FileStore& store) {
     certificate.format = name_of(kPart);
     const std::string text = write_certificate(certificate);
     contents.certificate = text;
-    return stages_.run(stage_name("encode", kFormat), [&] { return pack_3mf(model, contents); })
+    return stages_
+        .run(stage_name("encode", kFormat),
+             [&] { return proved_package(model, contents, rounding); })
         .and_then([&](const std::string& bytes) {
-          return certify_bytes(kFormat, rounding, proof, bytes, store);
+          return store_package(bytes, store).and_then([&] {
+            return certified(kFormat, rounding, proof, bytes, store);
+          });
         });
   });
+}
+
+/// The model part is read and matched with the solid while it is packed; the package is unpacked
+/// again and compared with that part.
+Result<std::string> RevolveFiles::proved_package(const ModelPart& model,
+                                                 const FileContents& contents, double rounding_mm) {
+  const std::string name = as_written(MeshFormat::three_mf);
+  Result<double> matched;
+  Result<std::string> package;
+  for_each_part(2, [&](std::size_t part) {
+    if (part == 0)
+      matched = decode_3mf_model(model.xml, name).and_then([&](const TriangleMesh& decoded) {
+        return match_revolve(decoded, rule_, rounding_mm, MeshFormat::three_mf, name);
+      });
+    else
+      package = pack_3mf(model, contents).and_then([&](std::string bytes) {
+        return check_model_in_3mf(bytes, model.xml, name).map([&] { return std::move(bytes); });
+      });
+  });
+  return matched ? package : tl::make_unexpected(matched.error());
+}
+
+Result<void> RevolveFiles::store_package(const std::string& bytes, FileStore& store) {
+  constexpr auto kFormat = MeshFormat::three_mf;
+  return stages_.run(stage_name("store", kFormat), [&] { return write_in_parts(store, bytes); })
+      .and_then([&] {
+        return stages_.run(stage_name("verify", kFormat), [&] {
+          return read_back(store, bytes).and_then([&](const std::string& again) -> Result<void> {
+            if (again == bytes) return {};
+            return failure(ErrorKind::io,
+                           as_written(kFormat) + ": the bytes read back differ from those written");
+          });
+        });
+      });
 }
 
 DracoClaims RevolveFiles::draco_claims(double reach_mm) const {
@@ -227,12 +274,17 @@ Result<FileReport> RevolveFiles::certify_bytes(MeshFormat format, double roundin
     return read_back(store, bytes)
         .and_then([&](const std::string& again) { return decode_mesh(again, format, name); })
         .and_then([&](const TriangleMesh& decoded) {
-          return match_revolve(decoded, rule_, rounding_mm, name);
+          return match_revolve(decoded, rule_, rounding_mm, format, name);
         });
   });
   if (!farthest) return tl::make_unexpected(farthest.error());
   const bool measured = format == MeshFormat::drc || format == MeshFormat::glb;
-  SolidCertificate certificate = with_rounding(claims_, rule_, measured ? *farthest : rounding_mm);
+  return certified(format, measured ? *farthest : rounding_mm, proof, bytes, store);
+}
+
+Result<FileReport> RevolveFiles::certified(MeshFormat format, double rounding_mm, Proof proof,
+                                           const std::string& bytes, FileStore& store) {
+  SolidCertificate certificate = with_rounding(claims_, rule_, rounding_mm);
   certificate.proof = proof;
   certificate.bytes = bytes.size();
   certificate.content_hash = hash_of(bytes_of(bytes));

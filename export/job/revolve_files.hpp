@@ -4,6 +4,7 @@
 #include "claystack/core/result.hpp"
 #include "claystack/export/formats.hpp"
 #include "claystack/export/job.hpp"
+#include "export/job/point_walls.hpp"
 #include "export/job/stages.hpp"
 #include "export/solid/revolve_layout.hpp"
 
@@ -40,10 +41,16 @@ class RevolveFiles {
   /// DRC and GLB.
   Result<FileReport> write_on_grid(MeshFormat format, FileStore& store);
   Result<FileReport> write_3mf(FileStore& store);
+  Result<std::string> proved_package(const ModelPart& model, const FileContents& contents,
+                                     double rounding_mm);
+  Result<void> store_package(const std::string& bytes, FileStore& store);
   [[nodiscard]] DracoClaims draco_claims(double reach_mm) const;
-  Result<Proof> prove_rounded(double rounding_mm);
+  Result<Proof> prove_rounded(MeshFormat format, double rounding_mm);
   Result<FileReport> certify_bytes(MeshFormat format, double rounding_mm, Proof proof,
                                    const std::string& bytes, FileStore& store);
+  /// Of bytes that are stored and read back.
+  Result<FileReport> certified(MeshFormat format, double rounding_mm, Proof proof,
+                               const std::string& bytes, FileStore& store);
   Result<FileReport> finish(MeshFormat format, SolidCertificate certificate, FileStore& store);
 
   const RevolveLayout& rule_;
@@ -51,8 +58,9 @@ class RevolveFiles {
   const ExportOptions& options_;
   Stages& stages_;
   std::optional<TriangleMesh> mesh_;
-  std::optional<std::vector<float>> wall_mm_;  ///< at each point of the mesh, once needed
-  std::optional<Result<void>> exact_;          ///< verdict on the mesh in float32, once needed
+  std::optional<PointWalls> walls_;              ///< once needed
+  std::optional<Result<void>> exact_;            ///< verdict on the mesh in float32, once needed
+  std::optional<Result<void>> exact_in_metres_;  ///< the same, as a GLB rounds it
 };
 
 }  // namespace clay::solid::inline job

@@ -1,6 +1,7 @@
 #include "export/job/revolved_export.hpp"
 
 #include "claystack/engine/tick.hpp"
+#include "claystack/engine/tool.hpp"
 #include "claystack/export/solid.hpp"
 #include "export/job/left_out.hpp"
 #include "export/job/resolution.hpp"
@@ -127,9 +128,17 @@ class RevolvedExport {
     return options_.lip_fillet_mm.value_or(required ? process->edges->min_radius_mm : 0.0);
   }
 
+  /// As requested, or of the tool, on the enlarged pot.
+  double smooth_length_mm() const {
+    const double usual =
+        options_.smoothing == Smoothing::fair ? tool_length_mm(prepared_.pot) : 0.0;
+    return options_.smooth_length_mm.value_or(usual) * enlargement(options_.shrinkage);
+  }
+
   Result<void> smooth(ProvedSection& section, double tolerance_mm) {
     const double lip_mm = lip_fillet_mm();
-    if (options_.smoothing == Smoothing::none && lip_mm == 0.0)
+    const bool fairing = options_.smooth_length_mm.value_or(0.0) != 0.0;
+    if (options_.smoothing == Smoothing::none && lip_mm == 0.0 && !fairing)
       section.no_smoothing = "not requested";
     else if (has_straight_walls(stack_) && lip_mm == 0.0)
       section.no_smoothing = "the walls are straight";
@@ -138,6 +147,7 @@ class RevolvedExport {
       return {};
     }
     SmoothingOptions how{options_.smoothing, tolerance_mm, {}, lip_mm, {}};
+    how.smooth_length_mm = smooth_length_mm();
     if (prepared_.limit) how.min_wall_mm = prepared_.limit->min_wall_mm;
     return stages_.run("smooth", [&] { return smoothed_profile(stack_, steps_, how); })
         .map([&](SmoothedProfile smoothed) {
@@ -250,6 +260,12 @@ class RevolvedExport {
 };
 
 }  // namespace
+
+double tool_length_mm(const Pot& pot) {
+  if (!pot.thrown_with) return 0.0;
+  const auto tool = Tool::build(pot.thrown_with->tool.shape);
+  return tool ? std::min(tool->widest(), 0.5 * (tool->high() - tool->low())) : 0.0;
+}
 
 Result<ExportReport> export_revolved(const PreparedPot& prepared,
                                      const std::vector<Output>& outputs,

@@ -8,6 +8,7 @@ FileContents solid_contents(const ExportOptions& options) {
   FileContents contents{.name = options.name};
   contents.draco.max_error_mm = options.tolerance_mm;
   contents.glb = options.glb;
+  contents.material = options.material;
   if (const auto& process = options.walls.process)
     contents.notes.emplace_back("process", process->name);
   if (options.shrinkage > 0.0)

@@ -2,7 +2,7 @@
 
 #include "core/cancel.hpp"
 #include "core/text.hpp"
-#include "export/formats/file_floats.hpp"
+#include "export/formats/glb.hpp"
 
 #include <algorithm>
 #include <array>
@@ -36,12 +36,15 @@ struct Parallel {
 };
 
 /// Finds vertices of a revolve in logarithmic time: a k-d tree of the parallels, with the median of
-/// every part in its middle. Distances are to the vertices in float32, so that files that hold
-/// exactly these are matched for any vertex spacing.
+/// every part in its middle. Distances are to the vertices as the format rounds them, so that files
+/// that hold exactly these are matched for any vertex spacing.
 class VertexFinder {
  public:
-  VertexFinder(const RevolveLayout& rule, double reach_mm)
-      : rule_(rule), reach_(reach_mm), rounding_(2.0 * float_rounding_mm(rule)) {
+  VertexFinder(const RevolveLayout& rule, double reach_mm, MeshFormat format)
+      : rule_(rule),
+        reach_(reach_mm),
+        format_(format),
+        rounding_(2.0 * roundings_of(format) * float_rounding_mm(rule)) {
     const double factor = equal_area_factor(rule.segments());
     for (std::uint32_t shell = 0; shell < rule.shells().size(); ++shell) {
       const auto& points = rule.shells()[shell].points;
@@ -107,7 +110,7 @@ class VertexFinder {
     const std::size_t middle = stretch.size() / 2;
     const Parallel& parallel = stretch[middle];
     const double away =
-        glm::distance(search.p, glm::dvec3(file_point(vertex(parallel, search.sector))));
+        glm::distance(search.p, held_point(vertex(parallel, search.sector), format_));
     if (away < search.away) search.nearest = &parallel, search.away = away;
     const double beyond = search.at[parallel.split] - parallel.at[parallel.split];
     const auto below = stretch.first(middle), above = stretch.subspan(middle + 1);
@@ -117,6 +120,7 @@ class VertexFinder {
 
   const RevolveLayout& rule_;
   double reach_;
+  MeshFormat format_;
   double rounding_;  ///< upper bound of a vertex's displacement by float32
   std::vector<Parallel> parallels_;
   double farthest_ = 0.0;
@@ -180,7 +184,7 @@ class Roll {
 }  // namespace
 
 Result<double> match_revolve(const TriangleMesh& decoded, const RevolveLayout& rule,
-                             double reach_mm, std::string_view name) {
+                             double reach_mm, MeshFormat format, std::string_view name) {
   const auto wrong = [&](const std::string& what) {
     return failure(ErrorKind::unsound, std::string(name).append(": ").append(what));
   };
@@ -191,7 +195,7 @@ Result<double> match_revolve(const TriangleMesh& decoded, const RevolveLayout& r
   if (decoded.points.size() != rule.vertices())
     return wrong("expected " + std::to_string(rule.vertices()) + " points, found " +
                  std::to_string(decoded.points.size()));
-  VertexFinder finder(rule, reach_mm);
+  VertexFinder finder(rule, reach_mm, format);
   std::vector<VertexName> names;
   names.reserve(decoded.points.size());
   for (std::size_t i = 0; i < decoded.points.size(); ++i) {

@@ -142,9 +142,9 @@ Result<Margins> same_claims(const SolidCertificate& stated, std::string_view fil
 }
 
 Result<void> same_solid(const SolidCertificate& stated, const Margins& margins,
-                        const TriangleMesh& decoded, std::string_view file) {
+                        const TriangleMesh& decoded, MeshFormat format, std::string_view file) {
   const RevolveLayout rule(stated.profile, stated.segments);
-  if (const auto matched = match_revolve(decoded, rule, stated.rounding_mm, file); !matched)
+  if (const auto matched = match_revolve(decoded, rule, stated.rounding_mm, format, file); !matched)
     return tl::make_unexpected(matched.error());
   if (stated.proof == Proof::margins) {
     const double safe = margins.safe_rounding_mm();
@@ -158,11 +158,13 @@ Result<void> same_solid(const SolidCertificate& stated, const Margins& margins,
 }
 
 Result<void> same_mesh(const SolidCertificate& stated, const TriangleMesh& decoded,
-                       std::string_view file) {
+                       MeshFormat format, std::string_view file) {
   return same_count(stated, decoded, file)
       .and_then([&] { return certify(stated.profile); })
       .and_then([&](const PlanarCertificate&) { return same_claims(stated, file); })
-      .and_then([&](const Margins& margins) { return same_solid(stated, margins, decoded, file); });
+      .and_then([&](const Margins& margins) {
+        return same_solid(stated, margins, decoded, format, file);
+      });
 }
 
 }  // namespace
@@ -215,8 +217,9 @@ Result<void> verify_certificate(const SolidCertificate& certificate, std::string
                                              " segments and a rounding of 0 mm or more");
   return same_bytes(certificate, file_bytes, file_name)
       .and_then([&] { return decode_mesh(file_bytes, *format, file_name); })
-      .and_then(
-          [&](const TriangleMesh& decoded) { return same_mesh(certificate, decoded, file_name); });
+      .and_then([&](const TriangleMesh& decoded) {
+        return same_mesh(certificate, decoded, *format, file_name);
+      });
 } catch (const std::exception& e) {
   return failure(ErrorKind::io, std::string(file_name) + ": verification failed: " + e.what());
 }

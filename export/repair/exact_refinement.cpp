@@ -54,7 +54,7 @@ class PointRegister {
   void add_known(std::uint32_t v) { at_[key(soup_.points[v])].push_back(v); }
 
   std::uint32_t number_of(const ExactPoint& point) {
-    const glm::dvec3 near = nearest_double(point);
+    const glm::dvec3 near = cgal::doubles_of(point);
     auto& same = at_[key(near)];
     for (const std::uint32_t v : same)
       if (soup_.point(v) == point) return v;

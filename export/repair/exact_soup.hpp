@@ -2,9 +2,9 @@
 // Triangles that meet only in whole edges and vertices, on exact points. Requires CGAL's headers:
 // for the sources of this room only.
 
+#include "export/solid/exact_point.hpp"
 #include "export/solid/mesh_topology.hpp"
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <vector>
 
 namespace clay::solid::inline repair {
@@ -13,12 +13,6 @@ using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using ExactPoint = ExactKernel::Point_3;
 
 inline ExactPoint exact_point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
-
-/// The interval of a lazy number may be as wide as 1e-5 of it, so evaluate it exactly first.
-inline glm::dvec3 nearest_double(const ExactPoint& point) {
-  const auto& p = point.exact();
-  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
-}
 
 struct ExactSoup {
   std::vector<glm::dvec3> points;  ///< those of the input, then the new ones, nearest doubles

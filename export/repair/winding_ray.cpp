@@ -50,7 +50,7 @@ WindingRay::Count WindingRay::from_middle_of(const std::array<ExactPoint, 3>& tr
   const ExactKernel::Vector_3 normal = CGAL::normal(triangle[0], triangle[1], triangle[2]);
   const int axis = longest_axis_of(normal);
   const ExactPoint from = CGAL::centroid(triangle[0], triangle[1], triangle[2]);
-  const glm::dvec3 near = nearest_double(from);
+  const glm::dvec3 near = cgal::doubles_of(from);
   // The nearest double may lie just outside of a box that the exact point is in.
   const double margin = 1e-12 * (1.0 + std::abs(near.x) + std::abs(near.y) + std::abs(near.z));
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;

@@ -1,5 +1,5 @@
 #pragma once
-// Straight lines between the middles of rings, scaled to the volume of the rings.
+// Lines between the middles of rings, or faired, scaled to the volume of the rings.
 
 #include "claystack/export/section.hpp"
 #include "export/smoothing/piece_walls.hpp"
@@ -8,12 +8,34 @@
 
 namespace clay::solid::inline smoothing {
 
+/// What `fair_wall` may do at each ring.
+struct FairRings {
+  double tolerance_mm = 0.0;          ///< the largest of `tolerances_mm`
+  std::vector<double> tolerances_mm;  ///< of the simplification
+  std::vector<double> lengths_mm;     ///< of the fairing; 0: chords; empty: chords everywhere
+};
+
+/// A place where fairing moved a wall from the radius of a ring.
+struct FairedMove {
+  double mm = 0.0;     ///< along the radius
+  double at_mm = 0.0;  ///< height
+};
+
+struct FairWall {
+  Polygon line;
+  FairedMove most;  ///< the largest
+};
+
 /// A wall from the bottom up. In every run it is straight to the middle of the first ring, from
 /// middle to middle, and straight to the end; at each height the radius is a mean of two rings'
 /// radii, with the same weights for both walls. Middles within their ring's tolerance of the line
 /// without them are omitted (`simplified`).
-[[nodiscard]] Polygon fair_wall(const PieceWalls& piece, const WallRings& wall, const CutFlags& cut,
-                                const std::vector<double>& tolerances_mm);
+///
+/// Where rings have a length, stretches of at least kLeastFairedRings of them follow a FairedCurve
+/// instead: half of the tolerance is for its chords, the other half for their simplification. A
+/// curve that would halve the smallest radius of its stretch is not used.
+[[nodiscard]] FairWall fair_wall(const PieceWalls& piece, const WallRings& wall,
+                                 const CutFlags& cut, const FairRings& rings);
 
 /// The unsmoothed steps.
 [[nodiscard]] Polygon stepped_wall(const PieceWalls& piece, const WallRings& wall);

@@ -7,6 +7,7 @@
 #include "export/section/swept_volume.hpp"
 #include "export/smoothing/exact_wall.hpp"
 #include "export/smoothing/fair_wall.hpp"
+#include "export/smoothing/faired_curve.hpp"
 #include "export/smoothing/flange_guard.hpp"
 #include "export/smoothing/lip_fillet.hpp"
 #include "export/smoothing/smoothing_plan.hpp"
@@ -23,6 +24,7 @@ namespace clay::solid::inline smoothing {
 namespace {
 
 constexpr int kFilletRounds = 6;
+constexpr int kCarefulRounds = 8;
 constexpr double kSettledShare = 1e-14;
 constexpr double kInvisibleHeights = 0.01;
 
@@ -34,7 +36,14 @@ struct SmoothedPiece {
   double taken_mm = 0.0;
   double lip_fillet_mm = 0.0;
   double max_ring_error_relative = 0.0;
+  FairingReport fairing;
 };
+
+/// Shorter than two rings the length has no effect.
+double fairing_length_mm(const PieceWalls& piece, const SmoothingOptions& options) {
+  if (options.mode != Smoothing::fair || options.smooth_length_mm == 0.0) return 0.0;
+  return std::max(options.smooth_length_mm, kLeastFairedLength * piece.ring_height_mm);
+}
 
 class PieceSmoother {
  public:
@@ -44,7 +53,7 @@ class PieceSmoother {
         // Never 0, so that the guard finds and corrects walls that would meet.
         limit_(options.min_wall_mm ? std::max(*options.min_wall_mm, piece.least_step_mm)
                                    : least_own_wall_mm(piece)),
-        plan_(piece),
+        plan_(piece, fairing_length_mm(piece, options)),
         flange_guard_(piece, limit_),
         overshot_(piece) {}
 
@@ -64,13 +73,21 @@ class PieceSmoother {
   void build() {
     stop_if_cancelled();
     if (options_.mode == Smoothing::fair) {
-      const std::vector<double> tolerances = plan_.tolerances(0.5 * options_.tolerance_mm);
-      lines_ = {fair_wall(piece_, piece_.outer, plan_.outer_cuts(), tolerances),
-                fair_wall(piece_, piece_.bore, plan_.bore_cuts(), tolerances)};
+      const double share = 0.5 * options_.tolerance_mm;
+      const FairRings rings{share, plan_.tolerances(share), plan_.lengths()};
+      lines_ = {fairly(piece_.outer, plan_.outer_cuts(), rings, moved_outside_),
+                fairly(piece_.bore, plan_.bore_cuts(), rings, moved_inside_)};
       return;
     }
     result_.overshoot_mm = result_.extrapolated_mm = result_.max_ring_error_relative = 0.0;
     lines_ = {exactly(piece_.outer, plan_.outer_cuts()), exactly(piece_.bore, plan_.bore_cuts())};
+  }
+
+  Polygon fairly(const WallRings& wall, const CutFlags& cut, const FairRings& rings,
+                 FairedMove& moved) const {
+    FairWall made = fair_wall(piece_, wall, cut, rings);
+    moved = made.most;
+    return std::move(made.line);
   }
 
   Polygon exactly(const WallRings& wall, CutFlags& cut) {
@@ -93,13 +110,14 @@ class PieceSmoother {
     std::vector<ThinRing> thin;
     for (std::size_t i = 0; i < piece_.size(); ++i)
       if (now[i] < own[i] * kWallRounding) thin.push_back({i, now[i]});
-    return (options_.mode == Smoothing::fair && plan_.refine(thin)) || plan_.keep_steps(thin);
+    return (options_.mode == Smoothing::fair && (plan_.refine(thin) || plan_.use_chords(thin))) ||
+           plan_.keep_steps(thin);
   }
 
   /// The same for flanges: clay between two places of one wall.
   bool flange_guard_found_more() {
     const std::vector<ThinRing> thin = flange_guard_.thin_rings(lines_);
-    return !thin.empty() && plan_.keep_steps(thin);
+    return !thin.empty() && (plan_.use_chords(thin) || plan_.keep_steps(thin));
   }
 
   struct Correction {
@@ -110,26 +128,29 @@ class PieceSmoother {
   };
 
   /// Compensates the volume changed by chords, simplification and fillet. False if that would move
-  /// the walls too far; then jumps were cut or the simplification was undone instead.
+  /// the walls too far; then the fairing was undone, jumps were cut or the simplification was
+  /// undone instead.
   bool volume_kept() {
     RingFlags rings(piece_.size(), 1);
     Correction correction = corrected(rings, 0.0);
     const bool taken = correction.lacking_over_pi < 0.0;
     result_.taken_mm = 0.0;
     if (taken && thinner_than(piece_, correction.lines, limit_)) {
-      result_.taken_mm = correction.moved_mm;
-      const RingFlags thick = thick_rings();
-      Correction careful = corrected(thick, 0.0);
-      if (careful.moved_mm > 0.0 && careful.moved_mm <= allowed_move_mm()) {
-        result_.taken_mm = 0.0;
+      rings = thick_rings();
+      Correction careful = careful_correction(rings);
+      if (careful.moved_mm > 0.0) {
         correction = std::move(careful);
-        rings = thick;
+      } else {
+        result_.taken_mm = correction.moved_mm;
+        rings.assign(piece_.size(), 1);
       }
     }
     if (correction.moved_mm > allowed_move_mm()) {
       const double too_much = 1.0 - allowed_move_mm() / correction.moved_mm;
       const double excess = too_much * correction.lacking_over_pi;
-      if (plan_.keep_jumps(excess, correction.moved_mm) || plan_.refine_everywhere()) return false;
+      if (plan_.use_chords_everywhere() || plan_.keep_jumps(excess, correction.moved_mm) ||
+          plan_.refine_everywhere())
+        return false;
     }
     finish(std::move(correction), rings);
     return true;
@@ -191,16 +212,50 @@ class PieceSmoother {
   /// Rings that can be moved that far without approaching the limit of the guard.
   RingFlags thick_rings() const {
     const double spare = 2.0 * allowed_move_mm();  // across a solid both sides move
-    const RingFlags all(piece_.size(), 1);
-    const std::vector<double> own = walls_by_ring_mm(piece_, stepped_lines(piece_), limit_, all);
-    const std::vector<double> now = walls_by_ring_mm(piece_, lines_, limit_ + spare, all);
+    const std::vector<double> own = walls_of(stepped_lines(piece_), limit_);
+    const std::vector<double> now = walls_of(lines_, limit_ + spare);
     RingFlags thick(piece_.size());
     for (std::size_t i = 0; i < piece_.size(); ++i)
       thick[i] = now[i] >= (own[i] + spare) * kWallRounding ? 1 : 0;
     return thick;
   }
 
+  /// Moves only the flagged rings, which must be thick. A wall runs from the outside of one ring to
+  /// the bore of another one: where the move thins a wall, the rings around it are unflagged. Moves
+  /// nothing if too few rings remain.
+  Correction careful_correction(RingFlags& rings) const {
+    const std::vector<double> own = walls_of(stepped_lines(piece_), limit_);
+    const std::vector<double> before = walls_of(lines_, limit_);
+    for (int round = 0; round < kCarefulRounds; ++round) {
+      Correction made = corrected(rings, 0.0);
+      if (!(made.moved_mm <= allowed_move_mm())) break;
+      const std::vector<double> now = walls_of(made.lines, limit_);
+      bool thinned = false;
+      std::size_t done = 0;
+      for (std::size_t i = 0; i < piece_.size(); ++i) {
+        if (now[i] >= std::min(own[i], before[i]) * kWallRounding) continue;
+        thinned = true;
+        const auto [first, last] = plan_.rings_around({i, now[i]});
+        for (done = std::max(done, first); done <= last; ++done) rings[done] = 0;
+      }
+      if (!thinned) return made;
+    }
+    return {};
+  }
+
+  std::vector<double> walls_of(const WallLines& lines, double cap_mm) const {
+    return walls_by_ring_mm(piece_, lines, cap_mm, RingFlags(piece_.size(), 1));
+  }
+
+  void report_fairing() {
+    if (plan_.lengths().empty()) return;
+    const FairedMove& most = moved_outside_.mm >= moved_inside_.mm ? moved_outside_ : moved_inside_;
+    result_.fairing = {fairing_length_mm(piece_, options_), most.mm, most.at_mm, {}};
+    plan_.report(result_.fairing.shortened);
+  }
+
   void report() {
+    report_fairing();
     overshot_.report(KeptFor::overshoot, {}, result_.guard);
     plan_.kept_for_volume().report(KeptFor::volume, {}, result_.guard);
     const KeptStretches& thinned = plan_.kept_for_wall();
@@ -222,6 +277,7 @@ class PieceSmoother {
   SmoothingPlan plan_;
   FlangeGuard flange_guard_;
   WallLines lines_;
+  FairedMove moved_outside_, moved_inside_;
   KeptStretches overshot_;
   SmoothedPiece result_;
 };
@@ -239,11 +295,20 @@ Result<void> check_range(const std::string& option, double value, bool zero_allo
                                            ", found " + in_mm(value) + " mm");
 }
 
+/// An option that only `fair` has.
+Result<void> check_fair(const std::string& option, double value, const SmoothingOptions& options) {
+  if (options.mode == Smoothing::fair || value == 0.0) return {};
+  return failure(ErrorKind::bad_input,
+                 option + ": expected fair smoothing, found " + std::string(name_of(options.mode)));
+}
+
 Result<void> check(const SmoothingOptions& options) {
   return check_range("tolerance", options.tolerance_mm, false)
       .and_then(
           [&] { return check_range("minimum wall", options.min_wall_mm.value_or(0.0), true); })
       .and_then([&] { return check_range("lip fillet", options.lip_fillet_mm, true); })
+      .and_then([&] { return check_range("smooth length", options.smooth_length_mm, true); })
+      .and_then([&] { return check_fair("smooth length", options.smooth_length_mm, options); })
       .and_then([&] {
         return check_range("overshoot limit", options.overshoot_limit_mm.value_or(0.0), true);
       })
@@ -255,6 +320,14 @@ Result<void> check(const SmoothingOptions& options) {
                 (options.mode == Smoothing::exact ? ", in which the top rings keep all their clay"
                                                   : ", which keeps the steps"));
       });
+}
+
+void add_fairing(FairingReport& sum, const FairingReport& piece) {
+  sum.shortened.insert(sum.shortened.end(), piece.shortened.begin(), piece.shortened.end());
+  sum.length_mm = std::max(sum.length_mm, piece.length_mm);
+  if (piece.moved_mm <= sum.moved_mm) return;
+  sum.moved_mm = piece.moved_mm;
+  sum.moved_at_mm = piece.moved_at_mm;
 }
 
 void smooth_pieces(const ClayStack& stack, const SmoothingOptions& options,
@@ -271,6 +344,7 @@ void smooth_pieces(const ClayStack& stack, const SmoothingOptions& options,
     result.lip_fillet_mm = std::max(result.lip_fillet_mm, piece.lip_fillet_mm);
     result.max_ring_error_relative =
         std::max(result.max_ring_error_relative, piece.max_ring_error_relative);
+    add_fairing(result.fairing, piece.fairing);
   }
 }
 

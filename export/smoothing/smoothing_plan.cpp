@@ -48,9 +48,11 @@ void KeptStretches::report(KeptFor reason, const std::vector<double>& walls_mm,
   }
 }
 
-SmoothingPlan::SmoothingPlan(const PieceWalls& piece)
+SmoothingPlan::SmoothingPlan(const PieceWalls& piece, double length_mm)
     : piece_(piece),
+      length_mm_(length_mm),
       cuts_(corners_of(piece)),
+      chords_(length_mm > 0.0 ? piece.size() : 0, 0),
       refinement_(piece.size(), 0),
       next_(piece.size() + 1),
       thinned_(piece),
@@ -68,7 +70,20 @@ std::vector<double> SmoothingPlan::tolerances(double share_mm) const {
   return result;
 }
 
-/// The cause of a thin wall is at most as far away as the wall is thick; in rings.
+RingRange SmoothingPlan::rings_around(const ThinRing& thin) const {
+  const std::size_t reach = reach_of(thin.wall_mm);
+  return {thin.ring - std::min(thin.ring, reach), std::min(piece_.size() - 1, thin.ring + reach)};
+}
+
+std::vector<double> SmoothingPlan::lengths() const {
+  std::vector<double> result;
+  result.reserve(chords_.size());
+  for (std::size_t i = 0; i < chords_.size(); ++i)
+    result.push_back(chords_[i] != 0 ? 0.0 : std::ldexp(length_mm_, -refinement_[i]));
+  return result;
+}
+
+/// In rings.
 std::size_t SmoothingPlan::reach_of(double wall_mm) const {
   const double rings = wall_mm / piece_.ring_height_mm + 2.0;
   return rings < static_cast<double>(piece_.size()) ? static_cast<std::size_t>(rings)
@@ -78,12 +93,11 @@ std::size_t SmoothingPlan::reach_of(double wall_mm) const {
 bool SmoothingPlan::refine(const std::vector<ThinRing>& thin) {
   bool more = false;
   std::size_t done = 0;
-  for (const auto& [ring, wall_mm] : thin) {
-    const std::size_t reach = reach_of(wall_mm);
-    const std::size_t end = std::min(piece_.size(), ring + reach + 1);
-    for (std::size_t i = std::max(done, ring - std::min(ring, reach)); i < end; ++i)
+  for (const ThinRing& ring : thin) {
+    const auto [first, last] = rings_around(ring);
+    for (std::size_t i = std::max(done, first); i <= last; ++i)
       if (refinement_[i] < kMaxRefinement) ++refinement_[i], more = true;
-    done = std::max(done, end);
+    done = std::max(done, last + 1);
   }
   return more;
 }
@@ -92,6 +106,27 @@ bool SmoothingPlan::refine_everywhere() {
   bool more = false;
   for (char& times : refinement_)
     if (times < kMaxRefinement) ++times, more = true;
+  return more;
+}
+
+bool SmoothingPlan::use_chords(const std::vector<ThinRing>& thin) {
+  if (chords_.empty()) return false;
+  bool more = false;
+  std::size_t done = 0;
+  for (const auto& [ring, wall_mm] : thin) {
+    const std::size_t reach = reach_of(wall_mm) + chord_reach_;
+    const std::size_t end = std::min(piece_.size(), ring + reach + 1);
+    for (std::size_t i = std::max(done, ring - std::min(ring, reach)); i < end; ++i)
+      if (chords_[i] == 0) chords_[i] = 1, more = true;
+    done = std::max(done, end);
+  }
+  chord_reach_ = 2 * chord_reach_ + 1;
+  return more;
+}
+
+bool SmoothingPlan::use_chords_everywhere() {
+  const bool more = std::ranges::count(chords_, 0) > 0;
+  std::ranges::fill(chords_, 1);
   return more;
 }
 
@@ -144,6 +179,17 @@ bool SmoothingPlan::keep_steps(const std::vector<ThinRing>& thin) {
   for (const ThinRing& ring : thin)
     if (keep_steps(ring)) more = true;
   return more;
+}
+
+void SmoothingPlan::report(std::vector<ShortenedFairing>& reports) const {
+  const std::vector<double> now = lengths();
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now[i] == length_mm_) continue;
+    const std::size_t first = i;
+    double least = now[i];
+    while (i + 1 < now.size() && now[i + 1] != length_mm_) least = std::min(least, now[++i]);
+    reports.push_back({piece_.level[first], piece_.level[i + 1], least});
+  }
 }
 
 /// The volume that the chords between two middles lose against the steps, over pi: a step of R

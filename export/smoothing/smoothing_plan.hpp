@@ -36,11 +36,12 @@ struct ThinRing {
 };
 
 /// The current extent of smoothing. The wall guard undoes it step by step: first the
-/// simplification, then the smoothing. Every undo is permanent, so in the worst case only the steps
-/// remain.
+/// simplification, together with the length of the fairing, then the fairing, then the smoothing.
+/// Every undo is permanent, so in the worst case only the steps remain.
 class SmoothingPlan {
  public:
-  explicit SmoothingPlan(const PieceWalls& piece);
+  /// `length_mm`: of the fairing; 0: none.
+  SmoothingPlan(const PieceWalls& piece, double length_mm);
 
   [[nodiscard]] CutFlags& outer_cuts() noexcept { return cuts_.outer; }
   [[nodiscard]] CutFlags& bore_cuts() noexcept { return cuts_.bore; }
@@ -49,10 +50,22 @@ class SmoothingPlan {
   /// The tolerance of each ring; `share_mm`: the initial one.
   [[nodiscard]] std::vector<double> tolerances(double share_mm) const;
 
+  /// Those that may cause a thin wall: the cause is at most as far away as the wall is thick.
+  [[nodiscard]] RingRange rings_around(const ThinRing& thin) const;
+
+  /// The length of the fairing of each ring: halved each time that the tolerance is reduced, and 0
+  /// where the fairing is undone. Empty without fairing.
+  [[nodiscard]] std::vector<double> lengths() const;
+
   /// Reduces the tolerances around thin rings, given from the bottom up, finally to 0. False if
   /// they all are 0 already.
   bool refine(const std::vector<ThinRing>& thin);
   bool refine_everywhere();
+
+  /// Undoes the fairing around thin rings, twice as far each time, so that the rounds grow with the
+  /// logarithm of the number of rings. False if there is none.
+  bool use_chords(const std::vector<ThinRing>& thin);
+  bool use_chords_everywhere();
 
   /// Cuts the interfaces of thin rings in both walls, or the nearest uncut ones around them. False
   /// if all are cut.
@@ -66,6 +79,9 @@ class SmoothingPlan {
   [[nodiscard]] const KeptStretches& kept_for_wall() const noexcept { return thinned_; }
   [[nodiscard]] const KeptStretches& kept_for_volume() const noexcept { return jumps_; }
 
+  /// Appends the stretches in which the length was reduced.
+  void report(std::vector<ShortenedFairing>& reports) const;
+
  private:
   [[nodiscard]] std::size_t reach_of(double wall_mm) const;
   [[nodiscard]] bool open(const WallRings& wall, const CutFlags& cut, std::size_t k) const;
@@ -76,7 +92,10 @@ class SmoothingPlan {
   [[nodiscard]] double chord_loss(std::size_t k) const;
 
   const PieceWalls& piece_;
+  double length_mm_;
   Cuts cuts_;
+  std::vector<char> chords_;       ///< a flag for each ring; empty without fairing
+  std::size_t chord_reach_ = 0;    ///< rings around thin ones, beside what their thickness requires
   std::vector<char> refinement_;   ///< how often each ring's tolerance was reduced
   std::vector<std::size_t> next_;  ///< for each interface, a link towards the next open one
   KeptStretches thinned_, jumps_;

@@ -78,14 +78,18 @@ bool SpaceMouseReports::take(std::span<const std::uint8_t> report) noexcept {
   return false;
 }
 
+glm::dvec3 rate_of(const glm::dvec3& deflection, double dead_zone) noexcept {
+  const double way = std::min(glm::length(deflection), 1.0);
+  if (!(way > dead_zone)) return glm::dvec3(0.0);
+  const double part = (way - dead_zone) / (1.0 - dead_zone);
+  return part * part * glm::normalize(deflection);
+}
+
 void RateControl::advance(const glm::dvec3& deflection, std::int64_t now_us) noexcept {
   const double dt = last_us_ == 0 ? 0.0 : 1e-6 * static_cast<double>(now_us - last_us_);
   last_us_ = now_us;
-  const double way = std::min(glm::length(deflection), 1.0);
-  if (!(way > settings_.dead_zone)) return;
-  const double part = (way - settings_.dead_zone) / (1.0 - settings_.dead_zone);
-  const double speed = settings_.speed_mm_s * part * part;
-  const glm::dvec3 step = speed * std::clamp(dt, 0.0, kMostDt) * glm::normalize(deflection);
+  const glm::dvec3 step = settings_.speed_mm_s * std::clamp(dt, 0.0, kMostDt) *
+                          rate_of(deflection, settings_.dead_zone);
   position_mm_ =
       glm::clamp(position_mm_ + step, -settings_.half_workspace_mm, settings_.half_workspace_mm);
 }

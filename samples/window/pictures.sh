@@ -30,6 +30,7 @@ picture() {
   for theme in dark light; do
     for look in "800x600 1" "1280x800 1" "2560x1440 1" "2560x1440 2"; do
       size=${look% *} scale=${look#* }
+      rm -f "$pots"/*.3mf  # of the picture before: it would ask whether to replace it
       # The scripts use window coordinates at scale 1.
       awk -v s="$scale" '$1 == "move" { $2 *= s; $3 *= s } 1' "samples/window/$2.script" >"$out/script"
       "$program" studio ${3:+"$3"} --script "$out/script" --screenshot "$out/$1-$theme-$size-$scale.png" \
@@ -55,6 +56,8 @@ picture account account "$pots/vase.pot.json"
 picture branches branches "$pots/vase.pot.json"
 picture export export "$pots/bowl.pot.json"
 picture exported exported "$pots/vase.pot.json"
+picture picture picture "$pots/vase.pot.json"
+picture turntable turntable "$pots/vase.pot.json"
 picture marks marks "$pots/vase.pot.json"
 picture import import
 picture settings settings "$pots/bowl.pot.json"

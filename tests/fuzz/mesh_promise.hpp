@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace clay::solid::samples {
@@ -38,7 +39,9 @@ inline std::optional<std::string> broken_promise(std::string_view bytes, MeshFor
 inline std::vector<std::string> good_files(MeshFormat format) {
   std::vector<std::string> files;
   const DracoClaims claims{.volume_mm3 = 1.0, .vertex_error_mm = 0.01};
+  const std::vector<std::pair<std::string, std::string>> notes{{"process", "sla"}};
   for (const TriangleMesh& mesh : {tetrahedron(), torus(4, 3)}) {
+    const std::vector<float> walls(mesh.points.size(), 3.0F);
     switch (format) {
       case MeshFormat::stl_binary:
         files.push_back(encode_stl_binary(mesh));
@@ -56,17 +59,19 @@ inline std::vector<std::string> good_files(MeshFormat format) {
         files.push_back(encode_drc(mesh, {}, &claims).value_or(std::string()));
         break;
       case MeshFormat::ply:
-        files.push_back(encode_ply(mesh, "pot", std::vector<float>(mesh.points.size(), 3.0F)));
+        files.push_back(encode_ply(mesh, "pot", walls));
         break;
       case MeshFormat::off:
         break;
       case MeshFormat::glb:
-        files.push_back(encode_glb(mesh, {.notes = {{"process", "sla"}}}).value_or(std::string()));
+        for (const GlbMesh glb : {GlbMesh::draco, GlbMesh::meshopt, GlbMesh::core})
+          files.push_back(encode_glb(mesh, {.wall_mm = walls, .glb = glb, .notes = notes})
+                              .value_or(std::string()));
         break;
       case MeshFormat::three_mf:
       case MeshFormat::three_mf_model: {
         const FileContents contents{
-            .notes = {{"process", "sla"}}, .pot = "pot", .certificate = "{}"};
+            .wall_mm = walls, .notes = notes, .pot = "pot", .certificate = "{}"};
         const ModelPart model = encode_3mf_model(mesh, contents);
         files.push_back(format == MeshFormat::three_mf_model
                             ? model.xml

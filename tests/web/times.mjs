@@ -1,32 +1,66 @@
-// Times of the program as WebAssembly: node tests/web/times.mjs MODULE. MODULE is
-// build/web/app/claystack.js. Throws and exports samples in the memory of the module; prints the
-// time of a tick, with the reading of the session and the writing of the pot in it, and of an export
-// of STL and 3MF with its proof. The least of five runs each.
-import {readFileSync} from 'node:fs';
+// Times of the program as WebAssembly beside those of the native program, in one run:
+// node tests/web/times.mjs MODULE [NATIVE]. MODULE is build/web/app/claystack.js. Prints the time of a
+// tick in contact (ticks.mjs), and of an export of STL and 3MF with its proof. The least of five runs
+// each.
+import {execFileSync} from 'node:child_process';
+import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
-import {resolve} from 'node:path';
+import {tmpdir} from 'node:os';
+import {join, resolve} from 'node:path';
+import {samplesOf, tickUs} from './ticks.mjs';
 
-const claystack = createRequire(import.meta.url)(resolve(process.argv[2]));
-const module = await claystack({print: () => {}, printErr: line => console.error(line)});
+const [module, native = 'build/release/app/claystack'] = process.argv.slice(2).map(path => resolve(path));
+const claystack = createRequire(import.meta.url)(module);
+let out = '';
+const page = await claystack({print: line => { out += line; }, printErr: line => console.error(line)});
+const folder = mkdtempSync(join(tmpdir(), 'claystack-times-'));
 
-function least(...words) {
+const kThrow = ['throw', '-q', '--json', 'it.scene.json', '-s', 'it.session', '-o', 'it.pot.cbor'];
+/// write(name, text), and run(words): the output.
+const programs = {
+  WebAssembly: {
+    write: (name, text) => page.FS.writeFile(name, text),
+    run(words) {
+      out = '';
+      if (page.callMain([...words]) !== 0) throw new Error(words.join(' '));
+      return out;
+    },
+  },
+  native: {
+    write: (name, text) => writeFileSync(join(folder, name), text),
+    run: words => execFileSync(native, words, {cwd: folder, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore']}),
+  },
+};
+
+function timed({run}, words) {
+  const begun = performance.now();
+  const text = run(words);
+  return {seconds: (performance.now() - begun) / 1000, text};
+}
+
+function thrownBy(program, sample) {
+  return scene => {
+    program.write('it.scene.json', scene);
+    program.write('it.session', sample.session);
+    const {seconds, text} = timed(program, kThrow);
+    return {seconds, contacts: JSON.parse(text).contact_ticks};
+  };
+}
+
+function exported(program) {
   let seconds = Infinity;
-  for (let i = 0; i < 5; ++i) {
-    const begun = performance.now();
-    const status = module.callMain([...words]);
-    if (status !== 0) throw new Error(`${words.join(' ')}: exit status ${status}`);
-    seconds = Math.min(seconds, (performance.now() - begun) / 1000);
-  }
+  for (let i = 0; i < 5; ++i)
+    seconds = Math.min(seconds, timed(program, ['export', '-q', 'it.pot.cbor', 'it.stl', 'it.3mf']).seconds);
   return seconds;
 }
 
-for (const sample of ['bowl', 'vase', 'bottle', 'cylinder']) {
-  for (const ending of ['.scene.json', '.session'])
-    module.FS.writeFile(sample + ending, readFileSync(`samples/${sample}${ending}`));
-  const ticks = readFileSync(`samples/${sample}.session`, 'utf8').trimEnd().split('\n').slice(1)
-    .reduce((sum, line) => sum + JSON.parse(line).n, 0);
-  const thrown = least('throw', '-q', `${sample}.scene.json`, '-o', `${sample}.pot.cbor`);
-  const exported = least('export', '-q', `${sample}.pot.cbor`, `${sample}.stl`, `${sample}.3mf`);
-  console.log(`${sample.padEnd(9)} ${ticks} ticks of ${(1e6 * thrown / ticks).toFixed(2)} us; ` +
-              `exported in ${exported.toFixed(3)} s`);
+for (const sample of samplesOf('samples')) {
+  const line = [sample.name.padEnd(18)];
+  for (const [name, program] of Object.entries(programs)) {
+    const us = await tickUs(sample, thrownBy(program, sample));
+    thrownBy(program, sample)(sample.scene);
+    line.push(`${name}: tick ${us.toFixed(2).padStart(5)} us, export ${exported(program).toFixed(3)} s`);
+  }
+  console.log(line.join('   '));
 }
+rmSync(folder, {recursive: true});

@@ -43,7 +43,7 @@ void Play::advance(AppState& state) {
       rest_until_s_ = now_s + kReadS;
     }
     if (now_s < rest_until_s_) return;
-    state.scene.shape_from(view_model(state), plan->path.front().at_mm, false, actions);
+    state.scene.shape_from(view_model(state), plan->path.front().at_mm, {}, actions);
     apply_all(state, actions);
     time_s_ = plan->mode == ToolMode::pinch ? -kPace * kCloseS : 0.0;
     last_s_ = now_s;
@@ -58,7 +58,7 @@ void Play::advance(AppState& state) {
     if (guide.demonstration() == Demonstration::step) state.guide.demonstrate(Demonstration::none);
     return apply(state, ReleaseTool{});
   }
-  state.scene.shape_to(view_model(state), place_at(*plan, time_s_), actions);
+  state.scene.shape_to(view_model(state), place_at(*plan, time_s_), {}, actions);
   apply_all(state, actions);
 }
 

@@ -47,6 +47,8 @@ std::vector<std::string> figures_at(const ViewModel& model, const render::ToolVi
     lines.push_back(fmt::format("floor {}", length_text(*floor, unit)));
   lines.push_back(fmt::format("radius {}", length_text(rho, unit)));
   lines.push_back(fmt::format("height {}", length_text(tool.place_mm.y, unit)));
+  if (const auto& strength = model.scene.strength(); strength && model.stroke.throwing())
+    lines.push_back(fmt::format("strength {:.0f} %", 100.0 * *strength));
   return lines;
 }
 
@@ -74,9 +76,9 @@ void draw_pull(const ViewModel& model, ImDrawList* draw, glm::vec2 tool_px) {
   const float part = static_cast<float>(std::clamp(stretch / kHardPullMm, 0.0, 1.0));
   const Palette& colours = model.colours();
   const ImU32 ink = ImGui::GetColorU32(part < 1.0f ? colours.good : colours.warning);
-  const ImVec2 pointer = ImGui::GetIO().MousePos;
+  const glm::vec2 pointer = model.scene.pointer_px();
   if (model.guide.demonstration() == Demonstration::none)
-    draw->AddLine({tool_px.x, tool_px.y}, pointer, ink, 0.1f * em);
+    draw->AddLine({tool_px.x, tool_px.y}, {pointer.x, pointer.y}, ink, 0.1f * em);
   constexpr float kTop = -1.5707963f, kTurn = 6.2831853f;
   draw->PathArcTo({tool_px.x, tool_px.y}, 1.1f * em, kTop, kTop + part * kTurn, 32);
   draw->PathStroke(ink, ImDrawFlags_None, 0.22f * em);

@@ -126,7 +126,7 @@ void draw(const ReplaceDialog& dialog, const ViewModel& model, Actions& actions,
           const ViewRect& rect) {
   begin_dialog("##replace", rect, 38.0f);
   dialog_title(model, "Replace?");
-  ImGui::TextWrapped("%s", dialog.question.c_str());
+  wrapped_text(dialog.question);
   ImGui::Spacing();
   if (main_button("Cancel (Esc)", model.colours())) actions.emplace_back(KeepFiles{});
   ImGui::SameLine();

@@ -5,7 +5,6 @@
 #include "app/studio/panels/widgets.hpp"
 
 #include <fmt/format.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +14,13 @@
 
 namespace clay::studio {
 namespace {
+
+/// PDF and the report: a web page has neither cairo nor a picture beside its own.
+#ifdef __EMSCRIPTEN__
+constexpr bool kWritesPages = false;
+#else
+constexpr bool kWritesPages = true;
+#endif
 
 /// A box for each ending that can be written, in the order of the table of formats; they wrap.
 void draw_meshes(ExportChoices& choices) {
@@ -39,21 +45,22 @@ void draw_meshes(ExportChoices& choices) {
 void draw_formats(ExportChoices& choices) {
   form_row("Files");
   draw_meshes(choices);
+  form_row("For CAD");
+  ImGui::Checkbox("STEP", &choices.step);
+  form_row("Drawing");
+  ImGui::Checkbox("SVG", &choices.section);
+  ImGui::SameLine();
+  ImGui::Checkbox("DXF", &choices.dxf);
+  if (kWritesPages) {
+    ImGui::SameLine();
+    ImGui::Checkbox("PDF", &choices.pdf);
+  }
   form_row("Also");
-  ImGui::Checkbox("Section", &choices.section);
-  ImGui::SameLine();
   ImGui::Checkbox("Pot", &choices.pot);
-}
-
-void draw_places(ExportChoices& choices, Actions& actions) {
-  form_row("Name");
-  ImGui::InputText("##name", &choices.name);
-  form_row("Folder");
-  const float button = ImGui::CalcTextSize("Choose...").x + 3.0f * ImGui::GetStyle().FramePadding.x;
-  ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemSpacing.x);
-  ImGui::InputText("##folder", &choices.folder);
-  ImGui::SameLine();
-  if (ImGui::Button("Choose...")) actions.emplace_back(ChooseExportFolder{});
+  if (kWritesPages) {
+    ImGui::SameLine();
+    ImGui::Checkbox("Report", &choices.report);
+  }
 }
 
 void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actions) {
@@ -66,6 +73,9 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
   form_row("Smoothing");
   if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth); chosen >= 0)
     choices.smoothing = kSmooth[static_cast<std::size_t>(chosen)];
+  if (choices.smoothing == solid::Smoothing::fair)
+    form_length("Smoothing length", choices.smooth_length_mm, 0.0, kLongestFairingMm,
+                LengthUnit::mm, "none");
   form_row("Process");
   (void)choose_process(model, "None", choices.process, actions);
   form_length("Minimum wall", choices.min_wall_mm, 0.0, kThickestDemandMm, model.settings.unit,
@@ -98,22 +108,27 @@ void draw_figures(const ViewModel& model, const ExportFigures& figures) {
     value_row(colours, "Thinnest wall",
               fmt::format("{:.2f} mm, at a height of {:.1f} mm", figures.thinnest_mm,
                           figures.thinnest_at_mm));
-  ImGui::PushStyleColor(ImGuiCol_Text, colours.warning);
-  for (const std::string& problem : figures.problems) ImGui::TextWrapped("%s", problem.c_str());
-  ImGui::PopStyleColor();
+  if (figures.faired_mm > 0.0)
+    value_row(colours, "Walls moved by",
+              fmt::format("at most {:.2f} mm, at a height of {:.1f} mm", figures.moved_mm,
+                          figures.moved_at_mm));
+  for (const std::string& problem : figures.problems) wrapped_text(problem, colours.warning);
 }
 
 /// Progress, figures or the problem, in an area of fixed height, so that the dialog keeps its
-/// height.
-void draw_preview(const ViewModel& model) {
+/// height, and its buttons are in sight in a low view as well.
+void draw_preview(const ViewModel& model, const ViewRect& rect) {
   const ExportState& exporting = model.ui.exporting;
-  const ImVec2 size(0.0f, 12.5f * ImGui::GetFontSize());
+  constexpr float kHeightEm = 12.5f, kLowestEm = 4.0f, kButtonsEm = 5.0f;
+  const float em = ImGui::GetFontSize();
+  const float room = rect.size_px.y - ImGui::GetCursorPosY() - kButtonsEm * em;
+  const ImVec2 size(0.0f, std::clamp(room, kLowestEm * em, kHeightEm * em));
   ImGui::BeginChild("##preview", size, true);
   const bool running = model.export_running.has_value();
   if (model.writing())
     faint_text(model.colours(), "Writing: " + model.export_stage);
   else if (!exporting.problem.empty())
-    ImGui::TextWrapped("%s", exporting.problem.c_str());
+    wrapped_text(exporting.problem);
   else if (running)
     faint_text(model.colours(), "Computing: " + model.export_stage);
   if (exporting.preview && exporting.problem.empty()) draw_figures(model, *exporting.preview);
@@ -129,9 +144,7 @@ void draw_buttons(const ViewModel& model, Actions& actions) {
                                                 ? standing_files(exporting.choices)
                                                 : std::vector<std::string>();
   if (!exporting.result.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, model.colours().good);
-    ImGui::TextWrapped("%s", exporting.result.c_str());
-    ImGui::PopStyleColor();
+    wrapped_text(exporting.result, model.colours().good);
   } else {
     faint_text(model.colours(),
                standing.empty()
@@ -162,11 +175,11 @@ void draw(const ExportDialog&, const ViewModel& model, Actions& actions, const V
   dialog_title(model, "Export");
   ExportChoices choices = model.ui.exporting.choices;
   draw_formats(choices);
-  draw_places(choices, actions);
+  form_place(choices.name, choices.folder, actions);
   draw_choices(model, choices, actions);
   if (choices != model.ui.exporting.choices) actions.emplace_back(EditExport{choices});
   ImGui::Spacing();
-  draw_preview(model);
+  draw_preview(model, rect);
   draw_buttons(model, actions);
   ImGui::End();
 }

@@ -17,6 +17,7 @@
 namespace clay::studio {
 namespace {
 
+constexpr float kBesideEm = 34.0f;  // a work and its buttons in one row
 constexpr std::size_t kMostWorksShown = 3;
 constexpr float kLeastCardEm = 10.0f, kPictureEm = 9.0f, kLeastLumpEm = 30.0f;
 
@@ -120,14 +121,18 @@ void draw_recoverable(const ViewModel& model, Actions& actions) {
   const std::size_t shown = std::min(model.recoverable.size(), kMostWorksShown);
   const float em = ImGui::GetFontSize();
   ImGui::PushStyleColor(ImGuiCol_Border, model.colours().warning);
-  ImGui::BeginChild("##recoverable", {0.0f, (2.6f + 2.2f * static_cast<float>(shown)) * em}, true);
+  const bool beside = ImGui::GetContentRegionAvail().x > kBesideEm * em;  // the text has room
+  const float row = std::max(2.2f * em, ImGui::GetFrameHeightWithSpacing());
+  ImGui::BeginChild("##recoverable",
+                    {0.0f, 2.6f * em + (beside ? 1.0f : 2.0f) * row * static_cast<float>(shown)},
+                    true);
   ImGui::PopStyleColor();
   ImGui::TextColored(model.colours().warning, "Not saved when the program ended:");
   for (std::size_t i = 0; i < shown; ++i) {
     ImGui::PushID(static_cast<int>(i));
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(text_of(model.recoverable[i]).c_str());
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - 14.0f * em);
+    if (beside) ImGui::SameLine(ImGui::GetContentRegionMax().x - 14.0f * em);
     if (ImGui::Button(i == 0 ? "Recover (Ctrl+R)" : "Recover"))
       actions.emplace_back(RecoverWork{i});
     ImGui::SameLine();

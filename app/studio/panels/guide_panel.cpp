@@ -54,24 +54,25 @@ void draw_present_step(const ViewModel& model, Actions& actions) {
   ImGui::PushFont(model.ui.fonts.title);
   ImGui::TextUnformatted(stroke.name.c_str());
   ImGui::PopFont();
-  ImGui::TextWrapped("%s", stroke.hint.c_str());
+  wrapped_text(stroke.hint);
   const LessonPlan* plan = guide.plan();
   if (plan != nullptr && !plan->problem.empty())
     ImGui::TextColored(colours.warning, "%s", plan->problem.c_str());
   draw_progress(guide.progress(), colours);
   if (guide.demonstration() != Demonstration::none) {
     if (ImGui::Button("Stop")) actions.emplace_back(StopShowing{});
-    ImGui::SameLine();
-    ImGui::TextColored(colours.faint, "Watch, or press on the clay to take over.");
+    constexpr const char* kWatch = "Watch, or press on the clay to take over.";
+    same_line_if_room(kWatch);
+    faint_text(colours, kWatch);
     return;
   }
   if (ImGui::Button("Show me")) actions.emplace_back(ShowStep{});
-  ImGui::SameLine();
+  same_line_if_room("Next step");
   if (ImGui::Button("Next step")) actions.emplace_back(NextStep{});
-  ImGui::SameLine();
+  same_line_if_room("End the guide");
   if (ImGui::Button("End the guide")) actions.emplace_back(EndLesson{});
   if (plan == nullptr) return;
-  ImGui::SameLine();
+  same_line_if_room(name_of_tool(plan->mode));
   ImGui::TextColored(colours.faint, "%s", name_of_tool(plan->mode));
 }
 
@@ -81,9 +82,9 @@ void draw_finish(const ViewModel& model, Actions& actions) {
   ImGui::PopFont();
   ImGui::TextWrapped("Export it for printing, or go on shaping it as you like.");
   if (main_button("Export...", model.colours())) actions.emplace_back(RunCommand{"file.export"});
-  ImGui::SameLine();
+  same_line_if_room("Throw it yourself");
   if (ImGui::Button("Throw it yourself")) actions.emplace_back(YourTurn{});
-  ImGui::SameLine();
+  same_line_if_room("End the guide");
   if (ImGui::Button("End the guide")) actions.emplace_back(EndLesson{});
 }
 
@@ -177,9 +178,10 @@ void draw_path(const ViewModel& model, const ViewRect& rect) {
 namespace {
 
 /// A line over the top of the view, with a dot of this colour. Returns its lower edge.
-float draw_pill(const std::string& text, const ImVec4& colour, const ViewRect& rect, float top) {
-  const float em = ImGui::GetFontSize(), wrap = rect.size_px.x - 4.0f * em;
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+float draw_pill(const std::string& words, const ImVec4& colour, const ViewRect& rect, float top) {
+  const float em = ImGui::GetFontSize();
+  const std::string text = wrapped(words, rect.size_px.x - 4.0f * em);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 at(rect.corner_px.x + 0.5f * (rect.size_px.x - size.x) + 0.5f * em,
                   top + 0.35f * em);
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
@@ -188,16 +190,15 @@ float draw_pill(const std::string& text, const ImVec4& colour, const ViewRect& r
   draw->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_PopupBg, 0.92f), 0.9f * em);
   draw->AddCircleFilled({at.x - 0.85f * em, at.y + 0.5f * em}, 0.32f * em,
                         ImGui::GetColorU32(colour));
-  draw->AddText(ImGui::GetFont(), em, at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str(), nullptr,
-                wrap);
+  draw->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
   return high.y;
 }
 
 }  // namespace
 
-void draw_verdict(const ViewModel& model, const ViewRect& rect) {
+float draw_verdict(const ViewModel& model, const ViewRect& rect) {
   const auto& check = model.readings.check();
-  if (!check || !model.document.has_work() || !model.ui.shows<NoDialog>()) return;
+  if (!check || !model.document.has_work() || !model.ui.shows<NoDialog>()) return rect.corner_px.y;
   const bool fallen = model.readings.fallen();
   const std::string text =
       fallen ? "Fallen: undo removes the last stroke" : ready_text(*check, model.settings.unit);
@@ -205,19 +206,20 @@ void draw_verdict(const ViewModel& model, const ViewRect& rect) {
   const float em = ImGui::GetFontSize();
   float top = draw_pill(text, check->ready() && !fallen ? colours.good : colours.warning, rect,
                         rect.corner_px.y + 0.45f * em);
-  if (fallen) return;
+  if (fallen) return top;
   if (check->maker && model.settings.goal.set()) {
     const GoalReading goal = read_goal(model.settings.goal, *check->maker, model.settings.unit);
     top = draw_pill(goal.text, goal.met ? colours.good : colours.warning, rect, top + 0.2f * em);
   }
   if (check->off && model.ui.target)
-    draw_pill(fmt::format("Up to {} from the target, at a height of {}",
-                          length_text(check->off->mm, model.settings.unit),
-                          length_text(check->off->height_mm, model.settings.unit)),
-              check->off->mm <= kMatchesMm ? colours.good
-              : check->off->mm <= kNearMm  ? colours.warning
-                                           : colours.fault,
-              rect, top + 0.2f * em);
+    top = draw_pill(fmt::format("Up to {} from the target, at a height of {}",
+                                length_text(check->off->mm, model.settings.unit),
+                                length_text(check->off->height_mm, model.settings.unit)),
+                    check->off->mm <= kMatchesMm ? colours.good
+                    : check->off->mm <= kNearMm  ? colours.warning
+                                                 : colours.fault,
+                    rect, top + 0.2f * em);
+  return top;
 }
 
 }  // namespace clay::studio

@@ -42,7 +42,7 @@ void draw_result(const ImportDialog& dialog, const ViewModel& model) {
   ImGui::BeginChild("##made", {0.0f, side + 2.2f * ImGui::GetFontSize()}, true);
   if (!dialog.made) {
     ImGui::PushStyleColor(ImGuiCol_Text, colours.warning);
-    ImGui::TextWrapped("%s", dialog.problem.c_str());
+    wrapped_text(dialog.problem);
     ImGui::PopStyleColor();
     ImGui::EndChild();
     return;

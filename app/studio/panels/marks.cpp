@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kLeastViewEm = 18.0f;  // minimum height of the view for the scale
 constexpr int kSteps = 5;
+constexpr float kNoteEm = 10.0f;  // width of the note below the scale
 
 void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImVec4& colour) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -38,14 +39,14 @@ ImU32 in_shade(const render::Swatch& swatch) {
 }
 
 /// The scale of the wall map: the same range for every pot, with the limit marked.
-void draw_scale(const PotCheck& check, const ViewRect& rect, LengthUnit unit) {
+void draw_scale(const PotCheck& check, const ViewRect& rect, float top_px, LengthUnit unit) {
   const float em = ImGui::GetFontSize();
   if (rect.size_px.y < kLeastViewEm * em) return;
   const render::WallMap map = wall_map_of(check);
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   const ImVec4 ink = ImGui::GetStyleColorVec4(ImGuiCol_Text);
   const float height = std::min(11.0f * em, 0.45f * rect.size_px.y), width = 1.1f * em;
-  const ImVec2 low(rect.corner_px.x + 1.2f * em, rect.corner_px.y + 3.2f * em);
+  const ImVec2 low(rect.corner_px.x + 1.2f * em, top_px + 2.2f * em);
   shaded_text(draw, {low.x, low.y - 1.8f * em}, "Wall thickness", ink);
   for (int px = 0; px < static_cast<int>(height); ++px) {
     const double wall = map.top_mm * (1.0 - (px + 0.5) / static_cast<double>(height));
@@ -63,10 +64,12 @@ void draw_scale(const PotCheck& check, const ViewRect& rect, LengthUnit unit) {
                 ink);
   }
   if (check.limit)
-    shaded_text(draw, {low.x, low.y + height + 0.9f * em},
-                fmt::format("Hatched red: below {}, {}",
+    shaded_text(
+        draw, {low.x, low.y + height + 0.9f * em},
+        wrapped(fmt::format("Hatched red: below {}, {}",
                             length_text(check.limit->min_wall_mm, unit), check.limit->process),
-                ink);
+                kNoteEm * em),
+        ink);
 }
 
 /// A circle around the thinnest place, with its thickness.
@@ -99,7 +102,7 @@ void mark_fault(const ViewModel& model, double y_mm, ImDrawList* draw) {
 
 }  // namespace
 
-void draw_marks(const ViewModel& model, const ViewRect& rect) {
+void draw_marks(const ViewModel& model, const ViewRect& rect, float top_px) {
   const auto& check = model.readings.check();
   if (!check || !model.ui.shows<NoDialog>() || model.readings.fallen()) return;
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
@@ -110,7 +113,8 @@ void draw_marks(const ViewModel& model, const ViewRect& rect) {
   const bool open = model.settings.wall_map && model.scene.cut != render::Cut::none;
   if (check->proved && (open || check->thin()) && !model.has_marks())
     mark_thinnest(model, *check, draw);
-  if (check->proved && model.settings.wall_map) draw_scale(*check, rect, model.settings.unit);
+  if (check->proved && model.settings.wall_map)
+    draw_scale(*check, rect, top_px, model.settings.unit);
   draw->PopClipRect();
 }
 
@@ -120,10 +124,11 @@ namespace {
 void draw_mark(const ViewModel& model, const ViewRect& rect, const Mark& mark, glm::vec2 at,
                float top) {
   const float em = ImGui::GetFontSize();
-  const float wrap = std::min(16.0f * em, 0.45f * rect.size_px.x);
   // Only the problem; the dialog lists its source and further places.
-  const std::string text = mark.text.substr(0, std::min(mark.text.find(';'), mark.text.find(" (")));
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+  const std::string text =
+      wrapped(mark.text.substr(0, std::min(mark.text.find(';'), mark.text.find(" ("))),
+              std::min(16.0f * em, 0.45f * rect.size_px.x));
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const float right = rect.corner_px.x + rect.size_px.x;
   const ImVec2 corner(std::max(rect.corner_px.x + em, right - size.x - 1.5f * em), top);
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
@@ -134,16 +139,15 @@ void draw_mark(const ViewModel& model, const ViewRect& rect, const Mark& mark, g
   draw->AddCircle({at.x, at.y}, 0.7f * em, colour, 0, 0.16f * em);
   draw->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_PopupBg), 0.3f * em);
   draw->AddRect(low, high, colour, 0.3f * em);
-  draw->AddText(ImGui::GetFont(), em, corner, ImGui::GetColorU32(ImGuiCol_Text), text.c_str(),
-                nullptr, wrap);
+  draw->AddText(corner, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
 
 }  // namespace
 
-void draw_export_marks(const ViewModel& model, const ViewRect& rect) {
+void draw_export_marks(const ViewModel& model, const ViewRect& rect, float top_px) {
   if (!model.ui.shows<NoDialog>() || !model.has_marks()) return;
   const float em = ImGui::GetFontSize();
-  float top = rect.corner_px.y + 1.2f * em;
+  float top = top_px + 1.2f * em;
   for (const Mark& mark : model.ui.marks) {
     const auto at = model.scene.pixel_of(mark.place_mm);
     if (!at || !rect.holds(*at)) continue;

@@ -4,6 +4,7 @@
 #include "app/studio/panels/widgets.hpp"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -44,11 +45,28 @@ bool is_open(const Settings& settings, const Panel& panel) {
   return remembered == settings.open.end() ? panel.open : remembered->second;
 }
 
-void draw_recent(const ViewModel& model, Actions& actions) {
-  if (!ImGui::BeginMenu("Recent", !model.settings.recent.empty())) return;
+/// Arrows that a menu within a menu needs.
+struct UsedArrows {
+  bool left = false, right = false;
+};
+
+UsedArrows draw_recent(const ViewModel& model, Actions& actions) {
+  const bool open = ImGui::BeginMenu("Recent", !model.settings.recent.empty());
+  if (!open) return {false, ImGui::IsItemFocused() && !model.settings.recent.empty()};
   for (const std::string& path : model.settings.recent)
     if (ImGui::MenuItem(path.c_str())) actions.emplace_back(OpenFile{path});
   ImGui::EndMenu();
+  return {true, true};
+}
+
+/// Left and Right go from an open menu to its neighbours.
+void walk_menus(std::size_t open, const UsedArrows& used, Actions& actions) {
+  const std::size_t count = menus().size();
+  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
+  const bool left = !used.left && pressed(ImGuiKey_LeftArrow);
+  if (!left && (used.right || !pressed(ImGuiKey_RightArrow))) return;
+  ImGui::NavMoveRequestCancel();  // otherwise ImGui closes the menu
+  actions.emplace_back(OpenMenu{(open + (left ? count - 1 : 1)) % count});
 }
 
 /// What is needed most, at the right end of the menu.
@@ -111,7 +129,7 @@ void draw_figures(const ViewModel& model) {
 }
 
 ImVec4 colour_of(Grade grade, const Palette& colours) {
-  return grade == Grade::note      ? colours.accent
+  return grade == Grade::note      ? colours.faint
          : grade == Grade::warning ? colours.warning
                                    : colours.fault;
 }
@@ -120,6 +138,11 @@ ImVec4 colour_of(Grade grade, const Palette& colours) {
 
 bool diagnostics_open(const Settings& settings) {
   const auto remembered = settings.open.find(kDiagnostics);
+  return remembered != settings.open.end() && remembered->second;
+}
+
+bool below_open(const Settings& settings) {
+  const auto remembered = settings.open.find(kBelow);
   return remembered != settings.open.end() && remembered->second;
 }
 
@@ -163,8 +186,10 @@ void draw_column(const ViewModel& model, Actions& actions, Column column, glm::v
 float draw_menu(const ViewModel& model, Actions& actions) {
   if (!ImGui::BeginMainMenuBar()) return 0.0f;
   if (model.ui.open_menu) ImGui::OpenPopup(menus()[*model.ui.open_menu].title);
-  for (const Menu& menu : menus()) {
+  for (std::size_t i = 0; i < menus().size(); ++i) {
+    const Menu& menu = menus()[i];
     if (!ImGui::BeginMenu(menu.title)) continue;
+    UsedArrows used;
     // Space between the title of a command and its keys.
     const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(2.5f * spacing.x, spacing.y));
@@ -174,10 +199,13 @@ float draw_menu(const ViewModel& model, Actions& actions) {
       if (ImGui::MenuItem(command.title, text_of(command.chord).c_str(), on,
                           command.enabled(model)))
         actions.emplace_back(RunCommand{command.id});
-      if (command.id == "file.open") draw_recent(model, actions);
+      if (command.why_not != nullptr && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        if (const char* why_not = command.why_not(model)) ImGui::SetTooltip("%s", why_not);
+      if (command.id == "file.open") used = draw_recent(model, actions);
     }
     ImGui::PopStyleVar();
     ImGui::EndMenu();
+    walk_menus(i, used, actions);
   }
   draw_main_buttons(model, actions);
   const float height = ImGui::GetWindowSize().y;
@@ -233,7 +261,7 @@ void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect)
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("Close").x -
                   2.0f * ImGui::GetStyle().FramePadding.x);
   const bool closed = ImGui::Button("Close");
-  ImGui::TextWrapped("%s", notice->text.c_str());
+  wrapped_text(notice->text);
   ImGui::End();
   ImGui::PopStyleColor(2);
   ImGui::PopStyleVar(2);
@@ -245,8 +273,10 @@ void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect) {
       model.guide.active())
     return;
   const char* text =
-      "Hold the left button on the clay and drag to shape it.  Middle or right button turns the "
-      "view, the wheel zooms.  Press ? for all keys.";
+      model.fingers ? "Drag a finger on the clay to shape it. Two fingers turn the view and zoom."
+                    : "Hold the left button on the clay and drag to shape it.  Middle or right "
+                      "button turns the "
+                      "view, the wheel zooms.  Press ? for all keys.";
   const float pad = ImGui::GetFontSize();
   const float width = std::min(rect.size_px.x - 2.0f * pad, 36.0f * pad);
   ImGui::SetNextWindowPos(
@@ -257,7 +287,7 @@ void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect) {
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   ImGui::Begin("##hint", nullptr,
                kBar | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
-  ImGui::TextWrapped("%s", text);
+  wrapped_text(text);
   if (ImGui::Button("Hide")) actions.emplace_back(SetHints{false});
   ImGui::End();
   ImGui::PopStyleColor();

@@ -17,6 +17,9 @@ enum class Column { context, diagnostics };
 /// Key of the drawer in Settings::open.
 inline constexpr const char* kDiagnostics = "diagnostics";
 [[nodiscard]] bool diagnostics_open(const Settings& settings);
+/// Key in Settings::open: whether a window without room beside the view has the context below it.
+inline constexpr const char* kBelow = "below";
+[[nodiscard]] bool below_open(const Settings& settings);
 [[nodiscard]] bool in_diagnostics(std::string_view id);
 /// Whether the panel is unfolded and in sight; false for an unknown id.
 [[nodiscard]] bool panel_open(const Settings& settings, std::string_view id);
@@ -27,9 +30,11 @@ inline constexpr const char* kDiagnostics = "diagnostics";
 void draw_column(const ViewModel& model, Actions& actions, Column column, glm::vec2 corner_px,
                  glm::vec2 size_px);
 
-/// The strip of tools and views at the left edge.
+/// The strip of tools and views at the left edge. `panels`: with a button that shows the context
+/// below the view.
 [[nodiscard]] float strip_width();
-void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, glm::vec2 size_px);
+void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, glm::vec2 size_px,
+                bool panels = false);
 
 /// Returns its height [px].
 float draw_menu(const ViewModel& model, Actions& actions);
@@ -45,15 +50,15 @@ void draw_pause(const ViewModel& model, const ViewRect& rect);
 void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect);
 /// Draws over the view: the path to follow in the present step.
 void draw_path(const ViewModel& model, const ViewRect& rect);
-/// Whether the pot is ready to print, or why not.
-void draw_verdict(const ViewModel& model, const ViewRect& rect);
-/// Draws over the view: results of the checks at their places on the pot, and the scale of the wall
-/// map.
-void draw_marks(const ViewModel& model, const ViewRect& rect);
+/// Whether the pot is ready to print, or why not, at the top of the view. Returns its lower edge.
+float draw_verdict(const ViewModel& model, const ViewRect& rect);
+/// Draws over the view: results of the checks at their places on the pot, and, below `top_px`, the
+/// scale of the wall map.
+void draw_marks(const ViewModel& model, const ViewRect& rect, float top_px);
 /// Draws over the view: the outline of the target.
 void draw_target(const ViewModel& model, const ViewRect& rect);
-/// Draws over the view: problems of the last export at their places.
-void draw_export_marks(const ViewModel& model, const ViewRect& rect);
+/// Draws over the view, below `top_px`: problems of the last export at their places.
+void draw_export_marks(const ViewModel& model, const ViewRect& rect, float top_px);
 
 // The panels.
 void draw_tool(const ViewModel& model, Actions& actions);
@@ -80,6 +85,7 @@ void draw(const OpenDialog&, const ViewModel& model, Actions& actions, const Vie
 void draw(const SaveDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const ExportDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const ImportDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
+void draw(const PictureDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const SettingsDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 
 }  // namespace clay::studio

@@ -44,7 +44,7 @@ void draw_curve(const StressCurve& curve, const Palette& colours) {
   if (!(top > 0.0)) return;
   auto rows = min_max_of(points_of(curve), 0.0, height, whole_px(area.height()));
   fill_gaps(rows);
-  plot_rows(area, rows, top, colours.accent);
+  plot_rows(area, rows, top, colours.clay);
   ImDrawList* draw = ImGui::GetWindowDrawList();
   if (curve.limit_kpa) {
     const float x = area.low.x + area.width() * static_cast<float>(*curve.limit_kpa / top);
@@ -64,11 +64,8 @@ void draw_stress(const ViewModel& model, Actions&) {
   if (model.readings.fallen()) return faint_text(colours, "A fallen pot has no stress curve.");
   const StressCurve& curve = model.readings.stress();
   const auto part = curve.part();
-  ImGui::PushStyleColor(ImGuiCol_Text, part && *part >= kNear
-                                           ? colours.warning
-                                           : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-  ImGui::TextWrapped("%s", stress_text(curve, model.settings.unit).c_str());
-  ImGui::PopStyleColor();
+  wrapped_text(stress_text(curve, model.settings.unit),
+               part && *part >= kNear ? colours.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text));
   draw_curve(curve, colours);
   faint_text(colours,
              fmt::format("Vertical: height to {}. Horizontal: stress to {:.3g} kPa{}",
@@ -104,7 +101,7 @@ void draw_servo(const ViewModel& model, Actions&) {
   value_row(colours, "Contact force", fmt::format("last {:g} s", kHistoryS));
   const double force_top = round_up(std::max(kLeastForceN, figures.force_most_n));
   draw_history(ticks, &servo::TickSample::clay_n, force_top, fmt::format("{:g} N", force_top),
-               colours.accent, colours);
+               colours.faint, colours);
   value_row(colours, "Lateness", fmt::format("last {:g} s", kHistoryS));
   const double late_top = round_up(std::max(kLeastLateUs, figures.late_most_us));
   draw_history(ticks, &servo::TickSample::late_us, late_top, time_text(late_top), colours.warning,

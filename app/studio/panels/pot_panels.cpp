@@ -12,7 +12,7 @@
 
 namespace clay::studio {
 
-void draw_pot(const ViewModel& model, Actions&) {
+void draw_pot(const ViewModel& model, Actions& actions) {
   const Readings& readings = model.readings;
   if (readings.stack() == nullptr) return faint_text(model.colours(), "No clay on the wheel");
   const double grams = readings.account().in_stack_g;
@@ -23,6 +23,9 @@ void draw_pot(const ViewModel& model, Actions&) {
   value_row(
       colours, "Clay mass",
       grams < 1000.0 ? fmt::format("{:.0f} g", grams) : fmt::format("{:.2f} kg", 1e-3 * grams));
+  ImGui::SetNextItemWidth(-1.0f);
+  if (const Material* chosen = choose_material(model.settings.material))
+    actions.emplace_back(SetMaterial{*chosen});
 }
 
 namespace {
@@ -52,13 +55,12 @@ void draw_walls(const ViewModel& model, Actions& actions) {
   const auto& check = model.readings.check();
   if (model.readings.stack() == nullptr || !check)
     return faint_text(colours, "No clay on the wheel");
-  ImGui::PushStyleColor(ImGuiCol_Text, check->thin()  ? colours.warning
-                                       : check->limit ? colours.good
-                                                      : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-  ImGui::TextWrapped("%s", wall_text(*check, model.settings.unit).c_str());
-  ImGui::PopStyleColor();
+  wrapped_text(wall_text(*check, model.settings.unit),
+               check->thin()  ? colours.warning
+               : check->limit ? colours.good
+                              : ImGui::GetStyleColorVec4(ImGuiCol_Text));
   draw_thin_places(*check, colours, model.settings.unit);
-  if (check->limit) faint_text(colours, check->limit->source);
+  if (check->limit) faint_text(colours, "Source: " + check->limit->source);
 }
 
 namespace {
@@ -113,11 +115,10 @@ void draw_certificate(const ViewModel& model, Actions&) {
   if (check->proved) {
     figures(*check, colours, model.settings.unit);
   } else {
-    ImGui::TextWrapped("%s", check->why_not.c_str());
+    wrapped_text(check->why_not);
     if (check->fault_mm)
-      ImGui::TextWrapped("%s", fmt::format("The pot is in two parts at a height of {}",
-                                           length_text(*check->fault_mm, model.settings.unit))
-                                   .c_str());
+      wrapped_text(fmt::format("The pot is in two parts at a height of {}",
+                               length_text(*check->fault_mm, model.settings.unit)));
   }
   remarks(*check, colours, model.settings.unit);
   // Omitted in scripts, because their pictures must be reproducible.

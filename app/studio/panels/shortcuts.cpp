@@ -29,6 +29,19 @@ Section mouse_section() {
            {"Wheel", "Zoom"}}};
 }
 
+/// Buttons have the names of an Xbox controller.
+Section gamepad_section() {
+  Section section{"Gamepad",
+                  {{"Left stick", "Move the tool"},
+                   {"RT", "Press: further is firmer"},
+                   {"LT, then RT", "Pinch: LT closes the fingers"},
+                   {"Right stick", "Turn the view"}}};
+  for (const PadBinding& binding : pad_bindings())
+    section.rows.push_back({std::string(binding.name), find_command(binding.command)->title});
+  section.rows.push_back({"Arrows, A, B", "In menus: move, choose, close"});
+  return section;
+}
+
 /// Commands that are in no menu belong to a dialog.
 Section section_of(const Menu* menu) {
   Section section{menu != nullptr ? menu->title : "Dialogs", {}};
@@ -43,7 +56,7 @@ Section section_of(const Menu* menu) {
 }
 
 std::vector<Section> all_sections() {
-  std::vector<Section> sections{mouse_section()};
+  std::vector<Section> sections{mouse_section(), gamepad_section()};
   for (const Menu& menu : menus()) sections.push_back(section_of(&menu));
   sections.push_back(section_of(nullptr));
   return sections;
@@ -66,10 +79,10 @@ std::array<std::vector<Section>, 3> columns_of(std::vector<Section> sections) {
 }
 
 void draw_section_of_keys(const Section& section, const Palette& colours, float keys_px) {
-  ImGui::TextColored(colours.faint, "%s", section.title.c_str());
+  ImGui::TextUnformatted(section.title.c_str());
   const float left = ImGui::GetCursorPosX();
   for (const HelpRow& row : section.rows) {
-    ImGui::TextColored(colours.accent, "%s", row.how.c_str());
+    ImGui::TextColored(colours.faint, "%s", row.how.c_str());
     ImGui::SameLine();
     ImGui::SetCursorPosX(left + keys_px);
     ImGui::TextUnformatted(row.what.c_str());

@@ -3,6 +3,8 @@
 #include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <string>
@@ -79,6 +81,10 @@ void cut_icon(const Pen& pen) {
   pen.line(0.88f, 0.1f, 0.88f, 0.9f, 0.14f);
   pen.line(0.12f, 0.87f, 0.88f, 0.87f, 0.14f);
 }
+void panels_icon(const Pen& pen) {
+  pen.draw->AddRect(pen.at(0.08f, 0.1f), pen.at(0.92f, 0.92f), pen.ink, 0.0f, 0, 0.09f * pen.size);
+  pen.draw->AddRectFilled(pen.at(0.08f, 0.55f), pen.at(0.92f, 0.92f), pen.ink);
+}
 void walls_icon(const Pen& pen) {
   constexpr float kWidths[] = {0.06f, 0.12f, 0.2f};
   float y = 0.18f;
@@ -102,42 +108,49 @@ constexpr std::array kIcons = {
 };
 constexpr std::size_t kTools = 7;  // the rest are views
 
-void draw_icon(const Icon& icon, const ViewModel& model, Actions& actions) {
-  const Command& command = *find_command(icon.command);
-  const bool enabled = command.enabled(model), on = command.checked(model);
+/// Returns whether the button was pressed. `tip` appears under the pointer.
+bool icon_button(const char* label, void (*draw_icon)(const Pen&), bool enabled, bool on,
+                 const std::string& tip, const ViewModel& model) {
   const Palette& colours = model.colours();
   const float em = ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x;
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::PushID(icon.label);
+  ImGui::PushID(label);
   ImGui::PushStyleColor(ImGuiCol_Button, on ? ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive)
                                             : ImVec4(0.0f, 0.0f, 0.0f, 0.0f));
-  if (ImGui::Button("##icon", {width, kButtonEm * em}) && enabled)
-    actions.emplace_back(RunCommand{command.id});
+  const bool pressed = ImGui::Button("##icon", {width, kButtonEm * em});
   ImGui::PopStyleColor();
   ImGui::PopID();
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("%s (%s)", command.title, text_of(command.chord).c_str());
+  if (ImGui::IsItemHovered() && !model.fingers) ImGui::SetTooltip("%s", tip.c_str());
   const ImU32 ink =
       ImGui::GetColorU32(enabled ? ImGui::GetStyleColorVec4(ImGuiCol_Text)
                                  : ImVec4(colours.faint.x, colours.faint.y, colours.faint.z, 0.5f));
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float size = kIconEm * em;
-  icon.draw({draw, {std::round(at.x + 0.5f * (width - size)), at.y + 0.35f * em}, size, ink});
+  draw_icon({draw, {std::round(at.x + 0.5f * (width - size)), at.y + 0.35f * em}, size, ink});
   if (on)
     draw->AddRectFilled({at.x, at.y + 0.3f * em},
                         {at.x + 0.2f * em, at.y + (kButtonEm - 0.3f) * em},
-                        ImGui::GetColorU32(colours.accent), 0.1f * em);
+                        ImGui::GetColorU32(ImGuiCol_Text), 0.1f * em);
   ImFont* small = model.ui.fonts.small != nullptr ? model.ui.fonts.small : ImGui::GetFont();
-  const ImVec2 text = small->CalcTextSizeA(small->FontSize, width * 2.0f, 0.0f, icon.label);
+  const ImVec2 text = small->CalcTextSizeA(small->FontSize, width * 2.0f, 0.0f, label);
   draw->AddText(small, small->FontSize,
-                {std::round(at.x + 0.5f * (width - text.x)), at.y + 2.08f * em}, ink, icon.label);
+                {std::round(at.x + 0.5f * (width - text.x)), at.y + 2.08f * em}, ink, label);
+  return pressed && enabled;
+}
+
+void draw_command(const Icon& icon, const ViewModel& model, Actions& actions) {
+  const Command& command = *find_command(icon.command);
+  if (icon_button(icon.label, icon.draw, command.enabled(model), command.checked(model),
+                  fmt::format("{} ({})", command.title, text_of(command.chord)), model))
+    actions.emplace_back(RunCommand{command.id});
 }
 
 }  // namespace
 
 float strip_width() { return std::round(kStripEm * ImGui::GetFontSize()); }
 
-void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, glm::vec2 size_px) {
+void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, glm::vec2 size_px,
+                bool panels) {
   const float em = ImGui::GetFontSize();
   ImGui::SetNextWindowPos({corner_px.x, corner_px.y});
   ImGui::SetNextWindowSize({size_px.x, size_px.y});
@@ -154,8 +167,11 @@ void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, g
       ImGui::Separator();
       ImGui::Spacing();
     }
-    draw_icon(kIcons[i], model, actions);
+    draw_command(kIcons[i], model, actions);
   }
+  const bool below = below_open(model.settings);
+  if (panels && icon_button("Panels", &panels_icon, true, below, "Panels below the view", model))
+    actions.emplace_back(FoldPanel{kBelow, !below});
   ImGui::End();
   ImGui::PopStyleVar(3);
 }

@@ -148,7 +148,7 @@ void draw_force(const ViewModel& model, Actions&) {
   const float part = static_cast<float>(std::clamp(newtons / limit_n, 0.0, 1.0));
   const Palette& colours = model.colours();
   draw_bar(part, fmt::format("{:.2f} N of {:g} N", newtons, limit_n),
-           part >= 1.0f ? colours.warning : colours.accent);
+           part >= 1.0f ? colours.warning : colours.faint);
   faint_text(colours, part >= 1.0f     ? "At the limit of the force"
                       : !throwing      ? "No tool in use"
                       : status.contact ? "In contact with the clay"

@@ -3,6 +3,7 @@
 #include "app/studio/panels/panels.hpp"
 
 #include <fmt/format.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,13 @@ bool main_button(const char* text, const Palette& colours) {
   const bool clicked = ImGui::Button(text);
   ImGui::PopStyleColor(3);
   return clicked;
+}
+
+void same_line_if_room(const char* text) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  const float width = ImGui::CalcTextSize(text).x + 2.0f * style.FramePadding.x;
+  if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= right) ImGui::SameLine();
 }
 
 void dialog_title(const ViewModel& model, const char* text) {
@@ -96,10 +104,86 @@ void slider_label(const char* label, const std::string& value) {
   ImGui::SetNextItemWidth(-1.0f);
 }
 
-void faint_text(const Palette& colours, const std::string& text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, colours.faint);
-  ImGui::TextWrapped("%s", text.c_str());
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Whether a line may end between these words: not between a number and a unit.
+bool may_part(std::string_view before, std::string_view after) {
+  constexpr std::size_t kLongestUnit = 6;  // "N/mm\xc2\xb2", punctuation apart
+  const std::size_t end = after.find_last_not_of(".,;:)");
+  return before.empty() || !is_digit(before.back()) || end == std::string_view::npos ||
+         end >= kLongestUnit || is_digit(after.front());
+}
+
+}  // namespace
+
+std::string wrapped(std::string_view text, float width_px) {
+  std::string done, line, piece;  // a piece is never broken
+  const auto fits = [&](const std::string& part) {
+    return ImGui::CalcTextSize(part.c_str()).x <= width_px;
+  };
+  const auto place = [&] {
+    if (piece.empty()) return;
+    const std::string longer = line.empty() ? piece : line + ' ' + piece;
+    if (line.empty() || fits(longer)) {
+      line = longer;
+    } else {
+      done += line + '\n';
+      line = piece;
+    }
+    piece.clear();
+  };
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t to = std::min(text.find_first_of(" \n", from), text.size());
+    const std::string_view word = text.substr(from, to - from);
+    if (may_part(piece, word)) place();
+    piece.append(piece.empty() ? "" : " ").append(word);
+    if (to < text.size() && text[to] == '\n') {
+      place();
+      done += line + '\n';
+      line.clear();
+    }
+    from = to + 1;
+  }
+  place();
+  return done + line;
+}
+
+void wrapped_text(std::string_view text, const ImVec4& colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  // ImGui breaks words that are longer than a line.
+  ImGui::TextWrapped("%s", wrapped(text, ImGui::GetContentRegionAvail().x).c_str());
   ImGui::PopStyleColor();
+}
+
+void wrapped_text(std::string_view text) {
+  wrapped_text(text, ImGui::GetStyleColorVec4(ImGuiCol_Text));
+}
+
+void faint_text(const Palette& colours, const std::string& text) {
+  wrapped_text(text, colours.faint);
+}
+
+void form_place(std::string& name, std::string& folder, Actions& actions) {
+  form_row("Name");
+  ImGui::InputText("##name", &name);
+  form_row("Folder");
+  const float button = ImGui::CalcTextSize("Choose...").x + 3.0f * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemSpacing.x);
+  ImGui::InputText("##folder", &folder);
+  ImGui::SameLine();
+  if (ImGui::Button("Choose...")) actions.emplace_back(ChooseExportFolder{});
+}
+
+const Material* choose_material(const Material& shown) {
+  const Material* chosen = nullptr;
+  if (!ImGui::BeginCombo("##material", shown.title.data(), ImGuiComboFlags_HeightLargest))
+    return chosen;
+  for (const Material& material : kMaterials)
+    if (ImGui::Selectable(material.title.data(), material == shown)) chosen = &material;
+  ImGui::EndCombo();
+  return chosen;
 }
 
 void value_row(const Palette& colours, const char* name, const std::string& value) {

@@ -8,6 +8,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace clay::studio {
 
@@ -20,6 +21,8 @@ void slider_label(const char* label, const std::string& value);
 
 /// A labelled slider for a length in mm, shown in `unit`. Returns true if it has moved.
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit);
+/// The next button or text, with this text, stands beside the last item if the window has room.
+void same_line_if_room(const char* text);
 
 /// The default button of a dialog.
 bool main_button(const char* text, const Palette& colours);
@@ -33,10 +36,21 @@ void form_row(const char* label);
 bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
                  const char* none = nullptr);
 
+/// Lines for the name and the folder of files.
+void form_place(std::string& name, std::string& folder, Actions& actions);
+/// A list of clays and glazes; the one that was chosen now, or null.
+[[nodiscard]] const Material* choose_material(const Material& shown);
+
 /// The pot from the side in a square; the right half is cut open.
 void draw_half_section(const render::PotView& pot, ImVec2 corner, float side,
                        const Palette& colours);
 
+/// Lines of at most `width_px`, broken at blanks, but not between a number and its unit. A longer
+/// word stays whole.
+[[nodiscard]] std::string wrapped(std::string_view text, float width_px);
+/// To the right edge of the window.
+void wrapped_text(std::string_view text, const ImVec4& colour);
+void wrapped_text(std::string_view text);
 void faint_text(const Palette& colours, const std::string& text);
 /// Name at the left, value at the right edge of the column.
 void value_row(const Palette& colours, const char* name, const std::string& value);

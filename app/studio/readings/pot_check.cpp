@@ -5,11 +5,11 @@
 #include "claystack/engine/tick.hpp"
 #include "claystack/export/job.hpp"
 #include "claystack/export/walls.hpp"
+#include "core/colour_scale.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -181,22 +181,10 @@ std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows, 
 }
 
 render::WallMap wall_map_of(const PotCheck& check) {
-  // The thickest part of most pots is the floor's corner: four fifths of the faces set the scale.
-  constexpr std::array kTopsMm = {5.0, 10.0, 20.0, 50.0, 100.0};
-  constexpr double kMost = 0.8;
   std::vector<float> faces;
   for (const render::RowWall& wall : check.walls)
-    for (const float mm : {wall.outer_mm, wall.inner_mm})
-      if (std::isfinite(mm)) faces.push_back(mm);
-  double most_mm = 0.0;
-  if (!faces.empty()) {
-    const auto at = static_cast<std::ptrdiff_t>(kMost * static_cast<double>(faces.size() - 1));
-    std::ranges::nth_element(faces, faces.begin() + at);
-    most_mm = static_cast<double>(faces[static_cast<std::size_t>(at)]);
-  }
-  const auto* fitting = std::ranges::find_if(kTopsMm, [&](double top) { return top >= most_mm; });
-  return {check.limit ? check.limit->min_wall_mm : 0.0,
-          faces.empty() || fitting == kTopsMm.end() ? 10.0 : *fitting};
+    faces.insert(faces.end(), {wall.outer_mm, wall.inner_mm});
+  return {check.limit ? check.limit->min_wall_mm : 0.0, scale_top_mm(std::move(faces))};
 }
 
 std::vector<Stretch> thin_stretches(const PotCheck& check) {

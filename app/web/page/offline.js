@@ -4,7 +4,8 @@
 'use strict';
 
 const kCache = 'claystack @VERSION@';  // of all files: app/web/site.cmake
-const kFiles = ['./', 'style.css', 'page.js', 'worker.js', 'licences.txt', 'claystack-page.js',
+const kFiles = ['./', 'style.css', 'devices.js', 'touch.js', 'page.js', 'worker.js', 'licences.txt',
+  'claystack-page.js',
   'claystack-page.wasm', 'claystack-page.data', 'claystack.js', 'claystack.wasm'];
 
 async function install() {

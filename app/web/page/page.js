@@ -50,7 +50,8 @@ function mods(event) {
 function point(event) {
   const box = canvas.getBoundingClientRect();
   studio._claystack_pointer((event.clientX - box.left) * canvas.width / box.width,
-                            (event.clientY - box.top) * canvas.height / box.height);
+                            (event.clientY - box.top) * canvas.height / box.height,
+                            event.pointerType === 'pen' ? event.pressure : -1);
 }
 
 const kButtons = [0, 2, 1];  // left, middle, right: those of the program
@@ -62,28 +63,40 @@ function button(index, pressed, event) {
   ask();
 }
 
+const fingers = new Fingers({
+  move(x, y) { point({clientX: x, clientY: y}); ask(); },
+  press(index, pressed) { button(index, pressed, {}); },
+  scroll(steps) { studio._claystack_scroll(steps); ask(); },
+  overPot() { return studio._claystack_over_pot(); },
+});
+
 function listenToPointer() {
   canvas.addEventListener('pointerdown', event => {
     canvas.focus();
-    if (event.button > 2 || (event.pointerType === 'touch' && !event.isPrimary)) return;
+    if (event.button > 2) return;
     canvas.setPointerCapture(event.pointerId);
+    if (event.pointerType === 'touch') return fingers.begin(event);
     point(event);
     button(kButtons[event.button], true, event);
     event.preventDefault();
   });
   canvas.addEventListener('pointermove', event => {
-    if (event.pointerType === 'touch' && !event.isPrimary) return;
+    if (event.pointerType === 'touch') return fingers.move(event);
     for (const part of event.getCoalescedEvents?.().slice(-1) ?? []) event = part;
     point(event);
     ask();
   });
   const up = event => {
-    if (event.button > 2 || (event.pointerType === 'touch' && !event.isPrimary)) return;
+    if (event.pointerType === 'touch') return fingers.end(event);
+    if (event.button > 2) return;
     point(event);
     button(kButtons[Math.max(0, event.button)], false, event);
   };
   canvas.addEventListener('pointerup', up);
-  canvas.addEventListener('pointercancel', event => { for (const b of [...down]) button(b, false, event); });
+  canvas.addEventListener('pointercancel', event => {
+    if (event.pointerType === 'touch') fingers.end(event);
+    for (const b of [...down]) button(b, false, event);
+  });
   canvas.addEventListener('wheel', event => {
     studio._claystack_scroll(event.deltaY > 0 ? -1 : event.deltaY < 0 ? 1 : 0);
     ask();
@@ -109,14 +122,15 @@ function codeOf(event) {
 function listenToKeys() {
   canvas.addEventListener('keydown', event => {
     const code = codeOf(event), control = event.ctrlKey || event.metaKey;
+    // Tab goes on to the buttons of the page, unless a dialog or menu uses it.
+    if (event.key === 'Tab' && (event.shiftKey || !studio._claystack_dialog_open())) return;
     if (control && code === 86) return;  // the event `paste` follows
     if (code >= 0) studio._claystack_key(code, true, event.repeat, mods(event));
     if (!control && !event.altKey && event.key.length === 1)
       studio._claystack_text(event.key.codePointAt(0));
     ask();
     // Leaves the page's own keys to the browser: reload, developer tools, tabs.
-    if (code >= 0 && !(control && /^[rtnwl]$/i.test(event.key)) && !/^F(5|11|12)$/.test(event.key) &&
-        !(event.key === 'Tab' && event.shiftKey))
+    if (code >= 0 && !(control && /^[rtnwl]$/i.test(event.key)) && !/^F(5|11|12)$/.test(event.key))
       event.preventDefault();
   });
   canvas.addEventListener('keyup', event => {
@@ -181,6 +195,8 @@ const page = {
     while (by('events').childElementCount > 50) by('events').firstChild.remove();
   },
   fail(text) { say(text); },
+  /// For people who do not see the picture.
+  tell(text) { by('pot').textContent = text; },
   copy(text) { navigator.clipboard?.writeText(text).catch(() => {}); },
   /// Works stay in the storage of the browser too; exports do not.
   download(path) {
@@ -193,6 +209,7 @@ const page = {
       ask();
     }));
   },
+  sendReport(number, data) { mouse3d?.sendReport(number, data).catch(() => {}); },
   post(slot, question) { worker(slot).postMessage({question}, [question.buffer]); },
   stop(slot) {
     workers[slot]?.terminate();
@@ -228,11 +245,16 @@ function worker(slot) {
   return workers[slot] = made;
 }
 
-function checkMesh(file) {
-  by('report-title').textContent = file.name;
-  by('report-verdict').textContent = 'Checking on this machine; the file is not sent anywhere...';
-  by('report-text').textContent = '';
+function showReport(title, verdict, text) {
+  by('report-title').textContent = title;
+  by('report-verdict').textContent = verdict;
+  by('report-text').textContent = text;
+  by('report').onclose = null;
   by('report').showModal();
+}
+
+function checkMesh(file) {
+  showReport(file.name, 'Checking on this machine; the file is not sent anywhere...', '');
   const made = new Worker('worker.js');
   const done = (verdict, text) => {
     made.terminate();
@@ -289,13 +311,20 @@ function store() {
   storing = true;
   studio.FS.syncfs(false, error => {
     storing = false;
-    if (!error) { warned = false; return; }
+    if (!error) {
+      if (warned) status('The work is stored again');
+      warned = false;
+      return;
+    }
     changed = true;
     if (warned) return;
     warned = true;
-    withText('The browser could not store the work: its storage may be full. What was stored before ' +
-             'remains. Save the work as a file (Ctrl+S). ' + (error.message ?? ''),
-             text => studio._claystack_notice(text));
+    const full = error.name === 'QuotaExceededError';
+    const text = 'The browser cannot store the work: ' +
+      (full ? 'its storage is full' : error.message || error.name || error) +
+      '. What it stored before remains. Save the work as a file (Ctrl+S).';
+    status(text);
+    withText(text, place => studio._claystack_notice(place));
     ask();
   });
 }
@@ -317,6 +346,9 @@ function missing() {
     // A module with one empty function that has a `try` block.
     const exceptions = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 8, 1, 6, 0, 6, 64, 25, 11, 11]);
     if (!WebAssembly.validate(exceptions)) return 'WebAssembly with exceptions';
+    // A function that returns the first lane of a vector.
+    const vectors = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11]);
+    if (!WebAssembly.validate(vectors)) return 'WebAssembly with vectors (SIMD)';
   } catch { return 'WebAssembly'; }
   if (!document.createElement('canvas').getContext('webgl2')) return 'WebGL 2';
   return null;
@@ -326,8 +358,9 @@ async function start() {
   const lack = missing();
   if (lack) return say(`This browser does not offer ${lack}. Claystack needs a recent Chromium, Firefox or Safari.`);
   const light = matchMedia('(prefers-color-scheme: light)').matches;
+  const coarse = matchMedia('(pointer: coarse)').matches;
   const made = await claystackPage({
-    canvas, page, arguments: [light ? 'light' : 'dark'],
+    canvas, page, arguments: [light ? 'light' : 'dark', coarse ? 'fingers' : 'mouse'],
     preRun: [module => {
       module.FS.mkdirTree(kHome);
       module.FS.mount(module.IDBFS, {}, kHome);
@@ -344,6 +377,8 @@ async function start() {
   say('');
   listenToPointer();
   listenToKeys();
+  listenToGamepads();
+  listenToHid();
   new ResizeObserver(resize).observe(canvas);
   window.addEventListener('resize', resize);
   resize();
@@ -364,6 +399,13 @@ async function start() {
   by('open').onclick = () => pickFile(file => file && open(file));
   by('check').onclick = () => pickFile(file => file && checkMesh(file));
   by('link').onclick = copyLink;
+  by('words').onclick = () => showReport('The pot', '', studio.UTF8ToString(studio._claystack_report()));
+  canvas.addEventListener('webglcontextlost', event => {
+    event.preventDefault();
+    changed = true;
+    store();
+    say('The browser has taken the graphics away. The work is stored: reload the page.');
+  });
   by('about').onclick = () => by('about-text').showModal();
   setInterval(store, kStoreMs);
   keepOffline();

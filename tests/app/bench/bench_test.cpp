@@ -31,6 +31,20 @@ TEST(Bench, RefusesAnUnwritableOutputBeforeMeasuring) {
   EXPECT_EQ(claystack("bench --extremes --only tick").status, 2);
 }
 
+TEST(Bench, FollowsTheRuleForExistingFilesBeforeMeasuring) {
+  const ScratchFolder folder;
+  write_text(folder.file("r.html"), "old");
+  const std::string bench = "bench --quick --only tick ";
+  for (const std::string& options :
+       {"--no-overwrite --report " + folder.file("r.html"),
+        "--no-overwrite --csv " + folder.path().string(), "--report " + folder.file("r.csv")}) {
+    const auto run = claystack(bench + options);
+    EXPECT_EQ(run.status, 2) << options << ": " << run.err;
+    EXPECT_EQ(run.out, "");
+  }
+  EXPECT_EQ(read_text(folder.file("r.html")), "old");
+}
+
 TEST(Bench, WritesTheTickSectionInEveryFormat) {
   const ScratchFolder folder;
   const auto run = claystack("bench --quick --only tick --json --report " + folder.file("r.html") +

@@ -128,6 +128,31 @@ TEST_F(ExportOptions, APlainGlbNeedsNoExtension) {
   EXPECT_EQ(run("--glb core").status, 2);
 }
 
+TEST_F(ExportOptions, AGlbByMeshoptIsCertifiedAsDecoded) {
+  const std::string glb = folder.file("m.glb");
+  const auto file =
+      claystack("export --json --glb meshopt --verify full --tolerance 0.05 " + pot + " " + glb)
+          .json()
+          .at("files")
+          .at(0);
+  EXPECT_NE(read_text(glb).find("EXT_meshopt_compression"), std::string::npos);
+  EXPECT_TRUE(file.at("full_verification").at("sound"));
+  EXPECT_LE(file.at("max_error_mm").get<double>(), 0.05);
+  EXPECT_GT(file.at("max_error_mm").get<double>(), 1e-3);
+  EXPECT_EQ(claystack("check " + glb).status, 0);
+}
+
+TEST_F(ExportOptions, TheWallMapColoursGlbAnd3mfAlone) {
+  const std::string glb = folder.file("w.glb"), package = folder.file("w.3mf");
+  ASSERT_EQ(claystack("export -q --wall-map " + pot + " " + glb + " " + package).status, 0);
+  EXPECT_NE(read_text(glb).find("COLOR_0"), std::string::npos);
+  EXPECT_NE(read_text(glb).find("\"wall_map\""), std::string::npos);
+  EXPECT_NE(shell("unzip -p " + package + " 3D/3dmodel.model").out.find("<m:colorgroup"),
+            std::string::npos);
+  EXPECT_EQ(claystack("check " + package).status, 0);
+  EXPECT_EQ(run("--wall-map " + folder.file("w.obj")).status, 2);
+}
+
 TEST_F(ExportOptions, WallTableContainsTheMinimum) {
   const std::string csv = folder.file("walls.csv");
   const auto json = run(csv + " --json").json();
@@ -166,6 +191,25 @@ TEST_F(ExportOptions, ReportsALipFilletAndExactWalls) {
   const Ran both = run("--smooth exact --lip-fillet 1");
   EXPECT_EQ(both.status, 2);
   EXPECT_NE(both.err.find("fillet"), std::string::npos) << both.err;
+}
+
+TEST_F(ExportOptions, ReportsTheFairing) {
+  EXPECT_FALSE(run("--json").json().contains("fairing"));
+  EXPECT_FALSE(run("--json --smooth-length 0").json().contains("fairing"));
+  const std::string page = folder.file("r.html");
+  const auto json = run("--json --smooth-length 0.9cm --report " + page).json();
+  EXPECT_EQ(json.at("fairing").at("length_mm"), 9.0);
+  EXPECT_GT(json.at("fairing").at("moved_mm"), 0.01);
+  EXPECT_LT(json.at("volume_error_relative"), 1e-12);
+  EXPECT_NE(read_text(page).find("over 9 mm; moved the walls by at most "), std::string::npos);
+  EXPECT_NE(run("--verbose --smooth-length 9").out.find("faired over 9 mm"), std::string::npos);
+  // The fired pot has the same form: all lengths grow alike.
+  const auto fired = run("--json --smooth-length 9 --shrinkage 10%").json();
+  EXPECT_EQ(fired.at("fairing").at("length_mm"), 10.0);
+  EXPECT_EQ(run("--smooth-length 9 --smooth exact").status, 2);
+  EXPECT_EQ(run("--smooth-length tool --smooth none").status, 2);
+  EXPECT_EQ(run("--smooth-length -1").status, 2);
+  EXPECT_EQ(run("--smooth-length 9 --smooth none").status, 2);
 }
 
 TEST_F(ExportOptions, AClayProcessRoundsTheLip) {

@@ -191,7 +191,8 @@ TEST(LiveThrow, ReportsUnsupportedRequests) {
   EXPECT_EQ(claystack(live + "simulated --flip w").status, 2);
   EXPECT_EQ(claystack(live + "simulated --trace t.csv").status, 2);
   EXPECT_EQ(claystack(live + "simulated -o pot.stl").status, 2);
-  EXPECT_EQ(claystack(live + "simulated --seconds 0.1 --record /no/such/folder/s").status, 3);
+  EXPECT_EQ(claystack(live + "simulated --seconds 0.1 --record /no/such/folder/s.session").status,
+            3);
   // A missing device is not simulated.
   const auto none = claystack(live + "/dev/hidraw99");
   EXPECT_EQ(none.status, 4);

@@ -4,6 +4,10 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
 
 namespace clay::test {
 namespace {
@@ -81,6 +85,81 @@ TEST(Render, PrintsTheMappedWalls) {
               1e-9);
 }
 
+/// Mean colour of a box of a picture, as "R G B" from 0 to 255.
+std::array<int, 3> mean_colour(const std::string& file, const std::string& box) {
+  const Ran ran = shell("convert " + file + " -crop " + box +
+                        " -alpha off -scale 1x1! -depth 8 -format "
+                        "\"%[fx:round(255*r)] %[fx:round(255*g)] %[fx:round(255*b)]\" info:");
+  std::array<int, 3> colour{};
+  EXPECT_EQ(std::sscanf(ran.out.c_str(), "%d %d %d", &colour[0], &colour[1], &colour[2]), 3);
+  return colour;
+}
+
+TEST(Render, ShowsTheColourOfTheMaterial) {
+  const ScratchFolder folder;
+  std::map<std::string, std::array<int, 3>> seen;
+  for (const char* id : {"leather-hard", "wet", "porcelain", "celadon", "tenmoku"}) {
+    const std::string file = folder.file(std::string(id) + ".png");
+    const Ran run =
+        claystack("render --json " + vase() + " --size 200x200 --material " + id + " -o " + file);
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.json().at("material"), id);
+    seen[id] = mean_colour(file, "20x30+90+110");
+  }
+  EXPECT_GT(seen["leather-hard"][0], seen["leather-hard"][2] + 40) << "red clay";
+  EXPECT_LT(seen["wet"][0], seen["leather-hard"][0]) << "wet clay is darker";
+  EXPECT_LT(std::abs(seen["porcelain"][0] - seen["porcelain"][2]), 30) << "white";
+  EXPECT_GT(seen["porcelain"][2], seen["leather-hard"][2] + 60);
+  EXPECT_GT(seen["celadon"][1], seen["celadon"][0] + 10) << "green";
+  EXPECT_LT(seen["tenmoku"][0], 100) << "black";
+}
+
+/// The brightest pixel, 0 to 255.
+int brightest(const std::string& file, const std::string& box) {
+  return std::stoi(shell("convert " + file + " -crop " + box +
+                         " -colorspace gray -format \"%[fx:round(255*maxima)]\" info:")
+                       .out);
+}
+
+TEST(Render, GlazesMirrorTheWindow) {
+  const ScratchFolder folder;
+  for (const char* id : {"tenmoku", "terracotta"})
+    ASSERT_EQ(claystack("render -q " + vase() + " --size 200x200 --material " + id + " -o " +
+                        folder.file(std::string(id) + ".png"))
+                  .status,
+              0);
+  const std::string box = "40x60+80+80";  // on the body
+  const std::array<int, 3> glaze = mean_colour(folder.file("tenmoku.png"), box);
+  EXPECT_GT(brightest(folder.file("tenmoku.png"), box), glaze[0] + 80);
+  const std::array<int, 3> matte = mean_colour(folder.file("terracotta.png"), box);
+  EXPECT_LT(brightest(folder.file("terracotta.png"), box), matte[0] + 80);
+}
+
+TEST(Render, TransparentPicturesShowThePotAlone) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("v.png");
+  ASSERT_EQ(claystack("render -q " + vase() + " --size 200x200 --transparent -o " + file).status,
+            0);
+  const auto alpha = [&](const char* where) {
+    return shell("convert " + file + " -format \"%[fx:round(255*" + where + ".a)]\" info:").out;
+  };
+  EXPECT_EQ(alpha("p{100,110}"), "255") << "the pot";
+  for (const char* corner : {"p{2,2}", "p{197,2}", "p{2,197}", "p{150,180}"})
+    EXPECT_EQ(alpha(corner), "0") << corner;
+  // Partly covered pixels keep the colour of the clay: no dark outline. Half-covered pixels over
+  // black would be darker than the darkest of the pot.
+  const auto darkest = [&](const char* range) {
+    return std::stoi(shell("convert " + file + " -channel A -threshold " + range +
+                           " +channel -background white -alpha background -flatten -colorspace "
+                           "gray -format \"%[fx:round(255*minima)]\" info:")
+                         .out);
+  };
+  EXPECT_GT(darkest("5%"), darkest("99%") - 12);
+  EXPECT_EQ(
+      claystack("render " + vase() + " --transparent --turntable " + folder.file("v.gif")).status,
+      2);
+}
+
 TEST(Render, WritesToStandardOutputForADash) {
   const Ran run = claystack("render " + vase() + " --size 32x32 -o -");
   EXPECT_EQ(run.status, 0);
@@ -100,9 +179,9 @@ TEST(Render, ReturnsTwoForBadUsage) {
   for (const std::string& arguments :
        {vase(), vase() + " -o x.jpg", vase() + out + " --size 0x10", vase() + out + " --size 10",
         vase() + out + " --size 10x10x", vase() + out + " --size 9000x10",
-        vase() + out + " --theme blue", vase() + out + " --elevation 90",
-        vase() + " --turntable x.png", vase() + out + " --process brick",
-        sample("vase.session") + out})
+        vase() + out + " --theme blue", vase() + out + " --material brick",
+        vase() + out + " --elevation 90", vase() + " --turntable x.png",
+        vase() + out + " --process brick", sample("vase.session") + out})
     EXPECT_EQ(claystack("render " + arguments).status, 2) << arguments;
   EXPECT_FALSE(std::filesystem::exists(folder.file("x.png")));
 }

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using Files = std::map<std::string, std::string>;  ///< bytes by name, without the times of reports
 
 Files files_in(const fs::path& folder) {
-  static const std::regex times(R"("seconds": [-+.\de]+)");
+  static const std::regex times(R"("seconds": [-+.\de]+|[.\d]+ ms)");
   Files files;
   for (const auto& entry : fs::directory_iterator(folder))
     files[entry.path().filename().string()] =
@@ -153,6 +153,9 @@ const std::string kSection =
     "export -q --segments 16 @/a.pot.json #/a.step #/b.svg #/c.dxf #/d.pdf #/e.csv --report "
     "#/r.json";
 const std::vector<std::string> kDrawings = {"a.step", "b.svg", "c.dxf", "d.pdf", "e.csv", "r.json"};
+const std::string kPage =
+    "export -q --segments 16 @/a.pot.json #/a.glb --glb meshopt --wall-map --report #/r.html";
+const std::vector<std::string> kPageFiles = {"a.glb", "r.html"};
 const std::string kThrow = "throw -q @/a.scene.json -o #/a.pot.json --trace #/trace.csv";
 const std::vector<std::string> kPot = {"a.pot.json", "trace.csv"};
 const std::string kRepair = "check -q --repair @/open.stl -o #/a.stl";
@@ -171,7 +174,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"RepairEndedByCtrlC", kRepair, {"a.stl"}, true, {}, SIGINT},
                     Case{"RepairToAStickEndedByCtrlC", kRepair, {"a.stl"}, true, kStick, SIGINT},
                     Case{"DecimationEndedByCtrlC", kDecimate, {"a.stl"}, false, kStick, SIGINT},
-                    Case{"Throw", kThrow, kPot}, Case{"ThrowOverOldFiles", kThrow, kPot, true},
+                    Case{"ExportWithAPage", kPage, kPageFiles}, Case{"Throw", kThrow, kPot},
+                    Case{"ThrowOverOldFiles", kThrow, kPot, true},
                     Case{"ThrowKilled", kThrow, kPot, true, kStick, SIGKILL}),
     [](const auto& test) { return test.param.name; });
 

@@ -177,12 +177,41 @@ TEST(LiveLoop, PausesAndEndsByCommand) {
   EXPECT_EQ(glm::length(live.status().force_n), 0.0) << "in the same tick";
   const Pot paused = live.wheel.pot();
   live.run(0.2);
+  EXPECT_EQ(live.status().guard, GuardState::safe) << "also where a stage forgets the pause";
+  EXPECT_EQ(live.status().cause, falcon::SafeCause::paused);
+  EXPECT_EQ(live.loop->events().safe[static_cast<std::size_t>(falcon::SafeCause::paused)], 1u)
+      << "a pause is one event, however long it lasts";
   EXPECT_EQ(live.wheel.pot(), paused);
   ASSERT_TRUE(live.commands.push({CommandKind::pause, 0.0}));
   live.run(0.2);
   EXPECT_NE(live.wheel.pot(), paused);
   ASSERT_TRUE(live.commands.push({CommandKind::stop, 0.0}));
   EXPECT_EQ(live.tick(), Ending::stopped);
+}
+
+TEST(LiveLoop, RefusesAPoseWhoseTimeDoesNotAdvance) {
+  for (const std::int64_t period_us : {0, 4000}) {  // below it, poses are only probed
+    Wheel wheel = Wheel::build(rib_scene()).value();
+    LiveClay clay(wheel, nullptr, period_us);
+    const Pose first{2000, {44.0, 30.0, 0.0}, false, 0.0};
+    EXPECT_EQ(clay.meet(first).flags & kRefused, 0u);
+    Pose earlier = first;
+    earlier.time_us = 1000;
+    for (const Pose& pose : {first, earlier}) {
+      const StepReport report = clay.meet(pose);
+      EXPECT_NE(report.flags & kRefused, 0u) << pose.time_us << " us, period " << period_us;
+      EXPECT_EQ(glm::length(report.force_n()), 0.0);
+    }
+    EXPECT_EQ(clay.poses(), 1u);
+  }
+}
+
+TEST(LiveLoop, MeasuresTheAgeOfAForceFromItsSample) {
+  VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
+  live.run(3.0);
+  const auto& age = live.loop->timing().age;
+  EXPECT_GT(age.count(), 1000u);
+  EXPECT_LT(age.most_ns(), 10'000'000) << "no sample was older than 10 ms";
 }
 
 TEST(LiveLoop, ZeroesAndRestoresTheForceByCommand) {

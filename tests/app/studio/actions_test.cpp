@@ -72,7 +72,7 @@ TEST_F(ActionsTest, AGapCanBeAPartOfTheWall) {
   state.settings.tool.gap_share = 0.5;
   state.scene.place({{0.0f, 0.0f}, {800.0f, 600.0f}});
   Actions actions;
-  state.scene.shape_from(view_model(state), {37.0, 40.0}, false, actions);
+  state.scene.shape_from(view_model(state), {37.0, 40.0}, {}, actions);
   ASSERT_EQ(actions.size(), 1u);
   const auto& press = std::get<PressClay>(actions[0]).press;
   EXPECT_NEAR(press.tool.gap_mm.value(), 3.0, 1e-3);

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <mutex>
+#include <regex>
 
 namespace clay::studio {
 namespace {
@@ -46,7 +47,11 @@ class Exporting : public ::testing::Test {
   history::SharedPot pot = thrown();
   ExportChoices choices{.meshes = {solid::MeshFormat::stl_binary, solid::MeshFormat::obj,
                                    solid::MeshFormat::three_mf},
+                        .step = true,
                         .section = true,
+                        .dxf = true,
+                        .pdf = true,
+                        .report = true,
                         .pot = true,
                         .folder = folder.path().string(),
                         .name = "two",
@@ -62,25 +67,37 @@ TEST_F(Exporting, WritesTheBytesOfTheCommand) {
   exporter.write(pot, choices);
   const auto done = outcome();
   ASSERT_TRUE(done.done) << done.done.error().message;
-  EXPECT_EQ(done.paths.size(), 5u);
+  EXPECT_EQ(done.paths.size(), 9u);
   std::filesystem::create_directory(folder.path() / "command");
-  const std::string pot_path = folder.file("command/two.pot.json");
+  std::filesystem::create_directory(folder.path() / "given");
+  const std::string pot_path = folder.file("given/two.pot.json");
   write_text(pot_path, write_pot(*pot, PotEncoding::json));
   const std::string base = folder.file("command/two");
-  const auto ran =
-      claystack("export -q " + pot_path + " " + base + ".stl " + base + ".obj " + base + ".3mf " +
-                base + ".svg --tolerance 0.05 --process porcelain --shrinkage 12%");
+  const auto ran = claystack("export -q " + pot_path + " " + base + ".stl " + base + ".obj " +
+                             base + ".3mf " + base + ".step " + base + ".svg " + base + ".dxf " +
+                             base + ".pdf " + base + ".pot.json --report " + base +
+                             ".report.html --tolerance 0.05 --process porcelain --shrinkage 12%");
   // Its wall is too thin for porcelain: the command writes the files and reports the fault.
   ASSERT_EQ(ran.status, 1) << ran.err;
   ASSERT_EQ(done.done->problems.size(), 2u) << "the wall, and a warning about the overhang";
   EXPECT_NE(ran.err.find(done.done->problems[0]), std::string::npos);
-  for (const char* ending : {".stl", ".obj", ".3mf", ".svg", ".pot.json"})
+  for (const char* ending : {".stl", ".obj", ".3mf", ".step", ".svg", ".dxf", ".pdf", ".pot.json"})
     EXPECT_EQ(read_text(folder.file("two") + ending), read_text(base + ending)) << ending;
+  const auto page = [&](const std::string& path) {
+    static const std::regex times(R"(\d+\.\d+ ms)");
+    std::string text = std::regex_replace(read_text(path), times, "");
+    for (const std::string& place : {folder.file("command/"), folder.file("")})
+      for (std::size_t at = 0; (at = text.find(place, at)) != text.npos;)
+        text.erase(at, place.size());
+    return text;
+  };
+  EXPECT_EQ(page(folder.file("two.report.html")), page(base + ".report.html"));
+  EXPECT_NE(page(base + ".report.html").find("Size, weight and capacity"), std::string::npos);
   EXPECT_EQ(claystack("check " + folder.file("two.stl")).status, 0);
 }
 
 TEST_F(Exporting, PreviewReportsTheFilesInAdvance) {
-  choices.section = choices.pot = false;
+  choices.section = choices.dxf = choices.pdf = choices.report = choices.pot = false;
   exporter.preview(pot, choices);
   const auto previewed = outcome();
   ASSERT_TRUE(previewed.done) << previewed.done.error().message;
@@ -116,6 +133,7 @@ TEST_F(Exporting, CancelledExportLeavesNoFile) {
 }
 
 TEST_F(Exporting, LeavesAllFilesOrNoneAtEveryCancellationPoint) {
+  choices.step = choices.dxf = choices.pdf = choices.report = false;
   solid::ExportRequest request = request_of(choices, *pot).value();
   std::size_t checks = 0, all = 0;
   std::mutex mutex;

@@ -90,7 +90,7 @@ class Newcomer {
     if (!at) return;
     Actions actions;
     pixel_ = *at;
-    state_.scene.pointer_moved(view_model(state_), pixel_, actions);
+    state_.scene.pointer_moved(view_model(state_), {pixel_}, actions);
     apply_all(state_, actions);
   }
   void button(bool down) {

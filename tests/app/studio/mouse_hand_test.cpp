@@ -14,6 +14,7 @@ namespace clay::studio {
 namespace {
 
 constexpr std::int64_t kTickNs = 1'000'000;
+constexpr double kRpm = 120.0;
 
 struct Hand {
   VirtualClock clock;
@@ -94,9 +95,9 @@ TEST(MouseHand, DigsNoFasterThanItsBite) {
   Hand hand;
   hand.device.begin_at({50.5, 30.0, 0.0});
   constexpr double kBiteMmPerS = 3.0;
-  hand.device.meet({&lump.wheel->stack(), &lump.wheel->plan().tool, kBiteMmPerS});
+  hand.device.meet({&lump.wheel->stack(), &lump.wheel->plan().tool, kRpm});
   hand.tick();
-  hand.device.aim({{0.0, 30.0, 0.0}, kPressingMmPerS});
+  hand.device.aim({{0.0, 30.0, 0.0}, kPressingMmPerS, kBiteMmPerS * 60.0 / kRpm});
   double x = 50.5;
   int ticks = 0;
   for (; ticks < 1000; ++ticks) {
@@ -108,16 +109,36 @@ TEST(MouseHand, DigsNoFasterThanItsBite) {
   EXPECT_NEAR(hand.device.stretch_mm(), x, 1e-9) << "the spring, from the tool to the axis";
 }
 
+TEST(MouseHand, ItsBiteMayChangeDuringAStroke) {
+  const Lump lump;
+  Hand hand;
+  hand.device.begin_at({50.0, 30.0, 0.0});
+  hand.device.meet({&lump.wheel->stack(), &lump.wheel->plan().tool, kRpm});
+  hand.tick();
+  const auto dig = [&](double bite_mm) {
+    hand.device.aim({{0.0, 30.0, 0.0}, kPressingMmPerS, bite_mm});
+    for (int i = 0; i < 100; ++i) hand.tick();
+    return segment_mm2(50.0 - hand.tick().position_mm.x);
+  };
+  const double soft_mm2 = dig(1.0);
+  // 0.1 s of 2 turns a second, over a height of 20 mm. Halving its steps, the hand uses at least
+  // half of what is permitted.
+  EXPECT_LE(soft_mm2, 0.2 * 1.0 * 20.0 + 1.0);
+  const double firm_mm2 = dig(10.0) - soft_mm2;
+  EXPECT_GT(firm_mm2, 0.5 * 0.2 * 10.0 * 20.0);
+  EXPECT_LE(firm_mm2, 0.2 * 10.0 * 20.0 + 1.0);
+}
+
 TEST(MouseHand, IsFreeAlongTheClayAndAwayFromIt) {
   const Lump lump;
   Hand hand;
   hand.device.begin_at({48.0, 30.0, 0.0});  // 2 mm deep
-  hand.device.meet({&lump.wheel->stack(), &lump.wheel->plan().tool, 0.5});
+  hand.device.meet({&lump.wheel->stack(), &lump.wheel->plan().tool, kRpm});
   hand.tick();
-  hand.device.aim({{48.0, 45.0, 0.0}, kPressingMmPerS});
+  hand.device.aim({{48.0, 45.0, 0.0}, kPressingMmPerS, 0.25});
   for (int i = 0; i < 400; ++i) hand.tick();
   EXPECT_NEAR(hand.tick().position_mm.y, 45.0, 0.1);
-  hand.device.aim({{60.0, 45.0, 0.0}, kPressingMmPerS});
+  hand.device.aim({{60.0, 45.0, 0.0}, kPressingMmPerS, 0.25});
   for (int i = 0; i < 400; ++i) hand.tick();
   EXPECT_NEAR(hand.tick().position_mm.x, 60.0, 0.1);
 }

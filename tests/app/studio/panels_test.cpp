@@ -2,11 +2,15 @@
 
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/app_state.hpp"
+#include "app/studio/panels/widgets.hpp"
 #include "tests/app/history/strokes.hpp"
 #include "tests/app/studio/still_host.hpp"
 
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
+
+#include <algorithm>
+#include <string>
 
 namespace clay::studio {
 namespace {
@@ -151,6 +155,32 @@ TEST_F(Panels, OnlyTheOpenDialogIsDrawn) {
   (void)frame(dialog);
   EXPECT_TRUE(ImGui::FindWindowByName("##unsaved")->Active);
   EXPECT_FALSE(ImGui::FindWindowByName("##settings")->Active);
+}
+
+TEST_F(Panels, LinesEndBetweenWordsButNotBeforeAUnit) {
+  std::string lines;
+  (void)frame([&](const ViewModel&, Actions&) {
+    const std::string text = "23 % of the limit, at a height of 12.9 mm; N/mm\xc2\xb2 and 2 walls";
+    const float all = ImGui::CalcTextSize(text.c_str()).x;
+    EXPECT_EQ(wrapped(text, all + 1.0f), text);
+    for (float width = 30.0f; width < all; width += 1.0f) {
+      lines = wrapped(text, width);
+      EXPECT_EQ(lines.find("12.\n"), std::string::npos) << lines;
+      EXPECT_EQ(lines.find("9\nmm"), std::string::npos) << lines;
+      EXPECT_EQ(lines.find("23\n%"), std::string::npos) << lines;
+      for (std::size_t from = 0; from < lines.size();) {
+        const std::size_t to = std::min(lines.find('\n', from), lines.size());
+        const std::string line = lines.substr(from, to - from);
+        // A line is longer only where it is one word, or a number with its unit.
+        if (ImGui::CalcTextSize(line.c_str()).x > width) {
+          EXPECT_LE(std::ranges::count(line, ' '), 1) << line;
+        }
+        from = to + 1;
+      }
+      std::ranges::replace(lines, '\n', ' ');
+      EXPECT_EQ(lines, text);
+    }
+  });
 }
 
 }  // namespace

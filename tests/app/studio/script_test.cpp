@@ -30,6 +30,12 @@ TEST(Script, ErrorsNameTheLine) {
   EXPECT_EQ(error_of("expect node over 3"), "s:1: expected below NUMBER or above NUMBER");
   EXPECT_EQ(error_of("press both"), "s:1: expected left, right or middle, found both");
   EXPECT_EQ(error_of("move 1 2 over soon"), "s:1: expected over SECONDS, found over");
+  EXPECT_EQ(error_of("pressure 1.5"), "s:1: expected 0 to 1 or none, found 1.5");
+  EXPECT_EQ(error_of("stick left 0 -2"), "s:1: expected -1 to 1, found -2");
+  EXPECT_EQ(error_of("stick up 0 0"), "s:1: expected left or right, found up");
+  EXPECT_EQ(error_of("trigger right -1"), "s:1: expected 0 to 1, found -1");
+  EXPECT_EQ(error_of("trigger left 1 over"), "s:1: expected over SECONDS, found over");
+  EXPECT_EQ(error_of("pad turbo"), "s:1: expected a button of a gamepad, found turbo");
   EXPECT_EQ(error_of(""), "none");
 }
 

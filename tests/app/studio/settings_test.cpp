@@ -28,6 +28,8 @@ Settings changed() {
   settings.process = "porcelain";
   settings.open["force"] = false;
   settings.folder = "/pots";
+  settings.material = *find_material("tenmoku");
+  settings.throwing_lines = false;
   return settings;
 }
 
@@ -38,6 +40,8 @@ TEST(Settings, RoundTrip) {
   EXPECT_EQ(write_settings(*back), text);
   EXPECT_EQ(back->tool.rib, changed().tool.rib);
   EXPECT_EQ(back->theme, Theme::light);
+  EXPECT_EQ(back->material.id, "tenmoku");
+  EXPECT_FALSE(back->throwing_lines);
 }
 
 TEST(Settings, RoundTripEveryScaleAndUnit) {

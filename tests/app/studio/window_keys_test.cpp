@@ -112,13 +112,40 @@ TEST_F(Window, ArrowsWorkInMenusAndLettersDoNot) {
   EXPECT_NE(pinch, std::string::npos) << ran.out;
 }
 
+TEST_F(Window, LeftAndRightGoFromMenuToMenu) {
+  const Ran ran =
+      run("key F10\nkey Right\nkey Right\nkey Left\nkey Right\nkey Up\nkey Enter\n"
+          "key F10\nkey Left\nkey Up\nkey Enter\nexpect overlay shortcuts\nkey Esc\n",
+          "--size 960x640 --log");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto tool = ran.out.find("action: tool.strength"), keys = ran.out.find("action: help.keys");
+  EXPECT_NE(tool, std::string::npos) << "the last enabled row of the third menu\n" << ran.out;
+  EXPECT_GT(keys, tool) << "left of the first menu is the last";
+}
+
+TEST_F(Window, RightOpensTheListOfRecentFilesAndLeftClosesIt) {
+  std::string down;
+  for (int row = 0; row < 10; ++row) down += "key Down\n";
+  const Ran ran = run("save FOLDER/a.work\nkey F10\n" + down +
+                          "key Right\nkey Left\nkey Right\nkey Enter\nexpect overlay none\n"
+                          "key F10\n" +
+                          down + "key Right\nkey Left\nkey Left\nkey Up\nkey Enter\n",
+                      "--size 960x640 --log");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto saved = ran.out.find("saved: "), opened = ran.out.find("opened: ", saved);
+  EXPECT_NE(opened, std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find("action: help.keys", opened), std::string::npos) << ran.out;
+}
+
 /// From the gallery to a printable file: Show me throws the bowl. Saving sets the folder.
 TEST_F(Window, KeysAloneMakeAPotAndItsFile) {
   test::write_text(folder.file("s"),
                    "expect overlay gallery\nkey Down\nkey Enter\nexpect overlay none\nwait 150\n"
                    "expect step finished\nexpect ready yes\nsave " +
                        folder.file("keys.work") +
-                       "\nkey Ctrl+E\nwait 0.2\nkey Ctrl+Enter\nwait 0.2\nexpect exported 1\n");
+                       "\nkey F10\nkey Right\nkey Left\nkey Up\nkey Up\nkey Up\nkey Enter\n"
+                       "expect overlay export\nwait 0.2\nkey Ctrl+Enter\nwait 0.2\n"
+                       "expect exported 1\n");
   const Ran ran = claystack("studio --script " + folder.file("s") + " --size 960x640");
   ASSERT_EQ(ran.status, 0) << ran.err;
   const Ran check = claystack("check " + folder.file("keys.3mf"));

@@ -109,12 +109,17 @@ TEST(JobMessage, CarriesAQuestionDuringAStroke) {
 TEST(JobMessage, CarriesTheWholeExport) {
   ExportQuestion asked{studio::ExportKind::files, {}, *cup(5.0)};
   asked.choices = {.meshes = {solid::MeshFormat::drc, solid::MeshFormat::obj},
+                   .step = true,
                    .section = true,
+                   .dxf = true,
+                   .pdf = true,
+                   .report = true,
                    .pot = true,
                    .folder = "/a",
                    .name = "cup",
                    .tolerance_mm = 0.3,
                    .smoothing = solid::Smoothing::none,
+                   .smooth_length_mm = 7.5,
                    .process = "porcelain",
                    .min_wall_mm = 1.1,
                    .shrinkage_percent = 12.5};

@@ -1,14 +1,21 @@
 #include "claystack/export/formats.hpp"
 #include "core/little_endian.hpp"
+#include "core/material.hpp"
 #include "tests/export/formats/refused.hpp"
 #include "tests/export/solid/mesh_generators.hpp"
 #include "tests/fuzz/sample_meshes.hpp"
 
 #include <gtest/gtest.h>
+#ifdef CLAYSTACK_MESHOPT
+#include <meshoptimizer.h>
+#endif
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace clay::solid {
 namespace {
@@ -64,10 +71,18 @@ Json json_of(const std::string& glb) {
   return Json::parse(glb.substr(20, load_u32(glb.data() + 12)));
 }
 
+const std::vector<std::pair<GlbMesh, double>> kLimits{
+    {GlbMesh::draco, 0.5},    {GlbMesh::draco, 0.01},   {GlbMesh::draco, 0.001},
+#ifdef CLAYSTACK_MESHOPT
+    {GlbMesh::meshopt, 0.5},  {GlbMesh::meshopt, 0.01}, {GlbMesh::meshopt, 0.001},
+    {GlbMesh::meshopt, 1e-4},  // more than 16 bits
+#endif
+};
+
 TEST(Glb, KeepsTheErrorLimitAndItsAccessorsAreTrue) {
   const TriangleMesh mesh = samples::torus(60, 40);
-  for (const double limit : {0.5, 0.01, 0.001}) {
-    FileContents contents{.name = "a \"pot\"", .notes = {{"process", "sla"}}};
+  for (const auto& [glb, limit] : kLimits) {
+    FileContents contents{.name = "a \"pot\"", .glb = glb, .notes = {{"process", "sla"}}};
     contents.draco.max_error_mm = limit;
     const std::string bytes = encode_glb(mesh, contents).value();
     EXPECT_EQ(bytes, encode_glb(mesh, contents).value());
@@ -79,13 +94,47 @@ TEST(Glb, KeepsTheErrorLimitAndItsAccessorsAreTrue) {
     EXPECT_EQ(json["accessors"][0]["count"], read.points.size());
     EXPECT_EQ(json["accessors"][1]["count"], 3 * read.triangles.size());
     // Metres, y up: a torus about z of 55 mm, 15 mm high.
-    const auto max = json["accessors"][0]["max"];
-    EXPECT_NEAR(max[0].get<double>(), 0.055, 2e-3 * limit);
-    EXPECT_NEAR(max[1].get<double>(), 0.015, 2e-3 * limit);
+    std::array<double, 3> max{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Json& node = json["nodes"][0];
+      max[axis] = json["accessors"][0]["max"][axis].get<double>();
+      if (node.contains("scale"))
+        max[axis] =
+            max[axis] * node["scale"][axis].get<double>() + node["translation"][axis].get<double>();
+    }
+    EXPECT_NEAR(max[0], 0.055, 2e-3 * limit);
+    EXPECT_NEAR(max[1], 0.015, 2e-3 * limit);
     double highest = 0.0;
     for (const glm::dvec3& point : read.points) highest = std::max(highest, point.z);
-    EXPECT_NEAR(max[1].get<double>(), highest / 1000.0, 1e-8);
+    EXPECT_NEAR(max[1], highest / 1000.0, 1e-8);
   }
+}
+
+TEST(Glb, HasTheChosenClayOrGlaze) {
+  const TriangleMesh mesh = samples::torus(12, 8);
+  for (const GlbMesh kind : {GlbMesh::core, GlbMesh::draco})
+    for (const Material& wanted : kMaterials) {
+      FileContents contents{.glb = kind, .material = wanted.id};
+      const std::string bytes = encode_glb(mesh, contents).value();
+      const Json json = json_of(bytes), material = json["materials"][0];
+      EXPECT_EQ(material["name"], wanted.id);
+      const Json& pbr = material["pbrMetallicRoughness"];
+      for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_NEAR(pbr["baseColorFactor"][i].get<float>(), wanted.base[i], 1e-4f);
+      EXPECT_NEAR(pbr["roughnessFactor"].get<float>(), wanted.roughness, 1e-4f);
+      const bool used =
+          json.contains("extensionsUsed") &&
+          json["extensionsUsed"].dump().find("KHR_materials_clearcoat") != std::string::npos;
+      EXPECT_EQ(used, wanted.coat > 0.0f) << wanted.id;
+      EXPECT_EQ(material.contains("extensions"), used);
+      if (used) {
+        const Json& coat = material["extensions"]["KHR_materials_clearcoat"];
+        EXPECT_NEAR(coat["clearcoatFactor"].get<float>(), wanted.coat, 1e-4f);
+        EXPECT_NEAR(coat["clearcoatRoughnessFactor"].get<float>(), wanted.coat_roughness, 1e-4f);
+      }
+      EXPECT_TRUE(decode_glb(bytes, "x"));
+    }
+  EXPECT_EQ(encode_glb(mesh, {.material = "brick"}).error().kind, ErrorKind::bad_input);
 }
 
 TEST(Glb, ReadsPlainMeshesWithTransforms) {
@@ -120,6 +169,101 @@ TEST(Glb, ReadsStripsAndFans) {
   }
 }
 
+TEST(Glb, ReadsWholeNumbersAsPositions) {
+  struct Kind {
+    int type, bytes, most;
+  };
+  for (const Kind kind : {Kind{5120, 1, 127}, {5121, 1, 255}, {5122, 2, 32767}, {5123, 2, 65535}})
+    for (const bool normalized : {false, true}) {
+      Plain plain;
+      plain.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+      Json& accessor = plain.json["accessors"][0];
+      accessor["componentType"] = kind.type;
+      accessor["normalized"] = normalized;
+      plain.json["bufferViews"][0]["byteStride"] = 8;
+      std::fill_n(plain.binary.begin(), 48, '\0');
+      for (int axis = 0; axis < 3; ++axis)
+        for (int i = 0; i < kind.bytes; ++i)
+          plain.binary[static_cast<std::size_t>(8 * (axis + 1) + axis * kind.bytes + i)] =
+              static_cast<char>(kind.most >> 8 * i);
+      const double side = 1000.0 * (normalized ? 1.0 : kind.most);
+      if (side > 1e6) {  // beyond the limit of coordinates
+        EXPECT_TRUE(refused(decode_glb(plain.file(), "x"), ErrorKind::bad_input, "in mm"));
+        continue;
+      }
+      EXPECT_NEAR(signed_volume(decode_glb(plain.file(), "x").value()) / std::pow(side, 3),
+                  1.0 / 6.0, 1e-6);
+    }
+}
+
+/// What the file states against what it holds.
+struct Colours {
+  Json accessor;
+  std::vector<std::array<double, 4>> values;
+};
+Colours colours_in(const std::string& glb) {
+  const Json json = json_of(glb);
+  const std::size_t number = json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"];
+  Colours found{json["accessors"][number], {}};
+  const Json view = json["bufferViews"][found.accessor["bufferView"].get<std::size_t>()];
+  const char* at =
+      glb.data() + 20 + load_u32(glb.data() + 12) + 8 + view.value("byteOffset", std::size_t{0});
+  for (std::size_t i = 0; i < found.accessor["count"].get<std::size_t>(); ++i, at += 8) {
+    auto& colour = found.values.emplace_back();
+    for (std::size_t c = 0; c < 4; ++c)
+      colour[c] = (static_cast<unsigned char>(at[2 * c]) +
+                   256.0 * static_cast<unsigned char>(at[2 * c + 1])) /
+                  65535.0;
+  }
+  return found;
+}
+
+TEST(Glb, StatesTheWallMapInLinearLight) {
+  const std::vector<float> walls{0.0F, 5.0F, 20.0F, 40.0F};
+  const FileContents contents{.wall_mm = walls, .wall_top_mm = 20.0, .glb = GlbMesh::core};
+  const std::string bytes = encode_glb(tetrahedron(), contents).value();
+  const Colours colours = colours_in(bytes);
+  EXPECT_EQ(colours.accessor["normalized"], true);
+  EXPECT_EQ(colours.accessor["componentType"], 5123);
+  // cividis from 0x00224E to 0xFEE838, a quarter up 0x3C4B6C; by the curve of sRGB.
+  const auto linear = [](int byte) { return std::pow((byte / 255.0 + 0.055) / 1.055, 2.4); };
+  const auto expect = [&](std::size_t point, int red, int green, int blue) {
+    const std::array<double, 4>& found = colours.values.at(point);
+    EXPECT_NEAR(found[0], red == 0 ? 0.0 : linear(red), 2e-5);
+    EXPECT_NEAR(found[1], linear(green), 2e-5);
+    EXPECT_NEAR(found[2], linear(blue), 2e-5);
+    EXPECT_EQ(found[3], 1.0);
+  };
+  expect(0, 0x00, 0x22, 0x4E);
+  expect(1, 0x3C, 0x4B, 0x6C);
+  expect(2, 0xFE, 0xE8, 0x38);
+  expect(3, 0xFE, 0xE8, 0x38);  // thicker than the top
+  const Json json = json_of(bytes);
+  const Json map = json["asset"]["extras"]["claystack"]["wall_map"];
+  EXPECT_EQ(map["range"], Json::parse("[0, 20]"));
+  EXPECT_EQ(map["colours_srgb"].front(), "#00224E");
+  EXPECT_EQ(json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"],
+            Json::parse("[1, 1, 1, 1]"));
+  EXPECT_FALSE(json_of(encode_glb(tetrahedron(), {.glb = GlbMesh::core})
+                           .value())["meshes"][0]["primitives"][0]["attributes"]
+                   .contains("COLOR_0"));
+}
+
+#ifdef CLAYSTACK_DRACO
+TEST(Glb, CompressesTheWallMapBesideThePoints) {
+  const TriangleMesh mesh = samples::torus(60, 40);
+  const std::vector<float> walls(mesh.points.size(), 4.0F);
+  const std::string bytes = encode_glb(mesh, {.wall_mm = walls}).value();
+  const Json json = json_of(bytes);
+  EXPECT_EQ(json["accessors"][2]["count"], json["accessors"][0]["count"]);
+  EXPECT_EQ(
+      json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"],
+      Json::parse(R"({"POSITION": 0, "COLOR_0": 1})"));
+  EXPECT_LE(samples::largest_move(mesh, decode_glb(bytes, "x").value()), 0.01);
+  EXPECT_LT(bytes.size(), encode_glb(mesh, {}).value().size() + 600);
+}
+#endif
+
 TEST(Glb, RefusesBadFiles) {
   const auto expect = [](const std::string& file, const std::string& because) {
     EXPECT_TRUE(refused(decode_glb(file, "p.glb"), ErrorKind::bad_input, because));
@@ -136,11 +280,12 @@ TEST(Glb, RefusesBadFiles) {
   expect(changed("/accessors/0/count", 5), "expected 5 values within bufferView 0");
   expect(changed("/accessors/0/count", 4000000000U), "values within bufferView 0");
   expect(changed("/accessors/1/count", 11), "3 corners for each triangle");
-  expect(changed("/accessors/0/componentType", 5123), "POSITION: expected 3 float32");
+  expect(changed("/accessors/0/componentType", 5125), "POSITION: expected 3 float32");
+  expect(changed("/accessors/0/normalized", true), "POSITION: expected 3 float32");
   expect(changed("/accessors/0/sparse", Json::object()), "no sparse accessor");
   expect(changed("/bufferViews/1/byteOffset", 60), "within the 72 bytes of the buffer");
   expect(changed("/buffers/0/uri", "https://example.org"), "the buffer of the file itself");
-  expect(changed("/extensionsRequired", {"EXT_meshopt_compression"}), "no required extension but");
+  expect(changed("/extensionsRequired", {"KHR_meshopt_compression"}), "no required extension but");
   expect(changed("/nodes/0/children", {0}), "expected a tree of nodes");
   expect(changed("/nodes/0/mesh", 7), "meshes: expected the number of one of 1, found 7");
   expect(changed("/scenes/0/nodes", Json::array()), "triangles, found 0");
@@ -154,6 +299,140 @@ TEST(Glb, RefusesBadFiles) {
   for (int i = 0; i < 100; ++i) deep = Json::array({deep});
   expect(changed("/extras", deep), "nested at most 32 deep");
 }
+
+#ifdef CLAYSTACK_MESHOPT
+
+/// A torus, its JSON changed.
+struct Packed {
+  Json json;
+  std::string binary;
+
+  explicit Packed(double limit_mm = 0.01) {
+    FileContents contents{.glb = GlbMesh::meshopt};
+    contents.draco.max_error_mm = limit_mm;
+    const std::string file = encode_glb(samples::torus(60, 40), contents).value();
+    json = json_of(file);
+    binary = file.substr(20 + load_u32(file.data() + 12) + 8);
+  }
+  [[nodiscard]] Json& compression(std::size_t view) {
+    return json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"];
+  }
+  [[nodiscard]] std::string file() const { return glb_of(json, binary); }
+};
+
+TEST(Glb, IsSmallerByMeshopt) {
+  const TriangleMesh mesh = samples::torus(200, 150);
+  const auto size = [&](GlbMesh glb) { return encode_glb(mesh, {.glb = glb}).value().size(); };
+  EXPECT_LT(6 * size(GlbMesh::meshopt), size(GlbMesh::core));
+}
+
+TEST(Glb, WritesTheVersionsOfTheCodecsThatTheExtensionAsksFor) {
+  Packed packed;
+  const auto first = [&](std::size_t view) {
+    return static_cast<unsigned char>(
+        packed.binary.at(packed.compression(view).value("byteOffset", std::size_t{0})));
+  };
+  EXPECT_EQ(first(0), 0xA0);
+  EXPECT_EQ(first(1), 0xE1);
+  EXPECT_EQ(packed.json["extensionsRequired"],
+            Json::parse(R"(["EXT_meshopt_compression", "KHR_mesh_quantization"])"));
+  EXPECT_EQ(packed.json["buffers"][1]["extensions"]["EXT_meshopt_compression"]["fallback"], true);
+}
+
+TEST(Glb, RefusesBadMeshoptViews) {
+  ASSERT_TRUE(decode_glb(Packed().file(), "x"));
+  const auto expect = [](std::size_t view, const Json& changes, const std::string& because) {
+    Packed packed;
+    packed.compression(view).update(changes);
+    EXPECT_TRUE(refused(decode_glb(packed.file(), "p.glb"), ErrorKind::bad_input, because))
+        << changes;
+  };
+  // The view itself must state the length that comes out.
+  const auto expect_length = [](std::size_t view, const Json& changes, const std::string& because) {
+    Packed packed;
+    packed.compression(view).update(changes);
+    packed.json["bufferViews"][view]["byteLength"] =
+        packed.compression(view)["count"].get<std::size_t>() *
+        packed.compression(view)["byteStride"].get<std::size_t>();
+    packed.json["bufferViews"][view].erase("byteStride");
+    EXPECT_TRUE(refused(decode_glb(packed.file(), "p.glb"), ErrorKind::bad_input, because))
+        << changes;
+  };
+  expect(0, {{"count", 2399}}, "bufferView 0: expected the length and stride");
+  expect(0, {{"count", 4000000000U}}, "expected at most 1 GiB unpacked");
+  expect(0, {{"buffer", 1}}, "the buffer of the file itself");
+  expect(0, {{"byteLength", 1000000000U}}, "expected it within");
+  expect(0, {{"mode", "OTHER"}}, "the mode ATTRIBUTES, TRIANGLES or INDICES");
+  expect(0, {{"filter", "OTHER"}}, "the filter NONE");
+  expect(1, {{"filter", "EXPONENTIAL"}}, "no filter for indices");
+  expect(0, {{"byteLength", 10}}, "as many elements as its 10 bytes can hold");
+  expect(1, {{"byteLength", 2000}}, "as many elements as its 2000 bytes can hold");
+  expect_length(0, {{"byteStride", 6}}, "a stride of 4 to 256");
+  expect_length(0, {{"byteStride", 12}}, "found damaged data");
+  expect_length(0, {{"filter", "OCTAHEDRAL"}, {"byteStride", 12}}, "another stride");
+  expect_length(0, {{"count", 2384}}, "found damaged data");
+  expect_length(1, {{"byteStride", 3}}, "indices of 2 or 4 bytes");
+  expect_length(1, {{"count", 14399}}, "3 indices for each triangle");
+  expect_length(0, {{"count", 100000000U}}, "as many elements as its");
+  Packed damaged;
+  damaged.binary[0] = 'x';
+  EXPECT_TRUE(refused(decode_glb(damaged.file(), "x"), ErrorKind::bad_input, "damaged data"));
+}
+
+/// The tetrahedron of `Plain`, by meshoptimizer itself.
+struct Filtered {
+  Json json = Plain().json;
+  std::string binary;
+
+  void compress(std::size_t view, const std::string& stream, Json extension) {
+    extension.update({{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", stream.size()}});
+    Json& parent = json["bufferViews"][view];
+    parent = {{"buffer", 1},
+              {"byteLength", extension["count"].get<int>() * extension["byteStride"].get<int>()}};
+    parent["extensions"]["EXT_meshopt_compression"] = std::move(extension);
+    binary += stream;
+    binary.resize((binary.size() + 3) / 4 * 4, '\0');
+  }
+
+  Filtered() {
+    const std::vector<float> points{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    std::vector<std::uint32_t> filtered(points.size());
+    meshopt_encodeFilterExp(filtered.data(), 4, 12, 24, points.data());
+    std::string stream(meshopt_encodeVertexBufferBound(4, 12), '\0');
+    auto* const to = reinterpret_cast<unsigned char*>(stream.data());
+    stream.resize(meshopt_encodeVertexBuffer(to, stream.size(), filtered.data(), 4, 12));
+    compress(0, stream,
+             {{"mode", "ATTRIBUTES"}, {"filter", "EXPONENTIAL"}, {"count", 4}, {"byteStride", 12}});
+    std::vector<std::uint32_t> corners;
+    for (const auto& triangle : tetrahedron().triangles)
+      corners.insert(corners.end(), triangle.begin(), triangle.end());
+    stream.assign(meshopt_encodeIndexSequenceBound(12, 4), '\0');
+    auto* const next = reinterpret_cast<unsigned char*>(stream.data());
+    stream.resize(meshopt_encodeIndexSequence(next, stream.size(), corners.data(), 12));
+    compress(1, stream, {{"mode", "INDICES"}, {"count", 12}, {"byteStride", 2}});
+    json["buffers"].push_back({{"byteLength", 72}});
+  }
+};
+
+TEST(Glb, ReadsFiltersAndSequences) {
+  Filtered filtered;
+  const auto volume = [](const Filtered& file) {
+    return decode_glb(glb_of(file.json, file.binary), "x").map(signed_volume);
+  };
+  EXPECT_NEAR(volume(filtered).value(), 1e9 / 6.0, 1.0);
+  filtered.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"].erase("filter");
+  EXPECT_FALSE(volume(filtered));
+}
+
+#else
+
+TEST(Glb, ReportsThatMeshoptIsNotInThisBuild) {
+  const std::string because = "this build has no meshoptimizer";
+  EXPECT_TRUE(
+      refused(encode_glb(tetrahedron(), {.glb = GlbMesh::meshopt}), ErrorKind::bad_input, because));
+}
+
+#endif
 
 }  // namespace
 }  // namespace clay::solid

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace clay::solid {
 namespace {
@@ -131,6 +133,23 @@ TEST(ThreeMf, WritesAnObjectForEachBody) {
   EXPECT_NEAR(signed_volume(read), (2.0 - 0.001) * 1000.0 / 6.0, 1e-6);
 }
 
+TEST(ThreeMf, WritesTheWallMapAsColoursOfCorners) {
+  const std::vector<float> walls{0.0F, 5.0F, 10.0F, 40.0F};
+  const std::string xml =
+      encode_3mf_model(tetrahedron(), {.wall_mm = walls, .wall_top_mm = 10.0}).xml;
+  // 65 colours from one end of cividis to the other, ids after those of the objects.
+  EXPECT_NE(xml.find("<m:colorgroup id=\"3\">\n<m:color color=\"#00224EFF\"/>"), xml.npos);
+  EXPECT_NE(xml.find("<m:color color=\"#FEE838FF\"/>\n</m:colorgroup>"), xml.npos);
+  std::size_t colours = 0;
+  for (std::size_t at = 0; (at = xml.find("<m:color ", at)) != xml.npos; ++at) ++colours;
+  EXPECT_EQ(colours, 65u);
+  EXPECT_NE(xml.find("pid=\"3\" pindex=\"0\">"), xml.npos);
+  EXPECT_NE(xml.find("v1=\"0\" v2=\"1\" v3=\"3\" pid=\"3\" p1=\"0\" p2=\"32\" p3=\"64\"/>"),
+            xml.npos);
+  EXPECT_NE(xml.find("<metadata name=\"claystack:wall_map\" preserve=\"1\">0 to 10 mm<"), xml.npos);
+  EXPECT_EQ(decode_3mf_model(xml, "m").value(), tetrahedron());
+}
+
 TEST(Base64, AgreesWithItsStandard) {
   // RFC 4648, section 10.
   for (const auto& [text, code] :
@@ -228,6 +247,11 @@ TEST(ThreeMf, RefusesPackagesWithoutAModel) {
   expect(package_of(kModel, kRelationsPart, changed(kTypesPart, "\"model\"", "\"mdl\"")),
          "expected the content type");
   const std::string good = package_of(kModel);
+  std::string locked = good;  // the flag of encryption of every entry
+  for (const auto& [mark, flags] : {std::pair{"PK\3\4", 6}, {"PK\1\2", 8}})
+    for (std::size_t at = 0; (at = locked.find(mark, at)) != locked.npos; at += 4)
+      locked[at + static_cast<std::size_t>(flags)] |= 1;
+  expect(locked, "cannot unpack");
   EXPECT_EQ(decode_3mf(good, "x").value(), tetrahedron());
   expect(good.substr(0, good.size() - 30), "expected a zip archive");
   EXPECT_TRUE(refused(

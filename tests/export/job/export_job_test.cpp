@@ -207,8 +207,13 @@ TEST(RunExport, DracoKeepsCloseVerticesApartAtAnyTolerance) {
     ExportOptions options;
     options.tolerance_mm = tolerance;
     options.allow_pieces = true;
-    const auto result = exported(pot_of(stack), {MeshFormat::stl_binary, MeshFormat::drc}, options);
-    EXPECT_TRUE(result) << result.error().message;
+    for (const GlbMesh glb : {GlbMesh::draco, GlbMesh::core}) {
+      options.glb = glb;
+      const auto result = exported(
+          pot_of(stack), {MeshFormat::stl_binary, MeshFormat::drc, MeshFormat::glb}, options);
+      ASSERT_TRUE(result) << result.error().message;
+      EXPECT_TRUE(check_mesh(*decode_mesh(result->files[2], MeshFormat::glb, "pot")).sound());
+    }
   }
 }
 

@@ -19,7 +19,7 @@ Profile vase_profile() { return profile_of(shapes::vase(20))->profile; }
 
 ::testing::AssertionResult refused(const TriangleMesh& mesh, const RevolveLayout& rule,
                                    const std::string& because) {
-  const auto matched = match_revolve(mesh, rule, kReach, "file");
+  const auto matched = match_revolve(mesh, rule, kReach, MeshFormat::stl_binary, "file");
   if (matched) return ::testing::AssertionFailure() << "was accepted";
   if (matched.error().message.find(because) == std::string::npos)
     return ::testing::AssertionFailure() << matched.error().message;
@@ -47,19 +47,20 @@ RC_GTEST_PROP(MatchRevolve, MatchesTheSolidInAnyOrder, (const ClayStack& stack, 
   const RevolveLayout rule(section->profile, *rc::gen::inRange<std::size_t>(8, 30));
   std::mt19937 random(seed);
   TriangleMesh mesh = shuffled(revolve(rule), random);
-  const auto exact = match_revolve(mesh, rule, 1e-9, "file");
+  const auto exact = match_revolve(mesh, rule, 1e-9, MeshFormat::stl_binary, "file");
   // Walls may be thinner than the reach: then another vertex may be as near.
   if (!exact) return;
   RC_ASSERT(*exact == 0.0);
   std::swap(mesh.triangles.front()[0], mesh.triangles.front()[1]);
-  RC_ASSERT(!match_revolve(mesh, rule, 1e-9, "file"));
+  RC_ASSERT(!match_revolve(mesh, rule, 1e-9, MeshFormat::stl_binary, "file"));
 }
 
 TEST(MatchRevolve, MeasuresTheFarthestPoint) {
   const RevolveLayout rule(vase_profile(), 24);
   TriangleMesh mesh = revolve(rule);
   mesh.points[7] += glm::dvec3(0.0, 3e-4, 4e-4);
-  EXPECT_NEAR(match_revolve(mesh, rule, kReach, "file").value(), 5e-4, 1e-12);
+  EXPECT_NEAR(match_revolve(mesh, rule, kReach, MeshFormat::stl_binary, "file").value(), 5e-4,
+              1e-12);
 }
 
 TEST(MatchRevolve, ReportsDifferencesFromTheSolid) {
@@ -92,12 +93,13 @@ TEST(MatchRevolve, RefusesTheOtherDiagonal) {
   const std::uint32_t next = mesh.triangles[0][1], up = (*shared)[2];
   mesh.triangles[0] = {mesh.triangles[0][0], next, up};
   *shared = {next, (*shared)[1], up};
-  EXPECT_FALSE(match_revolve(mesh, rule, kReach, "file"));
+  EXPECT_FALSE(match_revolve(mesh, rule, kReach, MeshFormat::stl_binary, "file"));
 }
 
 TEST(MatchRevolve, RefusesAnotherNumberOfSegments) {
   EXPECT_FALSE(match_revolve(revolve(RevolveLayout(vase_profile(), 24)),
-                             RevolveLayout(vase_profile(), 25), kReach, "file"));
+                             RevolveLayout(vase_profile(), 25), kReach, MeshFormat::stl_binary,
+                             "file"));
 }
 
 }  // namespace

@@ -64,6 +64,8 @@ inline double allowed_move_mm(const ClayStack& stack, const SmoothingOptions& op
 inline SmoothingOptions any_options() {
   SmoothingOptions options = options_for(*rc::gen::element(Smoothing::fair, Smoothing::exact),
                                          *rc::gen::element(1e-4, 0.02, 0.5));
+  if (options.mode == Smoothing::fair)
+    options.smooth_length_mm = *rc::gen::element(0.0, 0.5, 9.0, 60.0);
   if (*rc::gen::inRange(0, 2) == 1) options.min_wall_mm = *rc::gen::element(0.0, 1.0, 4.0, 1000.0);
   return options;
 }

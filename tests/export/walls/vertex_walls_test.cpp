@@ -28,6 +28,29 @@ TEST(VertexWalls, AreThoseOfTheFacesThatMeet) {
   EXPECT_NEAR(walls[4], 5.0, 1e-9);
 }
 
+TEST(VertexWalls, AboveALimitAreTheLimit) {
+  // As above: a wall of 5 mm, a floor of 8 mm.
+  const Polygon pot{{0, 0}, {40, 0}, {40, 30}, {40, 60}, {35, 60}, {35, 30}, {35, 8}, {0, 8}};
+  const auto walls = thin_vertex_walls(pot, 6.0);
+  EXPECT_NEAR(walls[2], 5.0, 1e-9);
+  EXPECT_NEAR(walls[5], 5.0, 1e-9);
+  EXPECT_EQ(walls[0], 6.0);
+  EXPECT_EQ(walls[7], 6.0);
+  for (const double wall : thin_vertex_walls(pot, 2.0)) EXPECT_EQ(wall, 2.0);
+}
+
+TEST(VertexWalls, OfAFineLongTubeAreItsWall) {
+  // So many edges that the search goes by groups of them, which are nearer than 1 mm.
+  Polygon tube;
+  for (int i = 0; i <= 200; ++i) tube.push_back({40.0, 0.3 * i});
+  for (int i = 200; i >= 0; --i) tube.push_back({39.8, 0.3 * i});
+  const auto walls = thin_vertex_walls(tube, 6.0);
+  for (std::size_t i = 1; i < 401; ++i) {
+    if (i == 200 || i == 201) continue;  // the corners are lips
+    EXPECT_NEAR(walls[i], 0.2, 1e-9) << i;
+  }
+}
+
 TEST(VertexWalls, OfAPieceWithoutAWallAreItsLargestDisc) {
   const Profile square{{{{30, 0}, {40, 0}, {40, 10}, {30, 10}}}};
   const auto walls = vertex_walls(square);

@@ -96,16 +96,20 @@ Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& se
 std::string encode_ply(const TriangleMesh& mesh, std::string_view object_name,
                        std::span<const float> wall_mm = {});
 
-/// What a file holds beside the surface; each format takes what it has a place for.
-/// How a GLB holds its mesh: as plain float32, which every reader of glTF takes, or by Draco.
-enum class GlbMesh { core, draco };
+/// How a GLB holds its mesh: as plain float32, which every reader of glTF takes, by Draco, or by
+/// meshoptimizer, which viewers unpack faster.
+enum class GlbMesh { core, draco, meshopt };
 
+/// What a file holds beside the surface; each format takes what it has a place for.
 struct FileContents {
   std::string_view name = "pot";        ///< of the solid or object
   std::span<const float> wall_mm = {};  ///< thickness at each point [mm]; empty: unknown
+  /// PLY has them as numbers. GLB and 3MF have them as colours, from 0 to this thickness [mm].
+  double wall_top_mm = 10.0;
   DracoSettings draco = {};
-  GlbMesh glb = GlbMesh::draco;  ///< without Draco in this build it is always `core`
-  bool one_body = false;         ///< the mesh has one shell; spares the search for several (3MF)
+  GlbMesh glb = GlbMesh::draco;              ///< without Draco in this build, `draco` is `core`
+  std::string_view material = "terracotta";  ///< id of a clay or glaze, as for `--material` (GLB)
+  bool one_body = false;  ///< the mesh has one shell; spares the search for several (3MF)
   /// Metadata of the 3MF model, as `claystack:KEY`.
   std::vector<std::pair<std::string, std::string>> notes = {};
   std::string_view pot = {};            ///< a pot file, CBOR (3MF)
@@ -130,11 +134,13 @@ ModelPart encode_3mf_model(const TriangleMesh& mesh, const FileContents& content
 /// setting. No dates, no random ids: equal contents give equal bytes.
 Result<std::string> pack_3mf(const ModelPart& model, const FileContents& contents);
 
-/// glTF 2.0 in one binary file: metres, y up, a clay material, `notes` in the asset's extras. With
-/// Draco in this build the mesh is compressed (KHR_draco_mesh_compression), on the coarsest grid
-/// that keeps `draco.max_error_mm` with all roundings, and the accessors state the counts and
-/// bounds of the decoded mesh. Without it: float32 points and uint32 indices. Errors as for
-/// `encode_drc`.
+/// glTF 2.0 in one binary file: metres, y up, a clay or a glaze (KHR_materials_clearcoat), `notes`
+/// in the asset's extras. The mesh is compressed by Draco (KHR_draco_mesh_compression) or by
+/// meshoptimizer (EXT_meshopt_compression; points of 16 bits, or float32 where these are too few),
+/// on the coarsest grid that keeps `draco.max_error_mm` with all roundings, and the accessors state
+/// the counts and bounds of the decoded mesh. `core`: float32 points and uint32 indices. With
+/// `wall_mm`, vertices have the wall map as COLOR_0, in linear light. Errors as for `encode_drc`;
+/// meshoptimizer also needs a triangle at every point. `bad_input` for an unknown material.
 Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& contents);
 
 /// What a reader accepts beyond its format.
@@ -225,9 +231,10 @@ Result<TriangleMesh> decode_3mf_model(std::string_view xml, std::string_view nam
                                       const ReadOptions& options = {});
 
 /// glTF 2.0 in one binary file: the triangles (lists, strips, fans) of all nodes of its scene, in
-/// mm and z up; equal corners are welded. Points are float32, indices of any type, or both
-/// compressed by Draco. Refused: required extensions other than Draco and those of materials and
-/// textures, sparse or normalised points, other buffers than the file's own, nodes in a cycle or
+/// mm and z up; equal corners are welded. Points are float32 or (KHR_mesh_quantization) whole
+/// numbers of 8 or 16 bits, indices of any type; both may be compressed by Draco or meshoptimizer.
+/// Refused: other required extensions except those of materials and textures, sparse points, other
+/// buffers than the file's own, views that unpack to more than 1 GiB together, nodes in a cycle or
 /// nested more than 32 deep, JSON of more than 16 MiB or 32 levels, and a scene of more than 64
 /// times the triangles in the file (above a million).
 Result<TriangleMesh> decode_glb(std::string_view bytes, std::string_view name);

@@ -73,6 +73,9 @@ struct ExportOptions {
   /// Maximum chordal error along the profile and around the axis, and vertex error of Draco.
   double tolerance_mm = 0.02;
   Smoothing smoothing = Smoothing::fair;
+  /// Length of the fairing on the pot, before it is enlarged for shrinkage [mm]; of a standing pot
+  /// (see `SmoothingOptions`). 0: none. Empty: `tool_length_mm`.
+  std::optional<double> smooth_length_mm = 0.0;
   /// The limit that smoothing respects (see `SmoothingOptions`) and with which the report compares
   /// the walls.
   WallDemand walls;
@@ -92,6 +95,8 @@ struct ExportOptions {
   double fill_line_mm = kFillLineMm;  ///< below the brim of the pot in use
   StepWalls step_walls = StepWalls::spline;
   GlbMesh glb = GlbMesh::draco;
+  std::string material = "terracotta";  ///< of a GLB, as in FileContents
+  bool wall_map = false;           ///< colours of the wall in a GLB and a 3MF of a standing pot
   bool normals = false;            ///< write normals for shading (obj only)
   bool allow_pieces = false;       ///< accept pieces that do not touch
   bool measure_left_out = false;   ///< run the skipped stages as well, and report the time saved
@@ -107,6 +112,10 @@ struct ExportOptions {
   /// binary STL and drawings need none; a collapsed pot has too few triangles to matter.
   std::function<Result<void>(std::uint64_t bytes)> expect_memory;
 };
+
+/// A length for fairing that leaves what the tool was made for: the radius of the tool, or half of
+/// its height if that is less [mm]. 0 if the pot does not remember its tool.
+[[nodiscard]] double tool_length_mm(const Pot& pot);
 
 enum class FileKind {
   mesh,

@@ -13,7 +13,7 @@ namespace clay::solid::inline smoothing {
 
 enum class Smoothing {
   none,   ///< the unsmoothed steps
-  fair,   ///< chords from middle to middle; every piece keeps its volume
+  fair,   ///< chords from middle to middle, or faired; every piece keeps its volume
   exact,  ///< every ring keeps the volumes of its outer cylinder and of its bore
 };
 /// "none", "fair" or "exact".
@@ -33,6 +33,9 @@ struct SmoothingOptions {
   /// beyond a cut, the ring there counts as a continuation of the wall (see `extrapolated_mm`).
   /// Empty: the tolerance.
   std::optional<double> overshoot_limit_mm;
+  /// `fair`: walls have continuous curvature, and what is shorter along the height than this is
+  /// smoothed away [mm]; at least two rings. 0: chords from middle to middle.
+  double smooth_length_mm = 0.0;
 };
 
 /// The reason for keeping a step.
@@ -56,6 +59,21 @@ struct KeptSteps {
   double kept_mm = 0.0;  ///< current wall, if it is not above the limit; otherwise 0
 };
 
+/// Heights where the wall guard made the length of the fairing shorter; 0: chords there [mm].
+struct ShortenedFairing {
+  double from_mm = 0.0;
+  double to_mm = 0.0;
+  double length_mm = 0.0;  ///< the least there
+};
+
+/// `fair` with a length.
+struct FairingReport {
+  double length_mm = 0.0;  ///< as used; 0: none
+  double moved_mm = 0.0;   ///< largest distance of a wall from the radius of a ring, at its middle
+  double moved_at_mm = 0.0;                 ///< height of that place
+  std::vector<ShortenedFairing> shortened;  ///< by piece and height
+};
+
 struct SmoothedProfile {
   StackProfile section;
   std::vector<KeptSteps> guard;  ///< places with kept steps, by piece, reason and height
@@ -74,6 +92,7 @@ struct SmoothedProfile {
   /// `exact`: maximum relative error of a ring's R^2 h or r^2 h, with levels in double precision;
   /// in a stack of 10^6 rings, the upper ones lose digits of h.
   double max_ring_error_relative = 0.0;
+  FairingReport fairing;  ///< before the volume correction, which `overshoot_mm` bounds
 };
 
 /// The profile of a stack with smooth walls. Both modes work on runs of rings between cuts, which
@@ -90,6 +109,11 @@ struct SmoothedProfile {
 ///        Clay is removed only where walls are clear of the limit. If that would move a wall by
 ///        more than the tolerance and a hundredth of a ring's height, the jumps that change the
 ///        volume most become cuts.
+///        With `smooth_length_mm` l, runs of at least four rings follow a curve of continuous
+///        curvature instead: the cubic spline u of the height that minimises the sum over the rings
+///        of h (u - R)^2 plus the integral of (l / 2 pi)^6 (d^3 u / dy^3)^2. A ripple of wavelength
+///        l keeps half of its height, and what is quadratic in the height stays. Within l of the
+///        end of a run, l is the distance to it, so that corners keep their place.
 /// exact  Walls follow a monotone interpolant of each wall's cumulative volume; frusta within the
 ///        rings are corrected so that every ring keeps R^2 h and r^2 h. A jump forces overshoot;
 ///        above the limit it becomes a cut.
@@ -99,7 +123,8 @@ struct SmoothedProfile {
 /// whichever is smaller. Measured exactly, with a slack of 1e-9 for rounding. Clay between two
 /// places of one wall (a flange, a ledge, the edge of a lip), by the definition of `min_wall`, does
 /// not become thinner than `min_wall_mm` or every wall of the steps, whichever is smaller. Where
-/// either would fail, first the simplification and then the smoothing is undone. Treads below 2^-20
+/// either would fail, first the simplification (and the fairing, its length halved each time) and
+/// then the smoothing is undone. Treads below 2^-20
 /// of the largest radius, which float32 cannot hold, never become cuts: walls may lose less than
 /// one of them. The lip fillet is applied afterwards and may thin the lip. Every piece is
 /// certified; a piece that fails keeps its steps.

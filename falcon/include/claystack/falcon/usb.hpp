@@ -55,8 +55,11 @@ struct SpaceMouseSettings {
 /// Refuses settings out of their ranges.
 [[nodiscard]] DeviceResult<void> check(const SpaceMouseSettings& settings);
 
-/// Integrates the speed. It is zero within the dead zone; beyond, it grows with the square of the
-/// deflection, for fine control.
+/// Part of the full speed, with the direction of the deflection: zero within the dead zone; beyond,
+/// it grows with the square of the deflection, for fine control.
+[[nodiscard]] glm::dvec3 rate_of(const glm::dvec3& deflection, double dead_zone) noexcept;
+
+/// Integrates the speed.
 class RateControl {
  public:
   explicit RateControl(const SpaceMouseSettings& settings) noexcept : settings_(settings) {}
@@ -71,6 +74,29 @@ class RateControl {
   glm::dvec3 position_mm_{0.0};
   std::int64_t last_us_ = 0;
 };
+
+/// The reports of an open HID device, by any medium.
+class ReportPort {
+ public:
+  ReportPort() = default;
+  ReportPort(const ReportPort&) = delete;
+  ReportPort& operator=(const ReportPort&) = delete;
+  virtual ~ReportPort() = default;
+
+  virtual DeviceResult<void> open(const std::string& place) = 0;
+  /// Reads a report that has arrived; it begins with its number. Returns its size, 0 if there is
+  /// none, negative if the device was disconnected.
+  virtual int read(std::span<std::uint8_t> report) noexcept = 0;
+  /// Does nothing without an open device.
+  virtual void write(std::span<const std::uint8_t> report) noexcept = 0;
+  /// The clock of the samples [us].
+  [[nodiscard]] virtual std::int64_t now_us() const noexcept { return monotonic_us(); }
+};
+
+/// A 3Dconnexion controller without motors. `place`: for its port.
+[[nodiscard]] std::unique_ptr<HapticDevice> make_space_mouse(std::string name, std::string place,
+                                                             const SpaceMouseSettings& settings,
+                                                             std::unique_ptr<ReportPort> port);
 
 // ---- usb devices ---------------------------------------------------------------------
 // Connected devices: claystack::falcon_usb, with libftdi1, libusb and hidapi.

@@ -1,5 +1,4 @@
 #include "claystack/falcon/usb.hpp"
-#include "falcon/device/usb/hid_node.hpp"
 
 #include <array>
 #include <string>
@@ -11,8 +10,9 @@ constexpr std::uint8_t kLight = 4;  // the number of the report that switches th
 
 class SpaceMouse final : public HapticDevice {
  public:
-  SpaceMouse(std::string name, std::string place, const SpaceMouseSettings& settings)
-      : settings_(settings), motion_(settings) {
+  SpaceMouse(std::string name, std::string place, const SpaceMouseSettings& settings,
+             std::unique_ptr<ReportPort> port)
+      : settings_(settings), port_(std::move(port)), motion_(settings) {
     info_ = {std::move(name), std::move(place), false, 0.0, glm::dvec3(settings.half_workspace_mm),
              1000.0};
   }
@@ -21,7 +21,7 @@ class SpaceMouse final : public HapticDevice {
   [[nodiscard]] const DeviceInfo& info() const noexcept override { return info_; }
 
   DeviceResult<void> open() override {
-    auto opened = check(settings_).and_then([this] { return node_.open(info_.place); });
+    auto opened = check(settings_).and_then([this] { return port_->open(info_.place); });
     motion_ = RateControl(settings_);
     reports_ = {};
     counters_ = {};
@@ -41,8 +41,8 @@ class SpaceMouse final : public HapticDevice {
     if (sample_.state != DeviceState::ready) return sample_;
     std::array<std::uint8_t, 64> report{};
     int size = 0;
-    const std::int64_t now_us = monotonic_us();
-    while ((size = node_.read(report, 0)) > 0) {
+    const std::int64_t now_us = port_->now_us();
+    while ((size = port_->read(report)) > 0) {
       ++counters_.frames;
       if (reports_.take(std::span(report).first(static_cast<std::size_t>(size))))
         heard_us_ = now_us;
@@ -70,13 +70,12 @@ class SpaceMouse final : public HapticDevice {
 
  private:
   void light(bool on) noexcept {
-    const std::array<std::uint8_t, 2> report = {kLight, static_cast<std::uint8_t>(on ? 1 : 0)};
-    if (node_.is_open()) node_.write(report);
+    port_->write(std::array<std::uint8_t, 2>{kLight, static_cast<std::uint8_t>(on ? 1 : 0)});
   }
 
   SpaceMouseSettings settings_;
   DeviceInfo info_;
-  HidNode node_;
+  std::unique_ptr<ReportPort> port_;
   SpaceMouseReports reports_;
   RateControl motion_;
   DeviceSample sample_;
@@ -88,8 +87,9 @@ class SpaceMouse final : public HapticDevice {
 }  // namespace
 
 std::unique_ptr<HapticDevice> make_space_mouse(std::string name, std::string place,
-                                               const SpaceMouseSettings& settings) {
-  return std::make_unique<SpaceMouse>(std::move(name), std::move(place), settings);
+                                               const SpaceMouseSettings& settings,
+                                               std::unique_ptr<ReportPort> port) {
+  return std::make_unique<SpaceMouse>(std::move(name), std::move(place), settings, std::move(port));
 }
 
 }  // namespace clay::falcon::inline device

@@ -1,0 +1,24 @@
+#include "app/cli/report_file.hpp"
+
+#include "app/cli/export_report.hpp"
+#include "app/cli/html_report.hpp"
+#include "app/cli/packed_pot.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace clay::cli {
+
+void set_report(const Pot& pot, solid::ExportRequest& request, const std::vector<PotCopy>& copies) {
+  if (request.report_path.empty()) return;
+  const bool page = request.report_path.ends_with(".html");
+  const std::string picture = page ? picture_of(pot) : std::string();
+  if (page && !pot.collapse) request.options.wall_spacing_mm = solid::kWallTableSpacingMm;
+  request.report_text = [page, picture, copies,
+                         options = request.options](const solid::ExportReport& report) {
+    const Json json = export_json(report, copies);
+    return page ? html_report(json, report, options, picture) : pretty(json);
+  };
+}
+
+}  // namespace clay::cli

@@ -1,0 +1,18 @@
+#pragma once
+// The pot on the wheel in words, for people who do not see the picture.
+
+#include "app/studio/app_state.hpp"
+
+#include <optional>
+#include <string>
+
+namespace clay::web {
+
+/// The notice that is shown, or the main figures and the verdict, in one sentence or two. Empty
+/// optional: during a stroke, a demonstration or a check; the text would change at once.
+[[nodiscard]] std::optional<std::string> summary_of(const studio::AppState& state);
+
+/// What the panels show, one figure a line: pot, walls, proof, clay.
+[[nodiscard]] std::string report_of(const studio::AppState& state);
+
+}  // namespace clay::web

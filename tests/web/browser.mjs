@@ -1,0 +1,94 @@
+// A browser with the page in it, for the tests: starts it, opens pages, waits for what they
+// announce. Chromium by CDP, Firefox by WebDriver BiDi.
+import assert from 'node:assert/strict';
+import {existsSync} from 'node:fs';
+import {join} from 'node:path';
+import puppeteer from 'puppeteer-core';
+
+export const pause = ms => new Promise(done => setTimeout(done, ms));
+
+/// `name`: chromium or firefox. A computer without a graphics card draws by SwiftShader or Mesa; for
+/// the latter Firefox needs a screen, as of xvfb-run. Downloads go to `folder`.
+export async function launch(name, folder, flags = []) {
+  if (name === 'firefox')
+    return puppeteer.launch({
+      browser: 'firefox', executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr',
+      headless: false, protocolTimeout: 300000, env: {...process.env, LIBGL_ALWAYS_SOFTWARE: '1'},
+      extraPrefsFirefox: {'webgl.force-enabled': true, 'browser.download.folderList': 2,
+        'browser.download.dir': folder, 'browser.download.useDownloadDir': true,
+        'browser.download.always_ask_before_handling_new_types': false,
+        'browser.download.alwaysOpenPanel': false},
+    });
+  return puppeteer.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', headless: true,
+    protocolTimeout: 300000, userDataDir: join(folder, 'profile'),
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+      '--ignore-gpu-blocklist', ...flags],
+  });
+}
+
+/// A page at `url` that has opened its window. `says(text)` waits until it has announced that.
+export async function openPage(browser, folder, url, size, before = null) {
+  const page = await browser.newPage();
+  page.hosts = new Set();
+  page.problems = [];
+  page.on('request', request => {
+    if (/^https?:/.test(request.url())) page.hosts.add(new URL(request.url()).origin + '/');
+  });
+  page.on('pageerror', error => page.problems.push(error.message));
+  page.on('console', line => { if (line.type() === 'error') page.problems.push(line.text()); });
+  // When the page announced each line, and the longest time without a frame since then [ms].
+  await page.evaluateOnNewDocument(() => {
+    window.announced = [];
+    let last = 0;
+    const frame = now => {
+      for (const line of window.announced) line.gap = Math.max(line.gap, now - last);
+      last = now;
+      requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+    document.addEventListener('DOMContentLoaded', () => new MutationObserver(changes => {
+      for (const change of changes)
+        for (const line of change.addedNodes)
+          window.announced.push({text: line.textContent, at: performance.now(), gap: 0});
+    }).observe(document.getElementById('events') ?? document, {childList: true}));
+  });
+  if (before) await page.evaluateOnNewDocument(before);
+  page.lastLine = text => page.evaluate(text =>
+    window.announced.findLast(line => line.text.startsWith(text)), text);
+  page.announced = () => page.$$eval('#events p', lines => lines.map(line => line.textContent));
+  page.says = (text, count = 1) => page.waitForFunction((text, count) =>
+    document.getElementById('events').textContent.split(text).length > count,
+    {timeout: 120000}, text, count).catch(async () =>
+      assert.fail(`expected '${text}', found: ${(await page.announced()).join('; ')}`));
+  /// Waits until the text of an element matches.
+  page.shows = (id, pattern) => page.waitForFunction((id, source) =>
+    new RegExp(source).test(document.getElementById(id).textContent),
+    {timeout: 120000}, id, pattern.source).catch(async () =>
+      assert.match(await page.$eval('#' + id, element => element.textContent), pattern));
+  await page.setViewport(size);
+  if (!(await page.browser().version()).startsWith('firefox')) {
+    const downloads = await page.browser().target().createCDPSession();
+    await downloads.send('Browser.setDownloadBehavior', {behavior: 'allow', downloadPath: folder});
+  }
+  await page.goto(url);
+  if (before) return page;
+  await page.says('window open');
+  console.log(`  window open after ${((await page.lastLine('window open')).at / 1000).toFixed(2)} s`);
+  return page;
+}
+
+export async function chord(page, key, ...held) {
+  for (const mod of held) await page.keyboard.down(mod);
+  await page.keyboard.press(key);
+  for (const mod of held.reverse()) await page.keyboard.up(mod);
+}
+
+export async function downloaded(folder, name) {
+  const unfinished = [join(folder, name + '.part'), join(folder, name + '.crdownload')];
+  for (let i = 0; i < 900; ++i, await pause(100))
+    if (existsSync(join(folder, name)) && !unfinished.some(existsSync)) break;
+  assert.ok(existsSync(join(folder, name)), `expected the download ${name}`);
+  await pause(300);
+  return join(folder, name);
+}

@@ -1,0 +1,30 @@
+// How long a tick takes, in any program that throws: the time to throw a session on its lump, less
+// the time to play it where there is no clay to touch, by the number of ticks in contact. The
+// reading of the session is in both.
+import {readFileSync} from 'node:fs';
+
+/// {name, scene, empty, session, ticks}: the samples with the rules of clay, and without them.
+export function samplesOf(folder) {
+  return [['', 'rules'], ['paper/', 'no rules']].flatMap(([sub, title]) =>
+    ['bowl', 'vase', 'bottle', 'cylinder'].map(name => {
+      const scene = readFileSync(`${folder}/${sub}${name}.scene.json`, 'utf8');
+      const empty = JSON.parse(scene);
+      Object.assign(empty.lump, {rings: 1, outer_radius_mm: 0.1});
+      delete empty.clay;
+      const session = readFileSync(`${folder}/${sub}${name}.session`, 'utf8');
+      return {name: `${name}, ${title}`, scene, empty: JSON.stringify(empty), session};
+    }));
+}
+
+/// `thrown(scene)`: throws the session of the sample on that scene, text both, and returns
+/// {seconds, contacts}. The least of `runs` each [us].
+export async function tickUs(sample, thrown, runs = 5) {
+  let full = Infinity, empty = Infinity, contacts = 0;
+  for (let i = 0; i < runs; ++i) {
+    const with_clay = await thrown(sample.scene);
+    full = Math.min(full, with_clay.seconds);
+    contacts = with_clay.contacts;
+    empty = Math.min(empty, (await thrown(sample.empty)).seconds);
+  }
+  return 1e6 * (full - empty) / contacts;
+}
