@@ -17,6 +17,7 @@
 #include "claystack/export/proof.hpp"
 #include "claystack/export/repair.hpp"
 #include "claystack/export/solid.hpp"
+#include "export/formats/file_floats.hpp"
 
 #include <sys/resource.h>
 
@@ -208,7 +209,7 @@ void plant_faults(TriangleMesh& mesh) {
 void repair_and_decimate(std::size_t triangles) {
   TriangleMesh mesh = vase(triangles);
   plant_faults(mesh);
-  for (glm::dvec3& p : mesh.points) p = glm::dvec3(glm::vec3(p));  // as files hold
+  round_to_file(mesh.points);
   std::printf("%zu triangles with a hole, a duplicate and a cube through the wall\n",
               mesh.triangles.size());
   TriangleMesh result;

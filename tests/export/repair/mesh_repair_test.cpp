@@ -1,6 +1,7 @@
 #include "claystack/export/repair.hpp"
 
 #include "claystack/export/proof.hpp"
+#include "export/formats/file_floats.hpp"
 #include "tests/export/solid/mesh_surface.hpp"
 #include "tests/export/solid/shapes.hpp"
 
@@ -342,7 +343,7 @@ RC_GTEST_PROP(Repair, RepairsEveryRemovedOrFlippedTriangle, (const ClayStack& st
   const auto found = profile_of(stack);
   if (!found || !certify(found->profile)) RC_DISCARD("no certificate");
   TriangleMesh mesh = revolve(found->profile, 5);
-  for (glm::dvec3& p : mesh.points) p = glm::dvec3(glm::vec3(p));
+  round_to_file(mesh.points);
   if (!check_mesh(mesh).sound()) {
     // Then rounding moves points by an eighth of their clearance or more.
     const Margins margins = margins_of(found->profile, 5);
@@ -396,7 +397,7 @@ TEST(Repair, KeepsTheOrderOfTheRestOfAMesh) {
                                    {18, 2},
                                    {0, 2}}}},
                                 1'250);
-    for (glm::dvec3& p : mesh.points) p = glm::dvec3(glm::vec3(p));
+    round_to_file(mesh.points);
     return mesh;
   }();
   ASSERT_TRUE(check_mesh(sound).sound());
