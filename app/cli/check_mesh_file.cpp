@@ -33,6 +33,11 @@ Result<solid::MeshReport> checked(const TriangleMesh& mesh) {
   return report;
 }
 
+/// A slicer makes one body only of triangles that it reads.
+MeshState as_sliced(MeshState state, bool slicer_reads_less) {
+  return slicer_reads_less && state == MeshState::prints ? MeshState::will_not_print : state;
+}
+
 /// Repairs and decimates if requested.
 Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& command,
                                    RepairSummary& summary, Progress& progress) {
@@ -43,7 +48,7 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& comman
   summary.volume_before_mm3 = found->volume_mm3;
   if (command.repair && !summary.found.empty()) {
     solid::RepairOptions options = command.repair_options;
-    options.progress = [&](std::string_view stage) { progress.stage(stage); };
+    options.progress = [&](std::string_view stage, double share) { progress.stage(stage, share); };
     auto repaired = solid::repair_unsound_mesh(mesh, options);
     if (!repaired) return tl::make_unexpected(repaired.error());
     mesh = std::move(repaired->mesh);
@@ -54,8 +59,9 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& comman
   }
   summary.triangles_before = mesh.triangles.size();
   if (command.max_triangles && mesh.triangles.size() > *command.max_triangles) {
-    progress.stage("decimating");
-    auto decimated = solid::decimate(mesh, *command.max_triangles);
+    auto decimated =
+        solid::decimate(mesh, *command.max_triangles,
+                        {.progress = [&](double share) { progress.stage("decimating", share); }});
     if (!decimated) return tl::make_unexpected(decimated.error());
     summary.decimation_error_mm = decimated->max_error_mm;
     mesh = std::move(decimated->mesh);
@@ -230,7 +236,10 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
                     : MeshFile::open(command.file, format, verdict.certificate.has_value());
   if (!file) return tl::make_unexpected(file.error());
   const std::string& bytes = file->bytes();
-  auto mesh = file->read({"checking", solid::check_memory(1)}, {command.repair, &verdict.notes});
+  bool slicer_reads_less = false;
+  auto mesh = file->read(
+      {"checking", solid::check_memory(1)},
+      {.repair = command.repair, .notes = &verdict.notes, .slicer_reads_less = &slicer_reads_less});
   if (!mesh && mesh.error().kind == ErrorKind::bad_input && verdict.certificate) {
     // The file no longer matches its certificate.
     verify(bytes, format, command, verdict);
@@ -241,14 +250,16 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   if (!mesh) return tl::make_unexpected(mesh.error());
   progress.stage("checking");
   if (command.changes_mesh()) {
-    mesh = repair_and_write(std::move(*mesh), command, verdict.repair_summary.emplace(), progress);
+    RepairSummary& summary = verdict.repair_summary.emplace();
+    mesh = repair_and_write(std::move(*mesh), command, summary, progress);
     if (!mesh) return failure(mesh.error().kind, command.file + ": " + mesh.error().message);
+    summary.before = as_sliced(summary.before, std::exchange(slicer_reads_less, false));
   }
   progress.stage("checking");
   auto report = checked(*mesh);
   if (!report) return failure(report.error().kind, command.file + ": " + report.error().message);
   verdict.mesh = std::move(*report);
-  verdict.state = state_of(*mesh, verdict.mesh);
+  verdict.state = as_sliced(state_of(*mesh, verdict.mesh), slicer_reads_less);
   check_cavities(command, verdict);
   if (format == MeshFormat::drc && !command.changes_mesh()) check_claims(bytes, *mesh, verdict);
   if (format == MeshFormat::three_mf && !command.changes_mesh())

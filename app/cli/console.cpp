@@ -221,6 +221,11 @@ void Progress::update(std::size_t done) {
                          std::string(kBarWidth - filled, '.'), 100 * done / total_));
 }
 
-void Progress::stage(std::string_view name) { line_.show(fmt::format("{}: {} ...", label_, name)); }
+void Progress::stage(std::string_view name, double share) {
+  if (share > 0.0)
+    line_.show(fmt::format("{}: {} ... {:.0f} %", label_, name, 100.0 * share));
+  else
+    line_.show(fmt::format("{}: {} ...", label_, name));
+}
 
 }  // namespace clay::cli

@@ -82,7 +82,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   void update(std::size_t done);
-  void stage(std::string_view name);  ///< for work in named stages instead of counts
+  /// For work in named stages instead of counts: the part of the stage that is done, 0 to 1.
+  void stage(std::string_view name, double share = 0.0);
   void clear() { line_.clear(); }
 
  private:

@@ -11,8 +11,10 @@
 
 namespace clay::solid::inline formats {
 
+/// Adds 0, because -0 + 0 is 0, and because GCC 12 at -O3 drops the rounding of a vector to float and
+/// back (`glm::dvec3(glm::vec3(p))` is `p`).
 [[nodiscard]] inline glm::vec3 file_point(const glm::dvec3& point) noexcept {
-  return glm::vec3(point) + 0.0F;  // -0 + 0 is 0
+  return glm::vec3(point) + 0.0F;
 }
 
 [[nodiscard]] inline std::vector<glm::vec3> file_points(const std::vector<glm::dvec3>& points) {

@@ -42,7 +42,7 @@ std::optional<Grid> grid_for(const Bounds& bounds, double error, int min_bits) {
   Grid grid{{}, step};
   for (int axis = 0; axis < 3; ++axis) {
     // A multiple of the step: the axis of the pot is on the grid.
-    grid.origin[axis] = double{static_cast<float>(step * std::floor(low[axis] / step))};
+    grid.origin[axis] = double{static_cast<float>(step * std::floor(low[axis] / step)) + 0.0F};
     const double cells = std::round((high[axis] - grid.origin[axis]) / step);
     if (cells > double{std::numeric_limits<std::uint16_t>::max()}) return std::nullopt;
   }

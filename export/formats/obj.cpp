@@ -51,7 +51,7 @@ CornerWords split_corner(std::string_view word) {
 class ObjReader {
  public:
   ObjReader(ByteStream& text, std::string_view name, const ReadOptions& options)
-      : scanner_(text, name, LineRule::backslash_continues), name_(name), notes_(options.notes) {}
+      : scanner_(text, name, LineRule::backslash_continues), name_(name), options_(options) {}
 
   Result<TriangleMesh> read() {
     for (auto keyword = scanner_.word(); !keyword.empty(); keyword = scanner_.word()) {
@@ -125,7 +125,10 @@ class ObjReader {
 
   void read_face() {
     corners_.clear();
+    const std::size_t line = scanner_.line();
+    bool odd = false;
     for (auto word = scanner_.word_in_line(); !word.empty(); word = scanner_.word_in_line()) {
+      odd = odd || word.ends_with('/') || scanner_.line() != line;
       const CornerWords words = split_corner(word);
       corners_.push_back(resolve_point(words.point));
       if (words.texture) (void)resolve(*words.texture, textures_);
@@ -139,6 +142,7 @@ class ObjReader {
     if (mesh_.triangles.size() + corners_.size() > kMaxTriangles + 2)
       scanner_.fail("expected at most 20000000 triangles");
     if (scanner_.fault()) return;
+    if (odd && odd_faces_++ == 0) odd_face_line_ = line;
     for (std::size_t i = 2; i < corners_.size(); ++i) {
       mesh_.triangles.push_back({corners_[0], corners_[i - 1], corners_[i]});
     }
@@ -174,9 +178,10 @@ class ObjReader {
   }
 
   void note_faults() {
-    if (notes_ == nullptr) return;
+    if (options_.slicer_reads_less != nullptr) *options_.slicer_reads_less = odd_faces_ > 0;
+    if (options_.notes == nullptr) return;
     const auto note = [this](std::size_t line, std::string what) {
-      notes_->push_back("line " + std::to_string(line) + ": " + std::move(what));
+      options_.notes->push_back("line " + std::to_string(line) + ": " + std::move(what));
     };
     if (header_lines_ > 0)
       note(header_line_, std::to_string(header_lines_) + " lines before the mesh were not read");
@@ -186,11 +191,17 @@ class ObjReader {
       note(list->bad_line > 0 ? list->bad_line : list->line_of_highest,
            "a face names a " + std::string(list->keyword) + " that the file does not define");
     }
+    if (odd_faces_ > 0)
+      note(odd_face_line_, std::to_string(odd_faces_) +
+                               " faces with a slash at the end of a corner, or on several lines: "
+                               "PrusaSlicer does not read them");
   }
 
   TextScanner scanner_;
   std::string_view name_;
-  std::vector<std::string>* notes_;
+  ReadOptions options_;
+  /// Faces that PrusaSlicer 2.5 passes over without a message; the first.
+  std::size_t odd_faces_ = 0, odd_face_line_ = 0;
   std::size_t header_lines_ = 0, header_line_ = 0;  ///< unknown statements; the first
   VertexList points_{"v"};
   VertexList textures_{"vt"};

@@ -115,7 +115,7 @@ struct Sheet {
 
 class Refinement {
  public:
-  explicit Refinement(const TriangleMesh& soup) : mesh_{soup.points, {}} {
+  Refinement(const TriangleMesh& soup, StageReport& stage) : mesh_{soup.points, {}}, stage_(stage) {
     result_.points = soup.points;
     result_.first_new = soup.points.size();
     SheetCount counted = count_sheets(soup);
@@ -124,11 +124,13 @@ class Refinement {
   }
 
   Result<ExactSoup> run() {
+    stage_.begin("finding intersections");
     const std::vector<TrianglePair> pairs = intersecting_pairs(mesh_, kMostCuts);
     if (pairs.size() >= kMostCuts)
       return failure(ErrorKind::unsound,
                      "expected fewer than " + std::to_string(kMostCuts) +
                          " pairs of intersecting triangles, found at least as many");
+    stage_.begin("cutting triangles");
     const std::vector<Sheet> sheets = sheets_of(pairs);
     find_common(pairs);
     PointRegister known(result_);
@@ -140,7 +142,11 @@ class Refinement {
           result_.at_cut[v] = true;
         }
     find_inner_sides();
-    for (const Sheet& sheet : sheets) cut(sheet, known);
+    std::size_t cuts = 0;  // each pair cuts two sheets
+    for (const Sheet& sheet : sheets) {
+      cut(sheet, known);
+      stage_.done(cuts += sheet.cuts.size(), 2 * pairs.size());
+    }
     keep_untouched();
     return std::move(result_);
   }
@@ -360,6 +366,7 @@ class Refinement {
   }
 
   TriangleMesh mesh_;
+  StageReport& stage_;
   std::vector<int> sheets_;
   std::vector<bool> touched_;
   std::vector<bool> flat_;               ///< by pair: both lie in one plane
@@ -372,6 +379,8 @@ class Refinement {
 
 }  // namespace
 
-Result<ExactSoup> refine(const TriangleMesh& soup) { return Refinement(soup).run(); }
+Result<ExactSoup> refine(const TriangleMesh& soup, StageReport& stage) {
+  return Refinement(soup, stage).run();
+}
 
 }  // namespace clay::solid::inline repair

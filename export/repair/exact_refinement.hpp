@@ -3,6 +3,7 @@
 
 #include "claystack/core/result.hpp"
 #include "export/repair/exact_soup.hpp"
+#include "export/repair/stage_report.hpp"
 
 namespace clay::solid::inline repair {
 
@@ -13,6 +14,6 @@ inline constexpr std::size_t kMostCuts = 400'000;
 /// Triangles that meet no other keep their points and their order. Overlapping coplanar triangles
 /// share one triangulation, so that both are cut alike. Requires finite points and indices in
 /// range. An error (`unsound`) above kMostCuts.
-Result<ExactSoup> refine(const TriangleMesh& soup);
+Result<ExactSoup> refine(const TriangleMesh& soup, StageReport& stage);
 
 }  // namespace clay::solid::inline repair

@@ -45,9 +45,10 @@ struct Cut {
   std::size_t inner = 0;
 };
 
-Result<Cut> cut_and_select(const TriangleMesh& mesh) {
-  auto soup = refine(mesh);
+Result<Cut> cut_and_select(const TriangleMesh& mesh, StageReport& stage) {
+  auto soup = refine(mesh, stage);
   if (!soup) return tl::make_unexpected(soup.error());
+  stage.begin("choosing the outer skin");
   auto skin = outer_skin(*soup, mesh);
   if (!skin) return tl::make_unexpected(skin.error());
   if (skin->triangles.empty())
@@ -96,10 +97,14 @@ TriangleMesh snapped(const TriangleMesh& mesh, const std::vector<bool>& at_cut, 
 
 class Resolution {
  public:
-  Resolution(TriangleMesh mesh, std::vector<Repair>& repaired)
-      : input_(std::move(mesh)), unit_mm_(last_place_mm(input_)), repaired_(repaired) {}
+  Resolution(TriangleMesh mesh, std::vector<Repair>& repaired, StageReport& stage)
+      : input_(std::move(mesh)),
+        unit_mm_(last_place_mm(input_)),
+        repaired_(repaired),
+        stage_(stage) {}
 
   Result<TriangleMesh> run() {
+    stage_.begin("checking");
     report_ = check_mesh(input_);
     note_repair(repaired_, "pair of intersecting triangles resolved", report_.self_intersections);
     if (report_.sound()) return input_;
@@ -130,7 +135,8 @@ class Resolution {
     std::vector<bool> at_fault;
     for (int pass = 0, grid = 0; pass < kMostPasses && grid <= kMostGrids; ++pass) {
       const auto cut = cut_and_select(
-          grid > 0 ? snapped(mesh_, at_fault, std::ldexp(unit_mm_, 3 * (grid + 1))) : mesh_);
+          grid > 0 ? snapped(mesh_, at_fault, std::ldexp(unit_mm_, 3 * (grid + 1))) : mesh_,
+          stage_);
       if (!cut) return tl::make_unexpected(cut.error());
       if (first && pass == 0) {
         at_cut_ = cut->on_seam;
@@ -160,8 +166,10 @@ class Resolution {
     std::optional<std::size_t> fewest;
     int worse = 0;
     for (int step = 0; step < kMostSteps && worse < kMostWorse; ++step) {
+      stage_.begin("rounding");
       Rounded next =
           rounded(cut, std::ldexp(unit_mm_, 2 * step + 1), std::ldexp(unit_mm_, 2 * step + 6));
+      stage_.begin("checking");
       MeshReport of_next = check_mesh(next.mesh);
       const std::size_t faults = faults_of(of_next);
       if (fewest && faults >= *fewest)
@@ -182,6 +190,7 @@ class Resolution {
   TriangleMesh input_;
   double unit_mm_;
   std::vector<Repair>& repaired_;
+  StageReport& stage_;
   std::vector<bool> at_cut_;  ///< by point of the input
   TriangleMesh mesh_;         ///< the best one of the last cut
   MeshReport report_;         ///< on it
@@ -190,10 +199,10 @@ class Resolution {
 }  // namespace
 
 Result<TriangleMesh> resolve_intersections(const TriangleMesh& closed,
-                                           std::vector<Repair>& repaired) {
+                                           std::vector<Repair>& repaired, StageReport& stage) {
   TriangleMesh mesh = closed;
   merge_equal_points(mesh);
-  return Resolution(std::move(mesh), repaired).run();
+  return Resolution(std::move(mesh), repaired, stage).run();
 }
 
 }  // namespace clay::solid::inline repair

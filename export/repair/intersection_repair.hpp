@@ -1,6 +1,7 @@
 #pragma once
 #include "claystack/core/result.hpp"
 #include "claystack/export/repair.hpp"
+#include "export/repair/stage_report.hpp"
 
 namespace clay::solid::inline repair {
 
@@ -14,7 +15,7 @@ namespace clay::solid::inline repair {
 /// error (`unsound`) if the sheets are not closed, enclose nothing, or are not sound after
 /// kMostRounds.
 Result<TriangleMesh> resolve_intersections(const TriangleMesh& closed,
-                                           std::vector<Repair>& repaired);
+                                           std::vector<Repair>& repaired, StageReport& stage);
 
 inline constexpr int kMostRounds = 5;
 

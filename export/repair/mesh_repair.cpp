@@ -2,12 +2,14 @@
 
 #include "claystack/export/proof.hpp"
 #include "core/cancel.hpp"
+#include "core/parallel_parts.hpp"
 #include "export/repair/hole_filling.hpp"
 #include "export/repair/intersection_repair.hpp"
 #include "export/repair/order_keeping.hpp"
 #include "export/repair/repair_distance.hpp"
 #include "export/repair/shell_turning.hpp"
 #include "export/repair/soup_repair.hpp"
+#include "export/repair/stage_report.hpp"
 #include "export/repair/surface_making.hpp"
 #include "export/repair/wrapping.hpp"
 #include "export/solid/mesh_extent.hpp"
@@ -39,15 +41,11 @@ Result<TriangleMesh> wrapped_or_error(const TriangleMesh& soup, double offset_mm
 
 /// The stages in their order.
 Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& options,
-                              RepairedMesh& report) {
-  const auto stage = [&](std::string_view name) {
-    stop_if_cancelled();
-    if (options.progress) options.progress(name);
-  };
-  stage("joining triangles");
+                              RepairedMesh& report, StageReport& stage) {
+  stage.begin("joining triangles");
   auto surface = make_surface(soup, report.repaired);
   if (!surface) return tl::make_unexpected(surface.error());
-  stage("filling holes");
+  stage.begin("filling holes");
   auto holes = fill_holes(*surface, options.cap_openings);
   if (!holes && options.thicken_mm) {
     note_repair(report.repaired, "wall made around an open surface", 1);
@@ -56,61 +54,84 @@ Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& opt
   if (!holes) return tl::make_unexpected(holes.error());
   report.holes = std::move(*holes);
   note_repair(report.repaired, "hole filled", report.holes.size());
-  stage("turning shells");
+  stage.begin("turning shells");
   note_repair(report.repaired, "shell turned", turn_shells(*surface));
   const TriangleMesh closed = mesh_of(*surface);
   if (closed.triangles.empty()) return nothing_left();
-  stage("resolving intersections");
-  return resolve_intersections(closed, report.repaired);
+  return resolve_intersections(closed, report.repaired, stage);
 }
 
 /// Exceptions of the library become errors.
 Result<TriangleMesh> repaired_or_error(const TriangleMesh& soup, const RepairOptions& options,
-                                       RepairedMesh& report) try {
-  return repaired(soup, options, report);
+                                       RepairedMesh& report, StageReport& stage) try {
+  return repaired(soup, options, report, stage);
 } catch (const std::exception& e) {
   return failure(ErrorKind::unsound, std::string("repair failed: ") + e.what());
 }
 
 Result<RepairedMesh> repair_unsound(const TriangleMesh& mesh, const RepairOptions& options) {
   RepairedMesh result;
+  StageReport stage(options.progress);
+  stage.begin("cleaning");
   TriangleMesh soup = mesh;
   clean_soup(soup, options.weld_mm, result.repaired);
   if (soup.triangles.empty()) return nothing_left();
-  auto sound = repaired_or_error(soup, options, result);
+  auto sound = repaired_or_error(soup, options, result, stage);
   if (!sound && options.wrap_mm) {
     result = {};
+    stage.begin("wrapping");
     result.wrapped_mm = options.wrap_mm;
     note_repair(result.repaired, "surface replaced by a wrap", 1);
     sound = wrapped_or_error(soup, *options.wrap_mm, kWrapAlpha, sound.error());
   }
   if (!sound) return tl::make_unexpected(sound.error());
+  stage.begin("measuring the change");
   soup = mesh;
   drop_unusable(soup);
   drop_unused_points(soup);  // their places may not be finite
-  result.mesh = in_order_of(soup, std::move(*sound));
-  if (options.progress) options.progress("measuring the change");
-  result.change =
-      surface_change(soup, result.mesh, kDistanceTolerance * glm::length(extent_of(result.mesh)));
+  const double tolerance_mm = kDistanceTolerance * glm::length(extent_of(*sound));
+  for_each_part(2, [&](std::size_t part) {
+    if (part == 0)
+      result.mesh = in_order_of(soup, *sound);
+    else
+      result.change = surface_change(soup, *sound, tolerance_mm);
+  });
   return result;
 }
 
-}  // namespace
-
-Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
-  if (check_mesh(mesh).sound()) return RepairedMesh{mesh, {}, {}, {}};
-  return repair_unsound_mesh(mesh, options);
-}
-
-Result<RepairedMesh> repair_unsound_mesh(const TriangleMesh& mesh,
-                                         const RepairOptions& options) try {
+Result<RepairedMesh> repair_if_size_fits(const TriangleMesh& mesh, const RepairOptions& options) {
   if (mesh.triangles.empty() || mesh.triangles.size() > kMaxTriangles)
     return failure(ErrorKind::unsound, "expected 1 to " + std::to_string(kMaxTriangles) +
                                            " triangles to repair, found " +
                                            std::to_string(mesh.triangles.size()));
   return repair_unsound(mesh, options);
+}
+
+/// Exceptions become errors.
+template <class Work>
+Result<RepairedMesh> guarded(const RepairOptions& options, const Work& work) try {
+  const CancelScope scope(options.cancelled ? &options.cancelled : CancelScope::current());
+  return work();
 } catch (const std::exception& e) {
   return failure(ErrorKind::unsound, std::string("repair failed: ") + e.what());
+} catch (const Cancelled&) {
+  // Of a job around this one if it asked itself.
+  if (!options.cancelled) throw;
+  return failure(ErrorKind::io, "repair stopped: cancelled");
+}
+
+}  // namespace
+
+Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
+  return guarded(options, [&]() -> Result<RepairedMesh> {
+    if (options.progress) options.progress("checking", 0.0);
+    if (check_mesh(mesh).sound()) return RepairedMesh{mesh, {}, {}, {}};
+    return repair_if_size_fits(mesh, options);
+  });
+}
+
+Result<RepairedMesh> repair_unsound_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
+  return guarded(options, [&] { return repair_if_size_fits(mesh, options); });
 }
 
 }  // namespace clay::solid::inline repair

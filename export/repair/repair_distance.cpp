@@ -1,14 +1,16 @@
 #include "export/repair/repair_distance.hpp"
 
 #include "core/cancel.hpp"
+#include "core/parallel_parts.hpp"
 #include "export/solid/box_tree.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <limits>
 #include <queue>
 #include <span>
@@ -24,26 +26,63 @@ bool before_point(const glm::dvec3& p, const glm::dvec3& q) {
   return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
 }
 
-bool before_corners(const Corners& a, const Corners& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), before_point);
+Corners sorted_corners(const TriangleMesh& mesh, std::uint32_t t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  Corners corners{mesh.points[a], mesh.points[b], mesh.points[c]};
+  std::sort(corners.begin(), corners.end(), before_point);
+  return corners;
 }
 
-/// With sorted corners, in ascending order.
-std::vector<Corners> sorted_triangles(const TriangleMesh& mesh) {
-  std::vector<Corners> all;
+/// A triangle and a number that triangles in one place share.
+struct Placed {
+  std::uint64_t hash;
+  std::uint32_t triangle;
+  friend auto operator<=>(const Placed&, const Placed&) = default;
+};
+
+std::vector<Placed> by_place(const TriangleMesh& mesh) {
+  std::vector<Placed> all;
   all.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     step_of_loop();
-    Corners& corners = all.emplace_back(Corners{mesh.points[a], mesh.points[b], mesh.points[c]});
-    std::sort(corners.begin(), corners.end(), before_point);
+    std::uint64_t hash = 0;
+    for (const glm::dvec3& corner : sorted_corners(mesh, t))
+      for (int axis = 0; axis < 3; ++axis) {
+        hash ^= std::bit_cast<std::uint64_t>(corner[axis] + 0.0);  // without -0
+        hash = (hash ^ (hash >> 29U)) * 0x9E3779B97F4A7C15U;
+      }
+    all.push_back({hash, t});
   }
-  std::sort(all.begin(), all.end(), before_corners);
+  std::sort(all.begin(), all.end());
   return all;
+}
+
+/// The triangles that the other mesh does not have in the same place.
+std::vector<Corners> changed_triangles(const TriangleMesh& mesh, const std::vector<Placed>& own,
+                                       const TriangleMesh& other,
+                                       const std::vector<Placed>& others) {
+  std::vector<Corners> changed;
+  auto at = others.begin();
+  for (const Placed& placed : own) {
+    step_of_loop();
+    while (at != others.end() && at->hash < placed.hash) ++at;
+    const Corners corners = sorted_corners(mesh, placed.triangle);
+    bool same = false;
+    for (auto like = at; !same && like != others.end() && like->hash == placed.hash; ++like)
+      same = sorted_corners(other, like->triangle) == corners;
+    if (!same) changed.push_back(corners);
+  }
+  // Neighbours in space one after another: the search for the nearest begins at the last one.
+  std::sort(changed.begin(), changed.end(), [](const Corners& a, const Corners& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), before_point);
+  });
+  return changed;
 }
 
 struct Piece {
   Corners corners;
-  double most_mm = 0.0;  ///< upper bound of the distance of its points
+  std::uint32_t nearest = 0;  ///< triangle of the other mesh
+  double most_mm = 0.0;       ///< upper bound of the distance of its points
   bool operator<(const Piece& other) const { return most_mm < other.most_mm; }
 };
 
@@ -78,7 +117,13 @@ class Farthest {
   double bound(const std::vector<Corners>& triangles, double tolerance_mm) {
     constexpr std::size_t kMostPieces = 20'000;
     std::priority_queue<Piece> open;
-    for (const Corners& corners : triangles) open.push(piece(corners));
+    std::uint32_t hint = 0;
+    for (const Corners& corners : triangles) {
+      step_of_loop();
+      const Piece whole = piece(corners, hint);
+      hint = whole.nearest;
+      open.push(whole);
+    }
     std::size_t pieces = 0;
     while (!open.empty()) {
       step_of_loop();
@@ -90,24 +135,36 @@ class Farthest {
       const glm::dvec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
       for (const Corners& part :
            {Corners{a, ab, ca}, Corners{ab, b, bc}, Corners{ca, bc, c}, Corners{ab, bc, ca}})
-        open.push(piece(part));
+        open.push(piece(part, top.nearest));
     }
     return least_mm_;
   }
 
  private:
-  /// The distance changes by no more than the way.
-  Piece piece(const Corners& corners) {
+  /// The distance changes by no more than the way. The distance to one triangle is convex, so it is
+  /// largest at a corner.
+  Piece piece(const Corners& corners, std::uint32_t hint) {
     const glm::dvec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-    const double at_middle = distance_mm(middle);
+    const std::uint32_t nearest = nearest_to(middle, hint);
+    const double at_middle = std::sqrt(squared_distance(middle, corners_of(nearest)));
     least_mm_ = std::max(least_mm_, at_middle);
-    double way = 0.0;
-    for (const glm::dvec3& corner : corners) way = std::max(way, glm::distance(middle, corner));
-    return {corners, at_middle + way};
+    double way = 0.0, at_corner2 = 0.0;
+    for (const glm::dvec3& corner : corners) {
+      way = std::max(way, glm::distance(middle, corner));
+      at_corner2 = std::max(at_corner2, squared_distance(corner, corners_of(nearest)));
+    }
+    return {corners, nearest, std::min(at_middle + way, std::sqrt(at_corner2))};
   }
 
-  [[nodiscard]] double distance_mm(const glm::dvec3& p) const {
-    double nearest2 = std::numeric_limits<double>::max();
+  [[nodiscard]] Corners corners_of(std::uint32_t t) const {
+    const auto& [a, b, c] = to_.triangles[t];
+    return {to_.points[a], to_.points[b], to_.points[c]};
+  }
+
+  /// The search begins with the distance to the hint.
+  [[nodiscard]] std::uint32_t nearest_to(const glm::dvec3& p, std::uint32_t hint) const {
+    std::uint32_t nearest = hint;
+    double nearest2 = squared_distance(p, corners_of(hint));
     tree_.for_each_near(
         [&](const BoxTree::Box& box) {
           return squared(glm::max(glm::dvec3(0.0), glm::max(box.low - p, p - box.high)));
@@ -115,13 +172,13 @@ class Farthest {
         [&] { return nearest2; },
         [&](std::span<const std::uint32_t> triangles) {
           for (const std::uint32_t t : triangles) {
-            const auto& [a, b, c] = to_.triangles[t];
-            nearest2 =
-                std::min(nearest2,
-                         squared_distance(p, Corners{to_.points[a], to_.points[b], to_.points[c]}));
+            const double to_t = squared_distance(p, corners_of(t));
+            if (to_t >= nearest2) continue;
+            nearest2 = to_t;
+            nearest = t;
           }
         });
-    return std::sqrt(nearest2);
+    return nearest;
   }
 
   const TriangleMesh& to_;
@@ -129,11 +186,7 @@ class Farthest {
   double least_mm_ = 0.0;  ///< the largest distance found at a point
 };
 
-double change_of(const std::vector<Corners>& from, const std::vector<Corners>& others,
-                 const TriangleMesh& to, double tolerance_mm) {
-  std::vector<Corners> changed;
-  std::set_difference(from.begin(), from.end(), others.begin(), others.end(),
-                      std::back_inserter(changed), before_corners);
+double change_of(const std::vector<Corners>& changed, const TriangleMesh& to, double tolerance_mm) {
   return changed.empty() ? 0.0 : Farthest(to).bound(changed, tolerance_mm);
 }
 
@@ -141,8 +194,19 @@ double change_of(const std::vector<Corners>& from, const std::vector<Corners>& o
 
 SurfaceChange surface_change(const TriangleMesh& before, const TriangleMesh& after,
                              double tolerance_mm) {
-  const std::vector<Corners> old = sorted_triangles(before), fresh = sorted_triangles(after);
-  return {change_of(fresh, old, before, tolerance_mm), change_of(old, fresh, after, tolerance_mm)};
+  std::array<std::vector<Placed>, 2> placed;
+  for_each_part(2,
+                [&](std::size_t part) { placed.at(part) = by_place(part == 0 ? before : after); });
+  SurfaceChange change;
+  for_each_part(2, [&](std::size_t part) {
+    if (part == 0)
+      change.added_mm =
+          change_of(changed_triangles(after, placed[1], before, placed[0]), before, tolerance_mm);
+    else
+      change.removed_mm =
+          change_of(changed_triangles(before, placed[0], after, placed[1]), after, tolerance_mm);
+  });
+  return change;
 }
 
 }  // namespace clay::solid::inline repair

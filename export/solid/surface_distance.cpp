@@ -28,8 +28,12 @@ double farthest_squared(const std::vector<glm::dvec3>& points, const TriangleMes
 
 }  // namespace
 
+double distance_to_surface(const std::vector<glm::dvec3>& points, const TriangleMesh& mesh) {
+  return std::sqrt(farthest_squared(points, mesh));
+}
+
 double surface_distance(const TriangleMesh& a, const TriangleMesh& b) {
-  return std::sqrt(std::max(farthest_squared(a.points, b), farthest_squared(b.points, a)));
+  return std::max(distance_to_surface(a.points, b), distance_to_surface(b.points, a));
 }
 
 }  // namespace clay::solid

@@ -17,6 +17,7 @@
 #include "claystack/export/proof.hpp"
 #include "claystack/export/repair.hpp"
 #include "claystack/export/solid.hpp"
+#include "export/formats/file_floats.hpp"
 
 #include <sys/resource.h>
 
@@ -27,6 +28,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,18 +42,28 @@ struct Seconds {
   double cpu = 0.0;  ///< summed over all threads
 };
 
-template <class Work>
-Seconds timed(const Work& work) {
-  const auto cpu = [] {
+class Stopwatch {
+ public:
+  [[nodiscard]] Seconds read() const {
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_begin_;
+    return {wall.count(), cpu() - cpu_begin_};
+  }
+
+ private:
+  static double cpu() {
     timespec t{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-  };
-  const double cpu_begin = cpu();
-  const auto begin = std::chrono::steady_clock::now();
+  }
+  std::chrono::steady_clock::time_point wall_begin_ = std::chrono::steady_clock::now();
+  double cpu_begin_ = cpu();
+};
+
+template <class Work>
+Seconds timed(const Work& work) {
+  const Stopwatch watch;
   work();
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-  return {wall.count(), cpu() - cpu_begin};
+  return watch.read();
 }
 
 /// A bellied vase, 200 mm high, with a floor and a 3 mm wall.
@@ -95,6 +107,36 @@ Seconds median(std::vector<Seconds> all) {
 void print_times(const char* what, const Seconds& s) {
   std::printf("%-44s %8.3f s wall %8.3f s cpu\n", what, s.wall, s.cpu);
 }
+
+/// The stages of a repair, in their order; those of one name are added up.
+class StageTimes {
+ public:
+  void begin(std::string_view stage) {
+    if (stage == stage_) return;
+    end();
+    stage_ = stage;
+    watch_ = Stopwatch();
+  }
+  void print() {
+    end();
+    for (const auto& [stage, spent] : spent_) print_times(("  " + stage).c_str(), spent);
+  }
+
+ private:
+  void end() {
+    if (stage_.empty()) return;
+    auto at = std::find_if(spent_.begin(), spent_.end(),
+                           [&](const auto& entry) { return entry.first == stage_; });
+    if (at == spent_.end()) at = spent_.insert(spent_.end(), {stage_, {}});
+    const Seconds now = watch_.read();
+    at->second = {at->second.wall + now.wall, at->second.cpu + now.cpu};
+    stage_.clear();
+  }
+
+  std::string stage_;
+  Stopwatch watch_;
+  std::vector<std::pair<std::string, Seconds>> spent_;
+};
 
 double peak_gb() {
   rusage usage{};
@@ -167,15 +209,20 @@ void plant_faults(TriangleMesh& mesh) {
 void repair_and_decimate(std::size_t triangles) {
   TriangleMesh mesh = vase(triangles);
   plant_faults(mesh);
+  round_to_file(mesh.points);
   std::printf("%zu triangles with a hole, a duplicate and a cube through the wall\n",
               mesh.triangles.size());
   TriangleMesh result;
+  StageTimes stages;
+  RepairOptions options;
+  options.progress = [&](std::string_view stage, double) { stages.begin(stage); };
   const Seconds repair = timed([&] {
-    auto repaired = repair_mesh(mesh);
+    auto repaired = repair_mesh(mesh, options);
     if (!repaired) fail(repaired.error().message.c_str());
     result = std::move(repaired->mesh);
   });
   print_times("repair_mesh", repair);
+  stages.print();
   std::printf("peak memory %.2f GB\n", peak_gb());
   print_times("decimate to a tenth", timed([&] {
                 if (const auto done = decimate(result, result.triangles.size() / 10); !done)

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -298,6 +300,41 @@ TEST_F(CheckRepair, DecimatesAfterRepair) {
   EXPECT_EQ(run.json().at("decimated").at("to_triangles"), run.json().at("triangles"));
   EXPECT_GT(run.json().at("decimated").at("max_error_mm"), 0.0);
   EXPECT_LT(run.json().at("decimated").at("max_error_mm"), 2.0);
+}
+
+/// Of a mesh with one spike through a wall, the repaired STL has all facets away from it, with the
+/// same 50 bytes and in the same order.
+TEST_F(CheckRepair, KeepsTheBytesOfFacetsAwayFromAnIntersection) {
+  TriangleMesh vase = solid::revolve(
+      {{{{0, 0}, {30, 0}, {34, 20}, {30, 50}, {27, 50}, {31, 20}, {27, 3}, {0, 3}}}}, 600);
+  const auto spike = static_cast<std::size_t>(
+      std::find_if(vase.points.begin(), vase.points.end(),
+                   [](const glm::dvec3& p) { return p.z == 20.0 && p.x > 33.9; }) -
+      vase.points.begin());
+  ASSERT_LT(spike, vase.points.size());
+  vase.points[spike] *= glm::dvec3(0.85, 0.85, 1.0);
+  const std::string in = write("spike.stl", vase), out = folder.file("out.stl");
+  const Ran found = claystack("check --json " + in);
+  EXPECT_GE(found.json().at("self_intersections"), 1);
+  EXPECT_LE(found.json().at("self_intersections"), 20);
+  ASSERT_EQ(claystack("check --repair -o " + out + " " + in).status, 0);
+  // A facet is away if it has no corner within 20 degrees of the spike.
+  const auto away = [](const std::string& name) {
+    const std::string stl = read_text(name);
+    std::vector<std::string> facets;
+    for (std::size_t at = 84; at + 50 <= stl.size(); at += 50) {
+      bool near = false;
+      for (std::size_t corner = 1; corner < 4; ++corner) {
+        std::array<float, 3> p{};
+        std::memcpy(p.data(), stl.data() + at + 12 * corner, sizeof p);
+        near = near || (p[0] > 0.0F && std::abs(p[1]) < 0.364F * p[0]);
+      }
+      if (!near) facets.push_back(stl.substr(at, 50));
+    }
+    return facets;
+  };
+  EXPECT_GT(away(in).size(), 6'000U);
+  EXPECT_EQ(away(in), away(out));
 }
 
 TEST_F(CheckRepair, ReportsBadUsageBeforeAnyWork) {

@@ -9,6 +9,7 @@
 
 #include <cstring>
 #include <limits>
+#include <regex>
 
 namespace clay::test {
 namespace {
@@ -265,6 +266,24 @@ TEST_F(CheckSeverity, AcceptsWhatASlicerUnites) {
   expect(open, "will not print", 1, 1);
   // Other checks still count.
   expect(together(good, moved(good, {10, 10, 10})), "prints", 1, 1, "--min-wall 30 ");
+}
+
+/// PrusaSlicer passes over faces such as "f 1/ 2/ 3/" without a message.
+TEST_F(CheckSeverity, FacesThatASlicerDoesNotReadDoNotPrint) {
+  using solid::shapes::cube, solid::shapes::moved, solid::shapes::together;
+  const solid::TriangleMesh crossing = together(cube(20.0), moved(cube(20.0), {10, 10, 10}));
+  const std::string obj = solid::encode_obj(crossing, "mesh");
+  const std::string slashes =
+      std::regex_replace(obj, std::regex(R"((f \d+) (\d+) (\d+))"), "$1/ $2/ $3/");
+  const std::string file = folder.file("slashes.obj");
+  write_text(file, slashes);
+  const Ran run = claystack("check --json " + file);
+  EXPECT_EQ(run.json().at("verdict"), "will not print") << run.out;
+  EXPECT_NE(run.json().at("notes").dump().find("24 faces"), std::string::npos) << run.out;
+  // The repaired file is written without.
+  const std::string out = folder.file("repaired.obj");
+  EXPECT_EQ(claystack("check --repair -o " + out + " " + file).status, 0);
+  EXPECT_EQ(read_text(out).find('/'), std::string::npos);
 }
 
 TEST_F(CheckSeverity, ManyIntersectionsDoNotPrint) {

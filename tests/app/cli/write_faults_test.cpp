@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <map>
 #include <regex>
@@ -47,6 +48,18 @@ class WriteFaults : public testing::TestWithParam<Case> {
     write_text(inputs.file("a.scene.json"), read_text(sample("cylinder.scene.json")));
     const std::string scene = inputs.file("a.scene.json");
     ASSERT_EQ(claystack("throw -q " + scene + " -o " + inputs.file("a.pot.json")).status, 0);
+    // A cup of 40 segments without its first facet.
+    ASSERT_EQ(claystack("export -q --segments 40 " + inputs.file("a.pot.json") + " " +
+                        inputs.file("whole.stl"))
+                  .status,
+              0);
+    std::string stl = read_text(inputs.file("whole.stl"));
+    std::uint32_t facets = 0;
+    std::memcpy(&facets, stl.data() + 80, 4);
+    --facets;
+    stl.erase(84, 50);
+    std::memcpy(stl.data() + 80, &facets, 4);
+    write_text(inputs.file("open.stl"), stl);
     if (GetParam().replaces)
       for (const std::string& name : GetParam().outputs) before[name] = "old " + name;
   }
@@ -145,6 +158,8 @@ const std::string kPage =
 const std::vector<std::string> kPageFiles = {"a.glb", "r.html"};
 const std::string kThrow = "throw -q @/a.scene.json -o #/a.pot.json --trace #/trace.csv";
 const std::vector<std::string> kPot = {"a.pot.json", "trace.csv"};
+const std::string kRepair = "check -q --repair @/open.stl -o #/a.stl";
+const std::string kDecimate = "check -q --max-triangles 1000 @/whole.stl -o #/a.stl";
 const std::string kStick = "tmpfile,links";  // FAT, as on USB drives
 
 INSTANTIATE_TEST_SUITE_P(
@@ -156,6 +171,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"ExportEndedByASignal", kExport, kMeshes, true, kStick, SIGTERM},
                     Case{"ExportOfTheSection", kSection, kDrawings},
                     Case{"ExportOfTheSectionOverOldFiles", kSection, kDrawings, true},
+                    Case{"RepairEndedByCtrlC", kRepair, {"a.stl"}, true, {}, SIGINT},
+                    Case{"RepairToAStickEndedByCtrlC", kRepair, {"a.stl"}, true, kStick, SIGINT},
+                    Case{"DecimationEndedByCtrlC", kDecimate, {"a.stl"}, false, kStick, SIGINT},
                     Case{"ExportWithAPage", kPage, kPageFiles}, Case{"Throw", kThrow, kPot},
                     Case{"ThrowOverOldFiles", kThrow, kPot, true},
                     Case{"ThrowKilled", kThrow, kPot, true, kStick, SIGKILL}),

@@ -165,10 +165,14 @@ TEST(Obj, PassesOverWhatIsNoPartOfTheSurfaceWithANote) {
   };
   const std::string no_vt = "a face names a vt that the file does not define";
   const std::string no_vn = "a face names a vn that the file does not define";
+  const std::string odd =
+      " faces with a slash at the end of a corner, or on several lines: PrusaSlicer does not read "
+      "them";
   for (const Case& c : std::vector<Case>{
-           {kSquare + "f 1/ 2/ 3/\n", {}},
-           {kSquare + "f 1// 2// 3//\n", {}},
-           {kSquare + "vt 0\nf 1/1/ 2/1/ 3/1/\n", {}},
+           {kSquare + "f 1/ 2/ 3/\n", {"line 5: 1" + odd}},
+           {kSquare + "f 1// 2// 3//\nf 1 2 3\nf 1 2/ 3\n", {"line 5: 2" + odd}},
+           {kSquare + "vt 0\nf 1/1/ 2/1/ 3/1/\n", {"line 6: 1" + odd}},
+           {kSquare + "f 1 2 \\\n3\nf 1 2 3\n", {"line 5: 1" + odd}},
            {kSquare + "f 1/1 2/1 3/1\n", {"line 5: " + no_vt}},
            {kSquare + "f 1//1 2//1 3//1\nvn 0 0 1\n", {}},
            {kSquare + "f 1//1 2//1 3//1\n", {"line 5: " + no_vn}},
@@ -178,11 +182,14 @@ TEST(Obj, PassesOverWhatIsNoPartOfTheSurfaceWithANote) {
             {"line 2: 2 lines before the mesh were not read"}},
        }) {
     std::vector<std::string> notes;
-    const auto mesh = decode_obj(c.text, "pot.obj", {false, &notes});
+    bool reads_less = false;
+    const auto mesh = decode_obj(
+        c.text, "pot.obj", {.repair = false, .notes = &notes, .slicer_reads_less = &reads_less});
     ASSERT_TRUE(mesh) << mesh.error().message << "\n" << c.text;
     EXPECT_EQ(mesh->triangles.front(), (std::array<std::uint32_t, 3>{0, 1, 2})) << c.text;
     EXPECT_EQ(mesh->points, kSquarePoints) << c.text;
     EXPECT_EQ(notes, c.notes) << c.text;
+    EXPECT_EQ(reads_less, !notes.empty() && notes.back().ends_with(odd)) << c.text;
     EXPECT_TRUE(decode_obj(c.text, "pot.obj"));
   }
 }

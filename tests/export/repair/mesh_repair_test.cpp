@@ -1,16 +1,19 @@
 #include "claystack/export/repair.hpp"
 
 #include "claystack/export/proof.hpp"
+#include "export/formats/file_floats.hpp"
 #include "tests/export/solid/mesh_surface.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -340,7 +343,7 @@ RC_GTEST_PROP(Repair, RepairsEveryRemovedOrFlippedTriangle, (const ClayStack& st
   const auto found = profile_of(stack);
   if (!found || !certify(found->profile)) RC_DISCARD("no certificate");
   TriangleMesh mesh = revolve(found->profile, 5);
-  for (glm::dvec3& p : mesh.points) p = glm::dvec3(glm::vec3(p));
+  round_to_file(mesh.points);
   if (!check_mesh(mesh).sound()) {
     // Then rounding moves points by an eighth of their clearance or more.
     const Margins margins = margins_of(found->profile, 5);
@@ -394,7 +397,7 @@ TEST(Repair, KeepsTheOrderOfTheRestOfAMesh) {
                                    {18, 2},
                                    {0, 2}}}},
                                 1'250);
-    for (glm::dvec3& p : mesh.points) p = glm::dvec3(glm::vec3(p));
+    round_to_file(mesh.points);
     return mesh;
   }();
   ASSERT_TRUE(check_mesh(sound).sound());
@@ -425,6 +428,69 @@ TEST(Repair, KeepsTheOrderOfTheRestOfAMesh) {
   };
   EXPECT_GE(far_ones(crossed).size(), 19'000U);
   EXPECT_EQ(far_ones(repaired->mesh), far_ones(crossed));
+}
+
+/// Three balls that cut each other, one with a hole.
+TriangleMesh tangled_balls() {
+  TriangleMesh mesh = ball(10.0);
+  mesh.triangles.pop_back();
+  for (const double k : {1.0, 2.0})
+    mesh = together(mesh, moved(ball(10.0), {3.3 * k, 1.7 * k, 0.9 * k}));
+  return mesh;
+}
+
+TEST(Repair, CancelsAtEveryCheck) {
+  const TriangleMesh mesh = tangled_balls();
+  std::atomic<std::size_t> asked{0};
+  RepairOptions options;
+  options.cancelled = [&] { return ++asked == 0; };
+  const auto whole = repair_mesh(mesh, options);
+  ASSERT_TRUE(whole) << whole.error().message;
+  const std::size_t all = asked;
+  ASSERT_GT(all, 20U);
+  std::size_t stopped = 0;
+  for (std::size_t until = 0; until <= all; until += 1 + until / 8) {
+    asked = 0;
+    options.cancelled = [&] { return ++asked > until; };
+    const auto result = repair_mesh(mesh, options);
+    if (result) {
+      // Threads share the questions differently from run to run.
+      EXPECT_GT(until, all / 2);
+      EXPECT_EQ(result->mesh, whole->mesh);
+      continue;
+    }
+    ++stopped;
+    EXPECT_EQ(result.error().kind, ErrorKind::io);
+    EXPECT_EQ(result.error().message, "repair stopped: cancelled");
+  }
+  EXPECT_GT(stopped, 8U);
+}
+
+TEST(Repair, ReportsStagesAndTheirShares) {
+  std::vector<std::string> stages;
+  std::vector<double> shares;  // of cutting
+  double before = 0.0;
+  RepairOptions options;
+  options.progress = [&](std::string_view stage, double share) {
+    if (stages.empty() || stages.back() != stage || share == 0.0) {
+      stages.emplace_back(stage);
+      before = 0.0;
+    }
+    EXPECT_GE(share, before) << stage;
+    EXPECT_LE(share, 1.0) << stage;
+    before = share;
+    if (stage == "cutting triangles") shares.push_back(share);
+  };
+  ASSERT_TRUE(repair_mesh(tangled_balls(), options));
+  std::size_t at = 0;
+  for (const char* name :
+       {"checking", "cleaning", "joining triangles", "filling holes", "turning shells", "checking",
+        "finding intersections", "cutting triangles", "choosing the outer skin", "rounding",
+        "checking", "measuring the change"}) {
+    while (at < stages.size() && stages[at] != name) ++at;
+    EXPECT_LT(at, stages.size()) << name;
+  }
+  EXPECT_GT(shares.size(), 20U);
 }
 
 }  // namespace

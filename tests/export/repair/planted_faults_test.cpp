@@ -1,6 +1,7 @@
 #include "claystack/export/proof.hpp"
 #include "claystack/export/repair.hpp"
 #include "export/solid/surface_distance.hpp"
+#include "export/formats/file_floats.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -62,7 +63,7 @@ class FaultPlanter {
 
  private:
   static TriangleMesh float32(TriangleMesh mesh) {
-    for (glm::dvec3& p : mesh.points) p = glm::dvec3(glm::vec3(p));
+    round_to_file(mesh.points);
     return mesh;
   }
   std::size_t below(std::size_t n) { return random_() % n; }

@@ -6,9 +6,11 @@
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
+#include <vector>
 
 namespace clay::solid {
 namespace {
@@ -131,6 +133,31 @@ TEST(Decimate, ReturnsAMeshWithinTheLimitUnchanged) {
   ASSERT_TRUE(same);
   EXPECT_EQ(same->mesh, cube(2.0));
   EXPECT_EQ(same->max_error_mm, 0.0);
+}
+
+TEST(Decimate, ReportsItsProgressAndCancels) {
+  const TriangleMesh fine = smooth_vase(120, 128);
+  std::vector<double> shares;
+  std::atomic<std::size_t> asked{0};
+  DecimateOptions options;
+  options.progress = [&](double share) { shares.push_back(share); };
+  options.cancelled = [&] { return ++asked == 0; };
+  const auto whole = decimate(fine, fine.triangles.size() / 10, options);
+  ASSERT_TRUE(whole) << whole.error().message;
+  EXPECT_GT(shares.size(), 6U);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.front(), 0.0);
+  EXPECT_EQ(shares.back(), 1.0);
+  const std::size_t all = asked;
+  ASSERT_GT(all, 20U);
+  for (const std::size_t until : {std::size_t{0}, all / 8, all / 4, all / 2}) {
+    asked = 0;
+    options.cancelled = [&] { return ++asked > until; };
+    const auto stopped = decimate(fine, fine.triangles.size() / 10, options);
+    ASSERT_FALSE(stopped) << until << " of " << all;
+    EXPECT_EQ(stopped.error().kind, ErrorKind::io);
+    EXPECT_EQ(stopped.error().message, "decimation stopped: cancelled");
+  }
 }
 
 TEST(Decimate, ReportsTheNumberReached) {

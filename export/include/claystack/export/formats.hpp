@@ -150,6 +150,8 @@ struct ReadOptions {
   /// Gets a line for each kind of fault that was passed over, none of which changes the surface.
   /// May be null.
   std::vector<std::string>* notes = nullptr;
+  /// Set if PrusaSlicer reads fewer triangles from the same file. May be null.
+  bool* slicer_reads_less = nullptr;
 };
 
 /// The mesh as the file states it, without repairs: 1 to 20 million triangles, float32 points

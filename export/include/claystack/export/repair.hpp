@@ -46,8 +46,12 @@ struct RepairOptions {
   /// If no sound mesh is found otherwise, make a new surface at this distance [mm] around all
   /// triangles: closed, but details smaller than that are lost. Unset: that is an error.
   std::optional<double> wrap_mm = std::nullopt;
-  /// Called with a name at the start of each stage, as by `export_files`.
-  std::function<void(std::string_view)> progress = {};
+  /// Called at the start of each stage with the share 0, and during long ones again with the share
+  /// of the stage that is done, 0 to 1.
+  std::function<void(std::string_view stage, double share)> progress = {};
+  /// Asked repeatedly, from several threads. True ends the work: an error of kind `io`, "repair
+  /// stopped: cancelled".
+  std::function<bool()> cancelled = {};
 };
 
 struct RepairedMesh {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -67,6 +68,14 @@ struct DecimatedMesh {
   double max_error_mm = 0.0;
 };
 
+struct DecimateOptions {
+  /// Called repeatedly with the share of the work that is done, 0 to 1.
+  std::function<void(double share)> progress = {};
+  /// Asked repeatedly, from several threads. True ends the work: an error of kind `io`, "decimation
+  /// stopped: cancelled".
+  std::function<bool()> cancelled = {};
+};
+
 inline constexpr std::size_t kFewestTriangles = 4;
 
 /// Reduces to at most `max_triangles` by collapsing edges in the order of OpenMesh's error quadrics
@@ -74,6 +83,7 @@ inline constexpr std::size_t kFewestTriangles = 4;
 /// a face. A mesh within the limit is returned unchanged. Walls may come to intersect: check the
 /// result. Errors of kind `unsound`: the mesh is not a closed, oriented manifold, or no further
 /// edge can collapse (the message holds the number reached); `bad_input`: a limit below 4.
-Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_triangles);
+Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_triangles,
+                               const DecimateOptions& options = {});
 
 }  // namespace clay::solid
