@@ -210,7 +210,7 @@ const std::array kCommands = {
     C{"help.end_lesson", "End the guide", kNone, kNone, EndLesson{}, in_lesson},
     C{"help.menu", "Open the menu", key(GLFW_KEY_F10), kNone, OpenMenu{}, always},
     C{"help.hint", "First steps", kNone, kNone, ToggleHints{}, always, has_hints},
-    C{"help.keys", "Keys and mouse", key(GLFW_KEY_SLASH, kShift), key(GLFW_KEY_F1), ShowDialog{Kind::shortcuts}, always},
+    C{"help.keys", "Controls", key(GLFW_KEY_SLASH, kShift), key(GLFW_KEY_F1), ShowDialog{Kind::shortcuts}, always},
 };
 // clang-format on
 

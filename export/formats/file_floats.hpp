@@ -11,8 +11,8 @@
 
 namespace clay::solid::inline formats {
 
-/// Adds 0, because -0 + 0 is 0, and because GCC 12 at -O3 drops the rounding of a vector to float and
-/// back (`glm::dvec3(glm::vec3(p))` is `p`).
+/// Adds 0, because -0 + 0 is 0, and because GCC 12 at -O3 drops the rounding of a vector to float
+/// and back (`glm::dvec3(glm::vec3(p))` is `p`).
 [[nodiscard]] inline glm::vec3 file_point(const glm::dvec3& point) noexcept {
   return glm::vec3(point) + 0.0F;
 }

@@ -5,6 +5,7 @@
 
 #include <imgui_stdlib.h>
 
+#include <fmt/format.h>
 #include <array>
 #include <string>
 
@@ -17,13 +18,11 @@ void draw_look_settings(const ViewModel& model, Actions& actions) {
   form_row("Theme");
   const int theme = choice_row("##theme", kThemes, settings.theme == Theme::dark ? 0 : 1);
   if (theme >= 0) actions.emplace_back(SetTheme{theme == 0 ? Theme::dark : Theme::light});
-  form_row("Text scale");
   // Applied when the mouse is released; otherwise the slider would move under the pointer.
   ImGuiStorage& kept = *ImGui::GetStateStorage();
   const ImGuiID id = ImGui::GetID("scale");
   float scale = ImGui::IsAnyItemActive() ? kept.GetFloat(id, settings.scale) : settings.scale;
-  ImGui::SliderFloat("##scale", &scale, kSmallestScale, kLargestScale, "%.2f",
-                     ImGuiSliderFlags_AlwaysClamp);
+  form_slider("Text scale", scale, kSmallestScale, kLargestScale, fmt::format("{:.2f}", scale));
   kept.SetFloat(id, scale);
   if (ImGui::IsItemDeactivatedAfterEdit()) actions.emplace_back(SetScale{scale});
   constexpr std::array kUnits = {"mm", "cm", "in"};
@@ -34,17 +33,15 @@ void draw_look_settings(const ViewModel& model, Actions& actions) {
 
 void draw_work_settings(const ViewModel& model, Actions& actions) {
   const Settings& settings = model.settings;
-  form_row("Speed in clay");
   float speed = static_cast<float>(settings.pressing_mm_s);
-  if (ImGui::SliderFloat("##speed", &speed, static_cast<float>(kSlowestHandMmPerS),
-                         static_cast<float>(kFastestHandMmPerS), "at most %.0f mm/s",
-                         ImGuiSliderFlags_AlwaysClamp))
+  if (form_slider("Speed in clay", speed, static_cast<float>(kSlowestHandMmPerS),
+                  static_cast<float>(kFastestHandMmPerS),
+                  fmt::format("at most {:.0f} mm/s", speed)))
     actions.emplace_back(SetHandSpeed{static_cast<double>(speed)});
-  form_row("Strength of the hand");
   float bite = static_cast<float>(settings.bite_mm);
-  if (ImGui::SliderFloat("##bite", &bite, static_cast<float>(kSoftestBiteMm),
-                         static_cast<float>(kFirmestBiteMm), "%.1f mm per turn",
-                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+  if (form_slider("Strength of the hand", bite, static_cast<float>(kSoftestBiteMm),
+                  static_cast<float>(kFirmestBiteMm), fmt::format("{:.1f} mm per turn", bite),
+                  ImGuiSliderFlags_Logarithmic))
     actions.emplace_back(SetBite{static_cast<double>(bite)});
   form_row("Process");
   std::string process = settings.process;

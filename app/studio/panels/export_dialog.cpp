@@ -45,9 +45,9 @@ void draw_meshes(ExportChoices& choices) {
 void draw_formats(ExportChoices& choices) {
   form_row("Files");
   draw_meshes(choices);
-  form_row("For CAD");
+  form_row("Also");
   ImGui::Checkbox("STEP", &choices.step);
-  form_row("Drawing");
+  ImGui::SameLine();
   ImGui::Checkbox("SVG", &choices.section);
   ImGui::SameLine();
   ImGui::Checkbox("DXF", &choices.dxf);
@@ -55,7 +55,7 @@ void draw_formats(ExportChoices& choices) {
     ImGui::SameLine();
     ImGui::Checkbox("PDF", &choices.pdf);
   }
-  form_row("Also");
+  ImGui::SameLine();
   ImGui::Checkbox("Pot", &choices.pot);
   if (kWritesPages) {
     ImGui::SameLine();
@@ -79,11 +79,10 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
   form_row("Process");
   (void)choose_process(model, "None", choices.process, actions);
   form_length("Minimum wall", choices.min_wall_mm, 0.0, kThickestDemandMm, model.settings.unit,
-              choices.process.empty() ? "no limit" : "as the process requires");
-  form_row("Shrinkage");
+              choices.process.empty() ? "no limit" : "by the process");
   float percent = static_cast<float>(choices.shrinkage_percent);
-  if (ImGui::SliderFloat("##shrinkage", &percent, 0.0f, 25.0f, percent > 0.0f ? "%.1f %%" : "none",
-                         ImGuiSliderFlags_AlwaysClamp))
+  if (form_slider("Shrinkage", percent, 0.0f, 25.0f,
+                  percent > 0.0f ? fmt::format("{:.1f} %", percent) : "none"))
     // Rounded to tenths, as shown, so that the command line gives the same file for the same
     // number.
     choices.shrinkage_percent = std::round(10.0 * static_cast<double>(percent)) / 10.0;
@@ -171,7 +170,7 @@ void draw_buttons(const ViewModel& model, Actions& actions) {
 }  // namespace
 
 void draw(const ExportDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
-  begin_dialog("##export", rect, 38.0f);
+  begin_dialog("##export", rect, 40.0f);
   dialog_title(model, "Export");
   ExportChoices choices = model.ui.exporting.choices;
   draw_formats(choices);

@@ -1,11 +1,10 @@
-// The list of keys and mouse buttons, from the table of commands.
+// The list of keys, mouse buttons and gamepad buttons, from the tables of commands.
 
 #include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <vector>
 
@@ -62,12 +61,14 @@ std::vector<Section> all_sections() {
   return sections;
 }
 
-/// Three columns of similar length, in order.
-std::array<std::vector<Section>, 3> columns_of(std::vector<Section> sections) {
+using Columns = std::vector<std::vector<Section>>;
+
+/// Columns of similar length, in order.
+Columns columns_of(std::vector<Section> sections, std::size_t count) {
   const auto lines = [](const Section& section) { return section.rows.size() + 2; };
   std::size_t all = 0;
   for (const Section& section : sections) all += lines(section);
-  std::array<std::vector<Section>, 3> columns;
+  Columns columns(count);
   std::size_t before = 0;
   for (Section& section : sections) {
     const std::size_t middle = before + lines(section) / 2;
@@ -101,14 +102,17 @@ float widest_of(const std::vector<Section>& column) {
 }  // namespace
 
 void draw(const ShortcutsDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
-  static const auto kColumns = columns_of(all_sections());
-  begin_dialog("##shortcuts", rect, 68.0f);
-  dialog_title(model, "Keys and mouse");
+  static const Columns kTwo = columns_of(all_sections(), 2), kThree = columns_of(all_sections(), 3);
+  constexpr float kWideEm = 68.0f, kThreeColumnsEm = 60.0f;
+  begin_dialog("##shortcuts", rect, kWideEm);
+  const Columns& columns =
+      ImGui::GetContentRegionAvail().x < kThreeColumnsEm * ImGui::GetFontSize() ? kTwo : kThree;
+  dialog_title(model, "Controls");
   const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(spacing.x, 0.3f * spacing.y));
-  if (ImGui::BeginTable("##keys", static_cast<int>(kColumns.size()),
+  if (ImGui::BeginTable("##keys", static_cast<int>(columns.size()),
                         ImGuiTableFlags_SizingStretchProp)) {
-    for (const std::vector<Section>& column : kColumns) {
+    for (const std::vector<Section>& column : columns) {
       ImGui::TableNextColumn();
       for (const Section& section : column)
         draw_section_of_keys(section, model.colours(), widest_of(column));

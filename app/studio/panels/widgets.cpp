@@ -62,21 +62,31 @@ void form_row(const char* label) {
   ImGui::SetNextItemWidth(-1.0f);
 }
 
+bool form_slider(const char* label, float& value, float low, float high, const std::string& text,
+                 int flags) {
+  constexpr float kTextEm = 9.5f;
+  form_row(label);
+  const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
+  ImGui::SetCursorPosX(left + room - ImGui::CalcTextSize(text.c_str()).x);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::SameLine(left);
+  ImGui::SetNextItemWidth(room - kTextEm * ImGui::GetFontSize());
+  const std::string id = fmt::format("##{}", label);
+  return ImGui::SliderFloat(id.c_str(), &value, low, high, "",
+                            ImGuiSliderFlags_AlwaysClamp | flags);
+}
+
 bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
                  const char* none) {
-  form_row(label);
   const UnitText text = unit_text(unit);
   float shown = static_cast<float>(mm / text.mm);
-  const std::string id = fmt::format("##{}", label);
-  const std::string format =
+  const std::string value =
       none != nullptr && mm <= 0.0
           ? std::string(none)
-          : fmt::format("%.{}f {}", text.digits + (high_mm <= 1.0 ? 2 : 0), text.name);
-  const bool logarithmic = low_mm > 0.0;
-  if (!ImGui::SliderFloat(
-          id.c_str(), &shown, static_cast<float>(low_mm / text.mm),
-          static_cast<float>(high_mm / text.mm), format.c_str(),
-          ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0)))
+          : fmt::format("{:.{}f} {}", shown, text.digits + (high_mm <= 1.0 ? 2 : 0), text.name);
+  if (!form_slider(label, shown, static_cast<float>(low_mm / text.mm),
+                   static_cast<float>(high_mm / text.mm), value,
+                   low_mm > 0.0 ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None))
     return false;
   mm = std::clamp(static_cast<double>(shown) * text.mm, low_mm, high_mm);
   return true;

@@ -32,7 +32,10 @@ void dialog_title(const ViewModel& model, const char* text);
 /// A label at the left; the next control fills the rest of the line.
 inline constexpr float kFormEm = 10.5f;
 void form_row(const char* label);
-/// A slider in such a line; `none`: text shown for 0.
+/// A slider in such a line, with its value as text beside it.
+bool form_slider(const char* label, float& value, float low, float high, const std::string& text,
+                 int flags = 0);
+/// For a length; `none`: text shown for 0.
 bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
                  const char* none = nullptr);
 

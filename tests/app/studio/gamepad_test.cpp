@@ -143,11 +143,12 @@ TEST_F(Window, ButtonsRunTheirCommands) {
 
 /// From the lump to the export dialog and out of it.
 TEST_F(Window, AGamepadWalksMenusAndDialogs) {
-  const Ran ran = run(std::string(kPad) +
-                          "pad Back\npad Right\npad Left\npad Up\npad Up\npad Up\npad Up\npad Up\npad A\n"
-                          "expect overlay export\ntrigger right 1\nstick left 1 0\nwait 0.2\n"
-                          "expect throwing no\npad B\nexpect overlay none\n",
-                      "--size 960x640 --log");
+  const Ran ran =
+      run(std::string(kPad) +
+              "pad Back\npad Right\npad Left\npad Up\npad Up\npad Up\npad Up\npad Up\npad A\n"
+              "expect overlay export\ntrigger right 1\nstick left 1 0\nwait 0.2\n"
+              "expect throwing no\npad B\nexpect overlay none\n",
+          "--size 960x640 --log");
   EXPECT_EQ(ran.status, 0) << ran.err << ran.out;
   EXPECT_EQ(ran.out.find("action: edit.undo"), std::string::npos);
 }

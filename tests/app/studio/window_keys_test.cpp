@@ -101,10 +101,10 @@ TEST_F(Window, KeysOpenDialogsAndEscClosesThem) {
 }
 
 TEST_F(Window, ArrowsWorkInMenusAndLettersDoNot) {
-  const Ran ran =
-      run("key F10\nkey H\nkey Up\nkey Up\nkey Up\nkey Up\nkey Up\nkey Enter\nexpect overlay export\n"
-          "key Esc\nexpect overlay none\nkey F10\nkey Esc\nkey H\n",
-          "--size 960x640 --log");
+  const Ran ran = run(
+      "key F10\nkey H\nkey Up\nkey Up\nkey Up\nkey Up\nkey Up\nkey Enter\nexpect overlay export\n"
+      "key Esc\nexpect overlay none\nkey F10\nkey Esc\nkey H\n",
+      "--size 960x640 --log");
   ASSERT_EQ(ran.status, 0) << ran.err;
   const auto exported = ran.out.find("action: file.export"), pinch = ran.out.find("tool.pinch");
   EXPECT_NE(exported, std::string::npos) << ran.out;
@@ -139,13 +139,14 @@ TEST_F(Window, RightOpensTheListOfRecentFilesAndLeftClosesIt) {
 
 /// From the gallery to a printable file: Show me throws the bowl. Saving sets the folder.
 TEST_F(Window, KeysAloneMakeAPotAndItsFile) {
-  test::write_text(folder.file("s"),
-                   "expect overlay gallery\nkey Down\nkey Enter\nexpect overlay none\nwait 150\n"
-                   "expect step finished\nexpect ready yes\nsave " +
-                       folder.file("keys.work") +
-                       "\nkey F10\nkey Right\nkey Left\nkey Up\nkey Up\nkey Up\nkey Up\nkey Up\nkey Enter\n"
-                       "expect overlay export\nwait 0.2\nkey Ctrl+Enter\nwait 0.2\n"
-                       "expect exported 1\n");
+  test::write_text(
+      folder.file("s"),
+      "expect overlay gallery\nkey Down\nkey Enter\nexpect overlay none\nwait 150\n"
+      "expect step finished\nexpect ready yes\nsave " +
+          folder.file("keys.work") +
+          "\nkey F10\nkey Right\nkey Left\nkey Up\nkey Up\nkey Up\nkey Up\nkey Up\nkey Enter\n"
+          "expect overlay export\nwait 0.2\nkey Ctrl+Enter\nwait 0.2\n"
+          "expect exported 1\n");
   const Ran ran = claystack("studio --script " + folder.file("s") + " --size 960x640");
   ASSERT_EQ(ran.status, 0) << ran.err;
   const Ran check = claystack("check " + folder.file("keys.3mf"));

@@ -1,7 +1,7 @@
 #include "claystack/export/proof.hpp"
 #include "claystack/export/repair.hpp"
-#include "export/solid/surface_distance.hpp"
 #include "export/formats/file_floats.hpp"
+#include "export/solid/surface_distance.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <gtest/gtest.h>
