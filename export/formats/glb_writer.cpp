@@ -172,7 +172,7 @@ OrderedJson document(Packed& packed, const Material& material, const FileContent
   node.update(packed.node);
   json["scene"] = 0;
   json["scenes"] = {{{"nodes", {0}}}};
-  json["nodes"] = {node};
+  json["nodes"] = OrderedJson::array({node});  // Clang copies an object in single braces
   json["meshes"] = {{{"name", name}, {"primitives", {primitive}}}};
   json["materials"] = OrderedJson::array({material_json(material, colours)});
   json["accessors"] = std::move(packed.accessors);
