@@ -229,14 +229,14 @@ class Drawing {
   Canvas canvas_;
 };
 
-Image pixels_of(const Canvas& canvas, int pixels) {
+Image pixels_of(const Canvas& canvas, int side_px) {
   constexpr float kSteps = 4095.0F;
   std::vector<std::uint8_t> bytes;
   for (float step = 0.0F; step <= kSteps; ++step) bytes.push_back(srgb_byte(step / kSteps));
-  Image image{pixels, pixels, {}};
-  image.rgba.reserve(4 * static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels));
-  for (int y = 0; y < pixels; ++y)
-    for (int x = 0; x < pixels; ++x) {
+  Image image{side_px, side_px, {}};
+  image.rgba.reserve(4 * static_cast<std::size_t>(side_px) * static_cast<std::size_t>(side_px));
+  for (int y = 0; y < side_px; ++y)
+    for (int x = 0; x < side_px; ++x) {
       glm::vec3 sum(0.0F);
       for (int i = 0; i < kPerSide * kPerSide; ++i) {
         const float light = canvas.light(kPerSide * x + i % kPerSide, kPerSide * y + i / kPerSide);
@@ -252,8 +252,8 @@ Image pixels_of(const Canvas& canvas, int pixels) {
 
 }  // namespace
 
-Image thumbnail(const PotView& pot, int pixels) {
-  Drawing drawing(framed(pot, 1.0), kPerSide * pixels);
+Image thumbnail(const PotView& pot, int side_px) {
+  Drawing drawing(framed(pot, 1.0), kPerSide * side_px);
   if (!pot.rows.empty()) {
     const std::size_t split =
         pot.fallen ? std::min(pot.fallen->first_row, pot.rows.size()) : pot.rows.size();
@@ -265,7 +265,7 @@ Image thumbnail(const PotView& pot, int pixels) {
     add(0, split, glm::dmat4(1.0));
     if (pot.fallen) add(split, pot.rows.size(), pot.fallen->place);
   }
-  return pixels_of(drawing.canvas(), pixels);
+  return pixels_of(drawing.canvas(), side_px);
 }
 
 }  // namespace clay::render

@@ -7,7 +7,7 @@
 
 namespace clay::render {
 
-/// The geometry alone, on a plain ground, in a square of so many pixels; from the usual viewpoint.
-[[nodiscard]] Image thumbnail(const PotView& pot, int pixels);
+/// The geometry alone, on a plain ground, from the usual viewpoint; width and height are `side_px`.
+[[nodiscard]] Image thumbnail(const PotView& pot, int side_px);
 
 }  // namespace clay::render

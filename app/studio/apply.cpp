@@ -4,6 +4,7 @@
 #include "app/studio/app_state.hpp"
 #include "app/studio/commands.hpp"
 #include "app/studio/new_scene.hpp"
+#include "app/studio/output_dialogs.hpp"
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/samples.hpp"
 #include "claystack/core/atomic_file.hpp"
@@ -13,15 +14,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/trigonometric.hpp>
-#include <numbers>
 #include <utility>
 
 namespace clay::studio {
 namespace {
 
 constexpr double kGapShareStep = 0.05;
-constexpr render::Viewport kUsualPicture{1920, 1080}, kUsualTurntable{480, 480};
 constexpr double kNoteS = 5.0, kSavedNoteS = 4.0;
 
 bool is_process(const std::filesystem::path& path) {
@@ -67,13 +65,6 @@ std::filesystem::path unused_name(const std::filesystem::path& folder, const std
     const auto path = folder / (n == 1 ? stem + ".work" : fmt::format("{}-{}.work", stem, n));
     if (!std::filesystem::exists(path, ignored)) return path;
   }
-}
-
-std::string replace_question(const std::vector<std::string>& files) {
-  std::string names;
-  for (const std::string& file : files)
-    names.append(names.empty() ? "" : ", ").append(std::filesystem::path(file).filename().string());
-  return names + (files.size() == 1 ? " exists in the folder." : " exist in the folder.");
 }
 
 void close_dialog(AppState& state) {
@@ -253,11 +244,11 @@ struct Performer {
         ask_for_name(std::nullopt);
         break;
       case DialogKind::export_files:
-        show_export();
+        show_export(state);
         break;
       case DialogKind::picture:
       case DialogKind::turntable:
-        show_picture(show.kind == DialogKind::turntable);
+        show_picture(state, show.kind == DialogKind::turntable);
         break;
     }
   }
@@ -296,41 +287,14 @@ struct Performer {
     state.ui.pictures.result.clear();
   }
   void operator()(const WriteExport& write) const {
-    if (state.ui.shows<PictureDialog>()) return write_picture(write.replace);
-    ExportState& exporting = state.ui.exporting;
-    std::vector<std::string> standing = standing_files(exporting.choices);
-    // Those of the last export are the user's own, of this pot.
-    std::erase_if(standing, [&](const std::string& path) {
-      return std::ranges::find(exporting.written, path) != exporting.written.end();
-    });
-    if (!write.replace && !standing.empty()) {
-      state.log("prompt: replace");
-      state.ui.dialog = ReplaceDialog{replace_question(standing), std::nullopt};
-      return;
-    }
-    exporting.written.clear();
-    exporting.problem.clear();
-    exporting.result.clear();
-    state.log("export started");
-    state.exporter.write(std::make_shared<const Pot>(state.document.pot_for_file()),
-                         exporting.choices);
+    if (state.ui.shows<PictureDialog>()) return write_picture(state, write.replace);
+    write_export(state, write.replace);
   }
   void operator()(const CancelExport&) const {
     if (state.pictures.busy()) return state.pictures.cancel();
     state.exporter.cancel();
   }
-  void operator()(const ShowExportFolder&) const {
-    const std::vector<std::string>& files = state.ui.exporting.written;
-    const std::string file = state.ui.shows<PictureDialog>() ? state.ui.pictures.written
-                             : files.empty()                 ? std::string()
-                                                             : files.front();
-    if (file.empty()) return;
-    const auto folder = std::filesystem::path(file).parent_path();
-    if (!show_folder(folder))
-      state.ui.notices.show(Grade::warning,
-                            "No file manager is installed. The files are in " +
-                                (folder.empty() ? "the current folder" : folder.string()));
-  }
+  void operator()(const ShowExportFolder&) const { show_written_folder(state); }
   void operator()(const ChooseExportFolder&) const {
     const std::string& folder = state.ui.shows<PictureDialog>() ? state.ui.pictures.file.folder
                                                                 : state.ui.exporting.choices.folder;
@@ -552,80 +516,11 @@ struct Performer {
     if (!open_desktop_dialog(state, FileDialog::Kind::save, path))
       state.ui.dialog = SaveDialog{path.string(), std::move(next)};
   }
-  [[nodiscard]] std::string export_name() const {
-    const std::string& scene = state.document.scene().name;
-    const std::filesystem::path& file = state.document.file();
-    return !file.empty() ? file.stem().string() : scene.empty() ? "pot" : scene;
-  }
-  [[nodiscard]] std::string export_folder() const {
-    return state.settings.folder.empty() ? std::filesystem::current_path().string()
-                                         : state.settings.folder;
-  }
   void back_to_export(const ReplaceDialog& asked) const {
     if (asked.picture)
       state.ui.dialog = PictureDialog{};
     else
       state.ui.dialog = ExportDialog{};
-  }
-  /// The pot as the view shows it: direction, surface, cut, map.
-  void show_picture(bool turntable) const {
-    state.stroke.release();
-    PictureState& pictures = state.ui.pictures;
-    if (state.pictures.busy()) {  // show its progress
-      state.ui.dialog = PictureDialog{};
-      return;
-    }
-    const Settings& settings = state.settings;
-    const bool first = pictures.file.name.empty() || pictures.file.turntable != turntable;
-    PictureFile file = pictures.file;
-    file.turntable = turntable;
-    if (first) {
-      file.look.size = turntable ? kUsualTurntable : kUsualPicture;
-      file.look.alone = false;
-      file.look.theme = settings.theme;
-    }
-    file.look.material = settings.material;
-    file.look.style = settings.throwing_lines ? render::Style::clay : render::Style::geometry;
-    file.look.section = state.scene.cut != render::Cut::none;
-    const render::Camera& camera = state.scene.camera();
-    // In tenths, to be typed after `render --azimuth` and `--elevation`.
-    const auto degrees = [](double rad) {
-      return 0.1 * std::round(10.0 * glm::degrees(std::remainder(rad, 2.0 * std::numbers::pi)));
-    };
-    file.look.azimuth_deg = degrees(camera.azimuth_rad);
-    file.look.elevation_deg = degrees(camera.elevation_rad);
-    file.wall_map = settings.wall_map;
-    file.process = settings.process;
-    file.name = export_name();
-    file.folder = export_folder();
-    pictures = {.file = std::move(file), .written = {}, .problem = {}, .result = {}};
-    state.ui.dialog = PictureDialog{};
-  }
-  void write_picture(bool replace) const {
-    PictureState& pictures = state.ui.pictures;
-    if (state.pictures.busy()) return;
-    const std::string path = path_of(pictures.file);
-    std::error_code ignored;
-    if (!replace && path != pictures.written && std::filesystem::exists(path, ignored)) {
-      state.log("prompt: replace");
-      state.ui.dialog = ReplaceDialog{replace_question({path}), std::nullopt, true};
-      return;
-    }
-    pictures.written.clear();
-    pictures.problem.clear();
-    pictures.result.clear();
-    state.log("picture started");
-    state.pictures.write(state.document.shared_pot(), pictures.file);
-  }
-  void show_export() const {
-    state.stroke.release();
-    ExportState& exporting = state.ui.exporting;
-    ExportChoices& choices = exporting.choices;
-    if (choices.name.empty()) choices.process = state.settings.process;
-    choices.name = export_name();
-    choices.folder = export_folder();
-    exporting = {.choices = choices, .preview = {}, .problem = {}, .written = {}, .result = {}};
-    state.ui.dialog = ExportDialog{};
   }
 };
 

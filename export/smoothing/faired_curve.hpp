@@ -44,8 +44,8 @@ class FairedCurve {
   [[nodiscard]] double at(double y) const;
 
   /// Points on the curve from the bottom of the run to its top, whose chords are within
-  /// `sagitta_mm` of it. A curve that would need more than kMostPoints gets about so many, and one
-  /// for each knot.
+  /// `sagitta_mm` of it. A curve that would need more than kMostPoints gets about kMostPoints and
+  /// one for each knot, with longer chords.
   [[nodiscard]] Polygon points(double sagitta_mm) const;
 
  private:

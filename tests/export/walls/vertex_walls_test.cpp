@@ -40,7 +40,7 @@ TEST(VertexWalls, AboveALimitAreTheLimit) {
 }
 
 TEST(VertexWalls, OfAFineLongTubeAreItsWall) {
-  // So many edges that the search goes by groups of them, which are nearer than 1 mm.
+  // The search handles edges in groups only if there are many; these are nearer than 1 mm.
   Polygon tube;
   for (int i = 0; i <= 200; ++i) tube.push_back({40.0, 0.3 * i});
   for (int i = 200; i >= 0; --i) tube.push_back({39.8, 0.3 * i});
