@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <ostream>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ struct Writer {
   std::string name, arguments, ending;
   std::vector<std::string> inputs;
   std::string other_ending = ".txt";  ///< of another kind of file
+  friend std::ostream& operator<<(std::ostream& out, const Writer& writer) {
+    return out << writer.name;
+  }
 };
 
 std::string replaced(std::string text, const std::string& old, const std::string& fresh) {
