@@ -8,7 +8,7 @@
 
 namespace clay::solid::inline repair {
 
-/// Tells the caller which stage of the work has begun, and how much of it is done. One thread.
+/// Reports the stage that has begun, and the share of it that is done. For use by one thread.
 class StageReport {
  public:
   using Progress = std::function<void(std::string_view stage, double share)>;
