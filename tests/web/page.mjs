@@ -274,9 +274,11 @@ async function quota() {
       throw new DOMException('full', 'QuotaExceededError');
     };
   });
+  // The message comes during the stroke; the window keeps it as a banner.
+  const told = page.shows('status', /^The browser cannot store the work: its storage is full\. What it stored before remains/);
   await drag(page);
   await page.mouse.up();
-  await page.shows('status', /^The browser cannot store the work: its storage is full\. What it stored before remains/);
+  await told;
   await pause(1000);
   await picture(page, 'full');
   browser.process().kill('SIGKILL');

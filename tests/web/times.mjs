@@ -9,7 +9,7 @@ import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import {samplesOf, tickUs} from './ticks.mjs';
 
-const [module, native = 'build/release/app/claystack'] = process.argv.slice(2).map(path => resolve(path));
+const [module, native = resolve('build/release/app/claystack')] = process.argv.slice(2).map(path => resolve(path));
 const claystack = createRequire(import.meta.url)(module);
 let out = '';
 const page = await claystack({print: line => { out += line; }, printErr: line => console.error(line)});
