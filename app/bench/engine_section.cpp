@@ -250,12 +250,10 @@ Section engine_section(const Effort& effort) {
   section.tables = {table_of(all)};
   const double conserving = largest_volume_error(all, Variant::conserving);
   const double rules = largest_volume_error(all, Variant::clay_rules);
-  section.values = {
-      {"conserving_volume_error", conserving, 0.0, "relative, maximum; 0 is required"},
-      {"clay_rules_volume_error", rules, 0.0, "relative, maximum; 0 is required"},
-      {"literal_volume_error", largest_volume_error(all, Variant::literal), 0.0,
-       "relative, maximum"}};
-  section.sound = conserving == 0.0 && rules == 0.0;
+  add_at_most(section, "conserving_volume_error", counted(conserving), 0.0, "relative, maximum");
+  add_at_most(section, "clay_rules_volume_error", counted(rules), 0.0, "relative, maximum");
+  section.values.push_back({"literal_volume_error", largest_volume_error(all, Variant::literal),
+                            0.0, "relative, maximum"});
   section.summary = fmt::format(
       "Cost of accuracy. A ball presses a hollow cylinder and pulls up its wall within {} s. Each "
       "model is compared with its own limit, extrapolated (Richardson, first order) from runs "
@@ -263,7 +261,7 @@ Section engine_section(const Effort& effort) {
       "a stiffness per mm and a rate per second, which gives it a limit; `paper` and `literal` (as "
       "printed, with a running sum for the stress) keep its K per ring and k per tick, and are "
       "compared with that limit. Volume in the conserving model, with and without clay rules: {}.",
-      kStrokeS, section.sound ? "exact to the quantum in every run" : "NOT conserved");
+      kStrokeS, section.sound() ? "exact to the quantum in every run" : "NOT conserved");
   return section;
 }
 

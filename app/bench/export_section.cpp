@@ -116,11 +116,10 @@ std::string curve_of(const Run& run) {
   return fmt::format("{}, {}", solid::name_of(run.format), run.along);
 }
 
-bool measure(const Pot& pot, std::vector<Run>& runs, const Effort& effort) {
+void measure(const Pot& pot, std::vector<Run>& runs, const Effort& effort, Section& section) {
   std::vector<Work> works;
-  bool done = true;
   for (Run& run : runs) {
-    done = examine(pot, run) && done;
+    section.require(examine(pot, run), curve_of(run) + ": the export failed");
     works.push_back({curve_of(run), [&pot, &run] {
                        solid::MemoryStore store;
                        return seconds_of([&] {
@@ -130,7 +129,6 @@ bool measure(const Pot& pot, std::vector<Run>& runs, const Effort& effort) {
   }
   const auto samples = time_rounds(works, rounds_of(effort));
   for (std::size_t i = 0; i < runs.size(); ++i) runs[i].seconds = spread_of(samples[i]);
-  return done;
 }
 
 Table table_of(const std::vector<Run>& runs) {
@@ -266,7 +264,7 @@ Section export_section(const Effort& effort) {
   std::erase_if(runs, [](const Run& run) { return run.format == MeshFormat::drc; });
 #endif
   effort.progress("exports");
-  bool sound = measure(pot, runs, effort);
+  measure(pot, runs, effort, section);
   section.plots = plots_of(runs);
   section.tables = {table_of(runs)};
 #ifdef CLAYSTACK_DRACO
@@ -274,16 +272,15 @@ Section export_section(const Effort& effort) {
   if (auto draco = draco_table(pot, effort))
     section.tables.push_back(std::move(*draco));
   else
-    sound = false;
+    section.require(false, "Draco: the mesh to encode was not written");
 #endif
   const Worst worst = worst_of(runs);
-  section.values = {
-      {"export_surface_share", worst.surface_share, 0.0,
-       "relative to the sum of tolerances, maximum over all files"},
-      {"export_volume_error", worst.volume, 0.0, "relative, maximum over STL and OBJ"},
-      {"export_drc_volume_error", worst.drc_volume, 0.0, "relative, maximum over Draco files"}};
-  sound = sound && worst.surface_share <= 1.0;
-  section.sound = sound;
+  add_at_most(section, "export_surface_share", counted(worst.surface_share), 1.0,
+              "relative to the sum of tolerances, maximum over all files");
+  section.values.push_back(
+      {"export_volume_error", worst.volume, 0.0, "relative, maximum over STL and OBJ"});
+  section.values.push_back(
+      {"export_drc_volume_error", worst.drc_volume, 0.0, "relative, maximum over Draco files"});
   section.summary = fmt::format(
       "Cost of finer files. A bellied pot of 200 rings with throwing marks is smoothed, "
       "proved, written to memory, read back and verified. The surface error of a file is at most "

@@ -134,6 +134,22 @@ bool holds(const TaskFacts& task, const Outcome& outcome) {
          outcome.volume_error == 0 && outcome.width <= kMaxWidth * task.width_mm;
 }
 
+/// The requirements on the pots with all rules. Returns whether they hold.
+bool judge(const TaskFacts& task, const Outcome& outcome, Section& section) {
+  const std::size_t before = section.missed.size();
+  add_at_least(section, "printable_" + std::string(task.name), counted(outcome.share()),
+               task.least_printable, fmt::format("share of {} pots, with all rules", outcome.pots));
+  section.require(outcome.cavities == 0, fmt::format("{}: required no closed cavity, measured {}",
+                                                     task.name, outcome.cavities));
+  section.require(outcome.volume_error == 0,
+                  fmt::format("{}: required a volume error of 0 quanta, measured {}", task.name,
+                              outcome.volume_error));
+  section.require(outcome.width <= kMaxWidth * task.width_mm,
+                  fmt::format("{}: required a width of at most {:.0f} mm, measured {:.0f} mm",
+                              task.name, kMaxWidth * task.width_mm, outcome.width));
+  return section.missed.size() == before;
+}
+
 /// Throws the pots of one task by each set of rules. Returns whether those with all rules meet the
 /// requirements.
 bool measure_task(Task task, const Effort& effort, Table& table, Section& section) {
@@ -166,10 +182,7 @@ bool measure_task(Task task, const Effort& effort, Table& table, Section& sectio
     }
     table.rows.push_back(row_of(task, rules, outcome));
     if (!all) continue;
-    met = holds(facts, outcome);
-    section.values.push_back({"printable_" + std::string(facts.name), outcome.share(), 0.0,
-                              fmt::format("share of {} pots, with all rules; required: at least {}",
-                                          outcome.pots, facts.least_printable)});
+    met = judge(facts, outcome, section);
   }
   section.plots.push_back(std::move(plot));
   return met;
@@ -190,7 +203,6 @@ Section hands_section(const Effort& effort) {
   for (const Task task : kTasks) met += measure_task(task, effort, table, section) ? 1 : 0;
   section.tables.push_back(std::move(table));
   const int tasks = static_cast<int>(std::size(kTasks));
-  section.sound = met == tasks;
   section.summary +=
       fmt::format("With all rules {} of {} tasks meet the requirements.", met, tasks);
   return section;

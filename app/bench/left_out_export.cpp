@@ -128,7 +128,7 @@ void measure_export_stages(Section& section, const Effort& effort) {
     const Duel d = duel(pair.out.work(), pair.in.work(), rounds);
     table.rows.push_back({pair.stage, 1e3 * d.a.median, 1e3 * d.b.median,
                           1e3 * (d.b.median - d.a.median), d.ratio.median, d.ratio.range()});
-    section.sound = section.sound && std::isfinite(d.ratio.median);
+    section.require(std::isfinite(d.ratio.median), pair.stage + ": the export failed");
   }
   const Spread rest = spread_of(unaccounted(all[0].out, rounds.count));
   section.values.push_back({"export_unaccounted_percent", rest.median, rest.range(),

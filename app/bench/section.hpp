@@ -2,6 +2,7 @@
 // The results of a measurement, independent of the output format: numbers, tables and plots. One
 // writer each for text, JSON, CSV and HTML.
 
+#include "app/bench/statistics.hpp"
 #include "app/chart/plot.hpp"
 
 #include <cstdint>
@@ -50,8 +51,19 @@ struct Section {
   std::vector<Table> tables;
   std::vector<Plot> plots;
   std::vector<Map> maps;
-  bool sound = true;  ///< false if a requirement failed
+  std::vector<std::string> missed;  ///< required bounds that do not hold, with what was measured
+
+  [[nodiscard]] bool sound() const { return missed.empty(); }
+  /// Adds `missing` to the missed requirements unless `holds`.
+  void require(bool holds, std::string missing);
 };
+
+/// Adds a value with a bound that it must keep. A noisy value misses the bound if three quarters of
+/// its repetitions miss it; a counted value, which has no spread, if it exceeds the bound at all.
+void add_at_most(Section& section, std::string name, const Spread& measured, double limit,
+                 std::string_view about);
+void add_at_least(Section& section, std::string name, const Spread& measured, double limit,
+                  std::string_view about);
 
 /// The effort of a measurement. `quick`: all sections together take at most 3 minutes on 2 cores.
 struct Effort {

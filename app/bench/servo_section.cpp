@@ -258,27 +258,19 @@ Table clay_table(const std::vector<double>& k_values) {
   return table;
 }
 
-Value counted(std::string name, double value, std::string about) {
-  return {std::move(name), value, 0.0, std::move(about)};
-}
-
 void conclude(Section& section, const Verdict& v) {
-  section.values = {
-      counted("border_error_percent", v.border_error_percent,
-              "maximum, relative to the stable stiffness"),
-      counted("passivity_error_percent", v.passivity_error_percent,
-              "maximum, relative to the required damping"),
-      counted("stable_cells", v.stable_cells, "of the energy plot"),
-      counted("worst_stable_cycle_mj", v.worst_stable_cycle_mj,
-              "maximum energy injected in one of them, minus its tolerance"),
-      counted("buzzing_cells_bare", v.buzzing_cells, "limit cycle above 0.2 mm without controller"),
-      counted("worst_swing_controlled_mm", v.worst_controlled_mm,
-              "largest limit cycle with it, peak to peak"),
-  };
-  section.sound = v.border_error_percent <= kMaxBorderErrorPercent &&
-                  v.passivity_error_percent <= kMaxBorderErrorPercent &&
-                  v.worst_stable_cycle_mj <= 0.0 && v.buzzing_cells > 0 &&
-                  v.worst_controlled_mm <= closed_loop::kMostSwingMm;
+  add_at_most(section, "border_error_percent", counted(v.border_error_percent),
+              kMaxBorderErrorPercent, "maximum, relative to the stable stiffness");
+  add_at_most(section, "passivity_error_percent", counted(v.passivity_error_percent),
+              kMaxBorderErrorPercent, "maximum, relative to the required damping");
+  section.values.push_back(
+      {"stable_cells", static_cast<double>(v.stable_cells), 0.0, "of the energy plot"});
+  add_at_most(section, "worst_stable_cycle_mj", counted(v.worst_stable_cycle_mj), 0.0,
+              "maximum energy injected in one of them, minus its tolerance");
+  add_at_least(section, "buzzing_cells_bare", counted(v.buzzing_cells), 1.0,
+               "limit cycle above 0.2 mm without controller");
+  add_at_most(section, "worst_swing_controlled_mm", counted(v.worst_controlled_mm),
+              closed_loop::kMostSwingMm, "largest limit cycle with it, peak to peak");
 }
 
 }  // namespace

@@ -21,12 +21,7 @@ struct Spread {
 /// Of a[k] / b[k] for the common length: round by round, so that noise affects both.
 [[nodiscard]] Spread ratio_of(const std::vector<double>& a, const std::vector<double>& b);
 
-/// A requirement on a noisy median is missed if three quarters of the repetitions miss it.
-[[nodiscard]] inline bool exceeds(const Spread& measured, double limit) {
-  return measured.low > limit;
-}
-[[nodiscard]] inline bool falls_short(const Spread& measured, double limit) {
-  return measured.high < limit;
-}
+/// A counted value: it has no spread.
+[[nodiscard]] inline Spread counted(double value) { return {value, value, value}; }
 
 }  // namespace clay::bench

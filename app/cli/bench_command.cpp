@@ -125,6 +125,9 @@ Result<int> run_bench(BenchOptions options, Console console) {
     return tl::make_unexpected(published.error());
   if (console.json) print_json(bench::json_of(report));
   for (const bench::Section& section : report.sections) console.print(bench::text_of(section));
+  for (const bench::Section& section : report.sections)
+    for (const std::string& missed : section.missed)
+      console.warn("required bound not met: " + section.id + ": " + missed);
   return report.sound() ? kDone : kUnsound;
 }
 

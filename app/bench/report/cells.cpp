@@ -18,7 +18,7 @@ Overloaded(Calls...) -> Overloaded<Calls...>;
 }  // namespace
 
 bool Report::sound() const {
-  return std::ranges::all_of(sections, [](const Section& section) { return section.sound; });
+  return std::ranges::all_of(sections, [](const Section& section) { return section.sound(); });
 }
 
 std::string short_number(double value) {

@@ -89,7 +89,9 @@ std::string figure_of(const Drawing& drawing) {
 std::string html_of(const Section& section) {
   std::string html =
       fmt::format("<section>\n<h2 id=\"section-{}\">{}{}</h2>\n<p>{}</p>\n", escaped(section.id),
-                  escaped(section.title), verdict_of(section.sound), escaped(section.summary));
+                  escaped(section.title), verdict_of(section.sound()), escaped(section.summary));
+  for (const std::string& missed : section.missed)
+    html += fmt::format("<p class=\"verdict no\">Not met: {}</p>\n", escaped(missed));
   html += html_of(section.values);
   for (const Plot& plot : section.plots) html += figure_of(plot);
   for (const Map& map : section.maps) html += figure_of(map);

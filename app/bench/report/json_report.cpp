@@ -76,7 +76,8 @@ Json titles_of(const std::vector<Part>& parts) {
 Json description_of(const Section& section) {
   return {{"id", section.id},
           {"title", section.title},
-          {"sound", section.sound},
+          {"sound", section.sound()},
+          {"missed", section.missed},
           {"summary", section.summary},
           {"tables", titles_of(section.tables)},
           {"plots", titles_of(section.plots)},

@@ -51,8 +51,8 @@ std::string text_of(const Table& table) {
 }  // namespace
 
 std::string text_of(const Section& section) {
-  std::string text = fmt::format("{}{}\n{}\n", section.title, section.sound ? "" : "  (NOT SOUND)",
-                                 section.summary);
+  std::string text = fmt::format("{}\n{}\n", section.title, section.summary);
+  for (const std::string& missed : section.missed) text += fmt::format("  NOT MET: {}\n", missed);
   std::size_t width = 0;
   for (const Value& value : section.values) width = std::max(width, letters(value.name));
   for (const Value& value : section.values) {

@@ -85,12 +85,31 @@ RC_GTEST_PROP(BenchStatistics, QuantileLiesBetweenNeighbouringOrderStatistics, (
   RC_ASSERT(value <= samples[static_cast<std::size_t>(std::ceil(at))]);
 }
 
-TEST(BenchStatistics, MissesALimitOnlyBeyondTheSpread) {
+TEST(BenchSection, MissesABoundOnlyIfThreeQuartersOfTheRepetitionsDo) {
   const Spread noisy{0.9, 1.1, 1.2};
-  EXPECT_FALSE(exceeds(noisy, 1.0));
-  EXPECT_TRUE(exceeds(noisy, 0.8));
-  EXPECT_FALSE(falls_short(noisy, 1.15));
-  EXPECT_TRUE(falls_short(noisy, 1.3));
+  Section section;
+  add_at_most(section, "a", noisy, 1.0, "ratio");
+  add_at_least(section, "b", noisy, 1.15, "ratio");
+  EXPECT_TRUE(section.sound());
+  add_at_most(section, "c", noisy, 0.8, "ratio");
+  add_at_least(section, "d", noisy, 1.3, "ratio");
+  add_at_most(section, "e", counted(kNan), 1.0, "ratio");
+  EXPECT_EQ(section.missed, (std::vector<std::string>{"c: required at most 0.8, measured 1.1",
+                                                      "d: required at least 1.3, measured 1.1",
+                                                      "e: required at most 1, measured –"}));
+  EXPECT_EQ(section.values.size(), 5U);
+  EXPECT_EQ(section.values[0].about, "ratio; required: at most 1");
+}
+
+TEST(BenchReport, NamesTheBoundsThatDoNotHold) {
+  Report report = odd_report();
+  EXPECT_TRUE(report.sound());
+  report.sections.front().require(false, "count: required at most 2, measured 3");
+  EXPECT_FALSE(report.sound());
+  const std::string missed = "count: required at most 2, measured 3";
+  EXPECT_NE(text_of(report.sections.front()).find(missed), std::string::npos);
+  EXPECT_NE(html_of(report).find(missed), std::string::npos);
+  EXPECT_EQ(json_of(report).at("sections").at(0).at("missed").at(0), missed);
 }
 
 TEST(BenchTiming, RunsEveryWorkloadEveryRoundAndAveragesRepetitions) {
