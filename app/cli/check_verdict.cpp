@@ -211,6 +211,10 @@ void print_verdict(const Console& console, const std::string& file, const Verdic
   const MeshState state = was_repaired ? verdict.repair_summary->before : verdict.state;
   console.print(fmt::format("{}: {}", file, headline(state, verdict.findings)));
   if (was_repaired) print_repair(console, *verdict.repair_summary, verdict);
+  for (const auto& problem : mesh.problems)
+    console.print(fmt::format("  {}{} ({}{}): {}", was_repaired ? "remaining: " : "", problem.what,
+                              problem.count == kCountingStops ? "at least " : "", problem.count,
+                              problem.where));
   const auto yes = [](bool value) { return value ? "yes" : "no"; };
   if (verdict.examined) {
     console.print(fmt::format(
@@ -226,10 +230,6 @@ void print_verdict(const Console& console, const std::string& file, const Verdic
   for (const auto& [check, grade, text] : verdict.findings)
     console.print(fmt::format("  {}: {}: {}", check, name_of(grade), text));
   for (const std::string& note : verdict.notes) console.print("  note: " + note);
-  for (const auto& problem : mesh.problems)
-    console.print(fmt::format("  {}{} ({}{}): {}", was_repaired ? "remaining: " : "", problem.what,
-                              problem.count == kCountingStops ? "at least " : "", problem.count,
-                              problem.where));
 }
 
 }  // namespace clay::cli
