@@ -96,12 +96,13 @@ if(TARGET claystack_servo)
     LIBS -lclaystack_servo LIBS_PRIVATE -pthread)
 endif()
 
-configure_package_config_file(cmake/ClaystackConfig.cmake.in
-  ${PROJECT_BINARY_DIR}/ClaystackConfig.cmake INSTALL_DESTINATION ${claystack_config_dir})
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/ClaystackConfigVersion.cmake
+# With these names the package is found as Claystack and as claystack.
+configure_package_config_file(cmake/claystack-config.cmake.in
+  ${PROJECT_BINARY_DIR}/claystack-config.cmake INSTALL_DESTINATION ${claystack_config_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/claystack-config-version.cmake
   COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/ClaystackConfig.cmake
-              ${PROJECT_BINARY_DIR}/ClaystackConfigVersion.cmake
+install(FILES ${PROJECT_BINARY_DIR}/claystack-config.cmake
+              ${PROJECT_BINARY_DIR}/claystack-config-version.cmake
         DESTINATION ${claystack_config_dir})
 
 include(cmake/ClaystackPackages.cmake)

@@ -55,6 +55,10 @@ std::string short_number_text(double value) {
 }
 std::string in_mm(double mm) { return digits_of(mm, std::chars_format::general, 9); }
 
+std::string counted(std::size_t count, std::string_view noun) {
+  return std::to_string(count).append(" ").append(noun).append(count == 1 ? "" : "s");
+}
+
 std::string_view without_byte_order_mark(std::string_view text) noexcept {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   return text;
@@ -68,6 +72,8 @@ std::string_view known_kind(std::string_view bytes) {
   if (const std::size_t at = first.find("claystack-"); at != std::string_view::npos)
     for (const auto& [schema, kind] : kSchemas)
       if (first.substr(at).starts_with(schema)) return kind;
+  if (bytes.starts_with("{") && first.find("\"strokes\"") != std::string_view::npos)
+    return "a stroke script";
   return bytes.starts_with("{") ? "a JSON file" : std::string_view();
 }
 

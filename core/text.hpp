@@ -2,6 +2,7 @@
 // Formats numbers and kinds of files for messages.
 #include "claystack/core/result.hpp"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,8 @@ namespace clay {
 [[nodiscard]] std::string short_number_text(double value);
 /// Nine significant digits: enough to distinguish neighbouring float32 values.
 [[nodiscard]] std::string in_mm(double mm);
+/// "1 warning", "2 warnings": for nouns with a plural in s.
+[[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
 
 /// The kind of a file by its first bytes, such as "a Draco mesh" or "a pot"; empty if unknown.
 [[nodiscard]] std::string_view known_kind(std::string_view bytes);

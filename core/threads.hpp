@@ -1,6 +1,6 @@
 #pragma once
-// Whether the program can start threads. In a web page it cannot: work that natively has a thread
-// of its own is done by the caller, between frames or in a worker of the page.
+// Whether the program can start threads. In a web page it cannot: work that natively has its own
+// thread is done by the caller, between frames or in a worker of the page.
 
 #include <future>
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdlib>
 
-namespace clay::cli {
+namespace clay {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,4 +39,4 @@ fs::path user_folder(UserFolder kind) {
   return base / "claystack";
 }
 
-}  // namespace clay::cli
+}  // namespace clay

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-namespace clay::cli {
+namespace clay {
 
 enum class UserFolder {
   config,  ///< $XDG_CONFIG_HOME, by default ~/.config
@@ -19,4 +19,4 @@ enum class UserFolder {
 inline constexpr const char* kNoHome =
     "expected a home folder, found none: HOME is not set, and the password file has no entry";
 
-}  // namespace clay::cli
+}  // namespace clay

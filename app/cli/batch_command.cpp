@@ -2,6 +2,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/json_output.hpp"
 #include "app/cli/output_files.hpp"
+#include "app/cli/usage.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "core/json/object_reader.hpp"
@@ -240,16 +241,16 @@ void add_batch_command(CLI::App& app, Console& console, int& exit) {
                    "JOBS.jsonl, or - for standard input: a line for each job, {\"id\": \"bowl\", "
                    "\"run\": [\"export\", \"bowl.pot.json\", \"bowl.stl\"]}")
       ->required();
-  command->add_option("-o,--out", options->results,
+  command->add_option("-o,--output", options->results,
                       "File for the results, appended; jobs whose results it has are skipped, but "
                       "those that could not be done run again (default: standard output)");
   command
       ->add_option("-j,--jobs", options->processes,
                    "Number of jobs that run at the same time (default: one for each core)")
-      ->check(CLI::Range(1, 1024));
+      ->check(in_whole_range(1, 1024));
   command
       ->add_option("--time-limit", options->time_limit_s,
-                   "Time after which a job is ended [s] (default 600)")
+                   "Time after which a job is ended [s] (default: 600)")
       ->check(in_range(0.01, 1e6));
   command->add_option("--part", options->part,
                       "Run only the jobs K, K+N, K+2N, ...: K/N, for one task of a job array");

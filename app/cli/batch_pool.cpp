@@ -67,8 +67,8 @@ struct Running {
 
 /// In the child: never returns.
 [[noreturn]] void become(const std::vector<std::string>& words, int out, int err) {
-  // A group of its own, so that a time limit ends all of its processes; and no job outlives the
-  // batch.
+  // A separate process group, so that a time limit ends all of its processes; and no job outlives
+  // the batch.
   (void)::setpgid(0, 0);
   (void)::prctl(PR_SET_PDEATHSIG, SIGTERM);
   const int nothing = ::open("/dev/null", O_RDONLY);

@@ -1,6 +1,7 @@
 #include "app/cli/check.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/output_files.hpp"
+#include "app/cli/usage.hpp"
 #include "core/text.hpp"
 
 #include "claystack/core/atomic_file.hpp"
@@ -116,7 +117,7 @@ void add_demands(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
   sub->add_option("--wall-samples", command->wall_samples,
                   "Number of rays that sample the walls of a mesh; they may "
                   "miss the thinnest place (pots are measured, not sampled)")
-      ->check(CLI::Range(std::size_t{1}, solid::kMostWallSamples))
+      ->check(in_whole_range(1, solid::kMostWallSamples))
       ->capture_default_str();
   sub->add_option("--certificate", command->certificate,
                   "Certificate of the file, to be verified against its bytes");
@@ -126,7 +127,7 @@ void add_demands(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
          "Exit with status 0 for a mesh that is sound, or also for one that prints: its closed "
          "shells intersect in a few places or are nested, and a slicer unites them (default: "
          "sound). Other checks must not fail")
-      ->check(CLI::IsMember({"sound", "prints"}));
+      ->check(one_of({"sound", "prints"}));
 }
 
 void add_repair_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
@@ -136,18 +137,18 @@ void add_repair_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& comm
   sub->add_option("--weld", command->repair_options.weld_mm,
                   "With --repair: width of the cracks that are welded [mm]; default: a quarter of "
                   "the shortest edge at a border, at most 1/1000 of the size of the mesh")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(in_range(0.0, 1e6));
   sub->add_flag("--cap", command->repair_options.cap_openings,
                 "With --repair: close wide openings by caps instead of refusing them");
   sub->add_option("--thicken", command->repair_options.thicken_mm,
                   "With --repair: thickness of the wall that a surface with a wide opening gets, "
                   "half on each side [mm]; default: such a surface is refused")
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check(in_range(1e-3, 1e6));
   sub->add_option(
          "--wrap", command->repair_options.wrap_mm,
          "With --repair, if all else fails: replace the surface by a wrap at this distance "
          "around it [mm], which loses smaller details; default: such a mesh is refused")
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check(in_range(1e-3, 1e6));
 }
 
 /// The changed mesh.
@@ -156,9 +157,9 @@ void add_output_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& comm
   sub->add_option("--max-triangles", command->max_triangles,
                   "Maximum number of triangles: decimates a closed mesh after any repair, and "
                   "measures the error")
-      ->check(CLI::Range(solid::kFewestTriangles, solid::kMaxTriangles));
+      ->check(in_whole_range(solid::kFewestTriangles, solid::kMaxTriangles));
   sub->add_option(
-      "-o,--out", command->out,
+      "-o,--output", command->out,
       "File for the repaired or decimated mesh: " + solid::format_endings(solid::FormatUse::write) +
           "; or - for a binary STL on standard output. Written even if nothing had to be changed; "
           "verdict and exit status are those of the "

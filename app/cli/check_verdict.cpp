@@ -1,4 +1,5 @@
 #include "app/cli/check.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -124,7 +125,7 @@ Json findings_json(const std::vector<Finding>& findings) {
   return json;
 }
 
-/// "sound", or "sound; walls fail".
+/// "sound", or "sound; walls: fail".
 std::string headline(MeshState state, const std::vector<Finding>& findings) {
   std::string text(name_of(state));
   if (state == MeshState::prints) text += " (not sound, but a slicer unites its shells)";
@@ -210,14 +211,18 @@ void print_verdict(const Console& console, const std::string& file, const Verdic
   const MeshState state = was_repaired ? verdict.repair_summary->before : verdict.state;
   console.print(fmt::format("{}: {}", file, headline(state, verdict.findings)));
   if (was_repaired) print_repair(console, *verdict.repair_summary, verdict);
+  for (const auto& problem : mesh.problems)
+    console.print(fmt::format("  {}{} ({}{}): {}", was_repaired ? "remaining: " : "", problem.what,
+                              problem.count == kCountingStops ? "at least " : "", problem.count,
+                              problem.where));
   const auto yes = [](bool value) { return value ? "yes" : "no"; };
   if (verdict.examined) {
     console.print(fmt::format(
         "  closed {}, manifold {}, oriented {}, bounds a volume {}, self-intersections {}",
         yes(mesh.closed), yes(mesh.manifold), yes(mesh.oriented), yes(mesh.bounds_volume),
         mesh.self_intersections));
-    console.print(fmt::format("  {} triangles, {} component(s), {:.3f} cm3", mesh.triangles,
-                              mesh.components, mesh.volume_mm3 / 1000.0));
+    console.print(fmt::format("  {}, {}, {:.3f} cm3", counted(mesh.triangles, "triangle"),
+                              counted(mesh.components, "component"), mesh.volume_mm3 / 1000.0));
   }
   if (verdict.wall_mm) console.print(fmt::format("  minimum wall {:.3f} mm", *verdict.wall_mm));
   if (verdict.wall_sampled) print_wall(console, *verdict.wall_sampled);
@@ -225,10 +230,6 @@ void print_verdict(const Console& console, const std::string& file, const Verdic
   for (const auto& [check, grade, text] : verdict.findings)
     console.print(fmt::format("  {}: {}: {}", check, name_of(grade), text));
   for (const std::string& note : verdict.notes) console.print("  note: " + note);
-  for (const auto& problem : mesh.problems)
-    console.print(fmt::format("  {}{} ({}{}): {}", was_repaired ? "remaining: " : "", problem.what,
-                              problem.count == kCountingStops ? "at least " : "", problem.count,
-                              problem.where));
 }
 
 }  // namespace clay::cli

@@ -1,8 +1,8 @@
 #include "app/cli/console.hpp"
 #include "app/cli/json_output.hpp"
 #include "app/cli/memory_room.hpp"
+#include "app/cli/usage.hpp"
 #include "claystack/core/atomic_file.hpp"
-#include "core/number_text.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -109,18 +109,11 @@ void Console::detail(std::string_view line) const {
   if (verbose) print(line);
 }
 
-void Console::warn(std::string_view line) const { put_err(fmt::format("claystack: {}\n", line)); }
-
-std::function<std::string(const std::string&)> in_range(double low, double high) {
-  return [=](const std::string& text) -> std::string {
-    double value = 0.0;
-    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
-    // Not (value < low): NaN must fail.
-    if (error == std::errc() && end == text.data() + text.size() && value >= low && value <= high)
-      return {};
-    return fmt::format("expected a number from {:g} to {:g}, found {}", low, high, text);
-  };
+void Console::warn(std::string_view line) const {
+  put_err(fmt::format("claystack: warning: {}\n", line));
 }
+
+void Console::error(std::string_view line) const { put_err(fmt::format("claystack: {}\n", line)); }
 
 namespace {
 
@@ -168,11 +161,17 @@ int report(const Error& error, Json fields) {
 }
 
 int report(const CLI::App& app, const CLI::ParseError& error) {
-  std::ostringstream out, err;
-  const int status = app.exit(error, out, err);
-  put_out(out.str());
-  put_err(err.str());
-  return status == 0 ? kDone : report_as({ErrorKind::bad_input, error.what()}, Json::object());
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+    std::ostringstream out;
+    app.exit(error, out, out);
+    put_out(out.str());
+    return kDone;
+  }
+  const std::string message = usage_message(app, error);
+  const auto parsed = app.get_subcommands();
+  put_err(fmt::format("claystack: {}\nrun {}{} --help for usage\n", message, app.get_name(),
+                      parsed.empty() ? "" : " " + parsed.front()->get_name()));
+  return report_as({ErrorKind::bad_input, message}, Json::object());
 }
 
 int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexcept {

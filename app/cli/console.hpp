@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -35,11 +34,9 @@ struct Console {
 
   void print(std::string_view line) const;   ///< to stdout, for people; silent with json or quiet
   void detail(std::string_view line) const;  ///< as `print`, if verbose
-  void warn(std::string_view line) const;    ///< to stderr
+  void warn(std::string_view line) const;    ///< "claystack: warning: LINE" to stderr
+  void error(std::string_view line) const;   ///< "claystack: LINE" to stderr; the work goes on
 };
-
-/// For CLI options: accepts a finite number within the range; errors show the bounds in short form.
-[[nodiscard]] std::function<std::string(const std::string&)> in_range(double low, double high);
 
 /// "claystack: MESSAGE" on stderr; the exit status of the error's kind. With `print_errors_as_json`
 /// also an object on stdout, samples/schema/error.schema.json.

@@ -1,6 +1,7 @@
 #include "app/cli/device_choice.hpp"
 
 #include "app/cli/console.hpp"
+#include "app/cli/usage.hpp"
 
 #ifdef CLAYSTACK_USB
 #include "claystack/falcon/usb.hpp"
@@ -46,13 +47,13 @@ void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings) {
                                                       : falcon::kMartinHillierGeometry;
           },
           "Dimensions of the Falcon's arms: libnifalcon or martin-hillier")
-      ->check(CLI::IsMember({"libnifalcon", "martin-hillier"}))
+      ->check(one_of({"libnifalcon", "martin-hillier"}))
       ->default_str("libnifalcon");
   command
       .add_option(
           "--motor-counts", settings.motor_counts_per_nmm,
           "Motor counts of a Falcon per 1 N mm at an arm; a larger number gives a larger force")
-      ->check(CLI::Validator(in_range(1e-3, 1e3), ""))
+      ->check(in_range(1e-3, 1e3))
       ->capture_default_str();
 }
 

@@ -3,6 +3,7 @@
 #include "app/cli/device_monitor.hpp"
 #include "app/cli/json_output.hpp"
 #include "app/cli/live_throw.hpp"
+#include "app/cli/usage.hpp"
 #include "app/servo/words.hpp"
 #include "claystack/falcon/usb.hpp"
 
@@ -57,12 +58,24 @@ Json entry_json(const Entry& entry) {
   return json;
 }
 
+const char* words_of(falcon::DeviceState state) {
+  switch (state) {
+    case falcon::DeviceState::ready:
+      return "ready";
+    case falcon::DeviceState::needs_homing:
+      return "needs homing";
+    case falcon::DeviceState::needs_firmware:
+      return "needs firmware";
+    case falcon::DeviceState::fault:
+      return "fault";
+    default:
+      return "closed";
+  }
+}
+
 void print_entry(const Entry& entry, const Console& console) {
   const falcon::ListedDevice& device = entry.listed;
-  const char* state = !device.usable                                     ? "can't be used"
-                      : entry.state == falcon::DeviceState::ready        ? "ready"
-                      : entry.state == falcon::DeviceState::needs_homing ? "needs homing"
-                                                                         : "open";
+  const char* state = device.usable ? words_of(entry.state) : "cannot be used";
   console.print(
       fmt::format("{:<11}{:<16}{}: {}", name_of(device.kind), device.place, device.name, state));
   if (device.problem) console.print("  " + device.problem->message);
@@ -101,7 +114,7 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
   open.write({});
   const falcon::DeviceState state = open.read(100'000).state;
   const falcon::DeviceInfo& info = open.info();
-  console.print(fmt::format("{} at {}: {}", info.name, info.place, name_of(state)));
+  console.print(fmt::format("{} at {}: {}", info.name, info.place, words_of(state)));
   if (state == falcon::DeviceState::needs_homing) console.print(servo::kHomingAdvice);
   if (console.json)
     print_json({{"name", info.name},
@@ -123,13 +136,13 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
   command
       ->add_option("which", options->which,
                    "Device to open: auto, falcon, bridge, spacemouse, simulated, or its place")
-      ->check(CLI::Validator(check_device_name, ""));
+      ->check(check_device_name);
   add_falcon_options(*command, options->falcon);
   command->add_flag("--monitor", options->monitor, "Show position and buttons until interrupted");
   command
       ->add_option("--seconds", options->seconds,
                    "Duration of the monitor [s] (default: until interrupted)")
-      ->check(CLI::Validator(in_range(0.0, 1e6), ""));
+      ->check(in_range(0.0, 1e6));
   add_place_options(*command, options->mapping);
   command->footer(
       "\nExamples:\n  claystack devices\n  claystack devices falcon --firmware FILE --monitor\n"

@@ -7,6 +7,7 @@
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
 #include "app/cli/report_file.hpp"
+#include "app/cli/usage.hpp"
 #include "app/cli/wall_options.hpp"
 
 #include "claystack/core/atomic_file.hpp"
@@ -375,7 +376,7 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
   sub->add_option("--smooth", command->smooth,
                   "fair: smooth walls; exact: smooth walls, every ring keeps its volume; none: the "
                   "steps of the rings remain")
-      ->check(CLI::IsMember({"fair", "exact", "none"}))
+      ->check(one_of({"fair", "exact", "none"}))
       ->capture_default_str();
   sub->add_option_function<std::string>(
          "--smooth-length",
@@ -393,11 +394,11 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
   add_finish_options(*sub, command->request.options, command->glaze_mm);
   sub->add_option("--segments", command->request.options.segments,
                   "Facets around the axis (default: chosen from the tolerance)")
-      ->check(CLI::Range(3, 1 << 20));
+      ->check(in_whole_range(3, 1 << 20));
   sub->add_option(
          "--max-triangles", command->request.options.max_triangles,
          "Maximum number of triangles (default: no limit); facets may then exceed the tolerance")
-      ->check(CLI::Range(8, 20'000'000));
+      ->check(in_whole_range(8, 20'000'000));
   sub->add_option(
          "--drain", command->request.options.drain_mm,
          "Diameter of a hole along the axis that opens closed cavities [mm] (default: none)")
@@ -414,7 +415,7 @@ void add_file_options(CLI::App* sub, const SharedCommand& command) {
   sub->add_flag("--measure-left-out", command->request.options.measure_left_out,
                 "Also run the skipped stages, and report the time [s] that skipping saves");
   sub->add_option("--report", command->request.report_path,
-                  "File for the report: .html: a page to print; any other: what --json prints");
+                  "File for the report: .html: a page to print; .json: what --json prints");
   sub->add_option(
          "--precision", command->precision_mm,
          "Rounding of radii in pot files [mm] (default: exact); meshes keep the exact radii")
@@ -424,22 +425,22 @@ void add_file_options(CLI::App* sub, const SharedCommand& command) {
   sub->add_option("--verify", command->verify,
                   "margins: prove the rounding, read the file back; full: also check the file "
                   "like any foreign mesh, with the exact self-intersection test")
-      ->check(CLI::IsMember({"margins", "full"}))
+      ->check(one_of({"margins", "full"}))
       ->capture_default_str();
   sub->add_option("--step", command->step,
                   "Walls in a .step: spline: one smooth surface for each wall, within the "
                   "tolerance; lines: cones, exactly (default: spline)")
-      ->check(CLI::IsMember({"spline", "lines"}));
+      ->check(one_of({"spline", "lines"}));
   sub->add_option(
          "--glb", command->glb,
          "Mesh in a .glb: draco: compressed, within the tolerance; meshopt: compressed, larger, "
          "unpacked faster; core: plain, for readers without either (default: draco)")
-      ->check(CLI::IsMember({"draco", "meshopt", "core"}));
+      ->check(one_of({"draco", "meshopt", "core"}));
   sub->add_flag("--wall-map", command->request.options.wall_map,
                 "Colour a .glb and a .3mf by the wall thickness, as the window does");
   sub->add_option("--material", command->material,
                   "Clay or glaze of a .glb, as for render (default: terracotta)")
-      ->check(CLI::IsMember(material_ids()));
+      ->check(one_of(material_ids()));
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");
   sub->add_flag("--normals", command->request.options.normals,
                 "Write .obj with normals, for shading");

@@ -1,6 +1,7 @@
 #include "app/cli/export_report.hpp"
 
 #include "app/cli/maker_table.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -134,9 +135,9 @@ void print_fairing(const Console& console, const solid::FairingReport& fairing) 
   if (fairing.shortened.empty()) return;
   const solid::ShortenedFairing& first = fairing.shortened.front();
   console.detail(fmt::format(
-      "fairing shortened for walls: {} stretch(es), the first from {:.2f} to {:.2f} mm ({:.3g} mm "
+      "fairing shortened for walls in {}, the first from {:.2f} to {:.2f} mm ({:.3g} mm "
       "there)",
-      fairing.shortened.size(), first.from_mm, first.to_mm, first.length_mm));
+      counted(fairing.shortened.size(), "place"), first.from_mm, first.to_mm, first.length_mm));
 }
 
 /// Where smoothing kept steps: one line for each reason.
@@ -149,11 +150,11 @@ void print_smoothing(const Console& console, const ExportReport& report) {
                                     report.section.smoothed.guard.end(), is);
     if (first == report.section.smoothed.guard.end()) continue;
     console.detail(fmt::format(
-        "steps kept for {}: {} stretch(es), the first from {:.2f} to {:.2f} mm ({:.3f} mm if "
+        "steps kept for {} in {}, the first from {:.2f} to {:.2f} mm ({:.3f} mm if "
         "smoothed)",
         solid::name_of(reason),
-        std::count_if(report.section.smoothed.guard.begin(), report.section.smoothed.guard.end(),
-                      is),
+        counted(static_cast<std::size_t>(std::ranges::count_if(report.section.smoothed.guard, is)),
+                "place"),
         first->from_mm, first->to_mm, first->smoothed_mm));
   }
   if (report.walls.as_steps_mm)
@@ -179,11 +180,11 @@ void print_shrinkage(const Console& console, const ExportReport& report) {
 }
 
 void print_solid(const Console& console, const ExportReport& report) {
-  console.detail(
-      fmt::format("proved: {}closed and embedded, from {} profile vertices; {} triangles in "
-                  "{} shell(s)",
-                  report.collapsed ? "each part before the fall " : "",
-                  report.section.planar.vertices, report.size.triangles, report.size.shells));
+  console.detail(fmt::format(
+      "proved: {}closed and embedded, from {} profile vertices; {} triangles in "
+      "{}",
+      report.collapsed ? "each part before the fall " : "", report.section.planar.vertices,
+      report.size.triangles, counted(report.size.shells, "shell")));
   console.detail(
       fmt::format("volume {:.3f} cm3, relative difference {}to the counted clay {:.1e}; minimum "
                   "wall {:.2f} mm at "
@@ -334,9 +335,10 @@ std::string verdict_of(const ExportReport& report) {
   for (const solid::Problem& problem : solid::problems_of(report))
     ++(problem.fails ? faults : notes);
   if (faults > 0)
-    return fmt::format("closed and without self-intersections, but {} limit(s) failed", faults);
+    return fmt::format("closed and without self-intersections, but {} failed",
+                       counted(faults, "limit"));
   return fmt::format("closed and without self-intersections{}",
-                     notes > 0 ? fmt::format("; {} warning(s)", notes) : std::string());
+                     notes > 0 ? "; " + counted(notes, "warning") : std::string());
 }
 
 std::string wall_row(const ExportReport& report) {
@@ -433,7 +435,10 @@ void print_summary(const Console& console, const ExportReport& report) {
 bool print_problems(const Console& console, const ExportReport& report) {
   bool fails = false;
   for (const solid::Problem& problem : solid::problems_of(report)) {
-    console.warn(problem.text);
+    if (problem.fails)
+      console.error(problem.text);
+    else
+      console.warn(problem.text);
     fails = fails || problem.fails;
   }
   if (report.walls.limit && report.has_solid() && !solid::thin_wall_of(report))

@@ -1,6 +1,7 @@
 #include "app/cli/finish_options.hpp"
 
 #include "app/cli/console.hpp"
+#include "app/cli/usage.hpp"
 #include "core/number_text.hpp"
 
 #include <fmt/format.h>

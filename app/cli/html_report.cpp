@@ -216,8 +216,8 @@ class Page {
                                         thinnest.from.y)},
           "td", false);
       if (const auto& limit = report_.walls.limit)
-        row({"asked", fmt::format("{:.2f} mm ({})", limit->min_wall_mm, limit->asked_by())}, "td",
-            false);
+        row({"required", fmt::format("{:.2f} mm ({})", limit->min_wall_mm, limit->asked_by())},
+            "td", false);
       if (const auto& fairing = report_.section.smoothed.fairing; fairing.length_mm > 0.0)
         row({"fairing",
              fmt::format(

@@ -5,12 +5,14 @@
 #include "app/import/drawn_pot.hpp"
 #ifdef CLAYSTACK_EXPORT
 #include "app/cli/import_mesh.hpp"
+#include "app/cli/usage.hpp"
 #include "claystack/export/formats.hpp"
 #endif
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "core/number_text.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -66,20 +68,48 @@ Json summary(const ImportOptions& options, const HalfSection& section, const Dra
           {"deviation_at_mm", {deviation.radius_mm, deviation.height_mm}}};
 }
 
-void tell(const Console& console, const Json& json) {
+const char* axis_source(const ImportOptions& options, const HalfSection& section) {
+  switch (section.axis) {
+    case AxisRule::middle:
+      return "the middle of the drawing";
+    case AxisRule::left:
+      return "its left end";
+    case AxisRule::line:
+      return "its vertical line";
+    default:
+      return options.axis.empty() ? "zero in the file" : "--axis";
+  }
+}
+
+void print_summary(const Console& console, const ImportOptions& options, const HalfSection& section,
+                   const Json& json) {
   console.print(fmt::format("axis at x = {:.3f} mm of the drawing ({})",
-                            json["axis_mm"].get<double>(), json["axis"].get<std::string>()));
-  console.print(fmt::format(
-      "{} rings of {:.4g} mm: {:.1f} mm high, {:.1f} cm3 of clay ({:.1f} cm3 in the drawing)",
-      json["rings"].get<std::size_t>(), json["ring_height_mm"].get<double>(),
-      json["height_mm"].get<double>(), json["volume_mm3"].get<double>() / 1e3,
-      json["drawn_mm3"].get<double>() / 1e3));
+                            json["axis_mm"].get<double>(), axis_source(options, section)));
+  console.print(fmt::format("{} of {:.4g} mm: {:.1f} mm high, {:.1f} cm3 of clay ({:.1f} cm3 {})",
+                            counted(json["rings"].get<std::size_t>(), "ring"),
+                            json["ring_height_mm"].get<double>(), json["height_mm"].get<double>(),
+                            json["volume_mm3"].get<double>() / 1e3,
+                            json["drawn_mm3"].get<double>() / 1e3,
+                            options.pot_settings.wall_mm ? "if it were solid" : "in the drawing"));
   console.print(fmt::format(
       "largest deviation from the drawing: {:.3f} mm, {:.2f} mm from the axis and {:.2f} mm above "
       "the foot",
       json["deviation_mm"].get<double>(), json["deviation_at_mm"][0].get<double>(),
       json["deviation_at_mm"][1].get<double>()));
 }
+
+#ifdef CLAYSTACK_EXPORT
+/// Refuses options that only a drawing has.
+Result<void> check_mesh_options(const ImportOptions& options) {
+  for (const auto& [option, given] : {std::pair("--axis", !options.axis.empty()),
+                                      {"--layer", !options.layer.empty()},
+                                      {"--wall", options.pot_settings.wall_mm.has_value()}})
+    if (given)
+      return failure(ErrorKind::bad_input, fmt::format("{}: expected a drawing, found the mesh {}",
+                                                       option, options.drawing));
+  return {};
+}
+#endif
 
 Result<void> import_drawing(ImportOptions options, Console console) {
   if (options.pot == "-") console.quiet = true;
@@ -88,13 +118,7 @@ Result<void> import_drawing(ImportOptions options, Console console) {
   if (auto free = check_outputs({{options.pot}}, {options.drawing}, console); !free) return free;
 #ifdef CLAYSTACK_EXPORT
   if (solid::mesh_format_of(options.drawing)) {
-    for (const auto& [option, given] : {std::pair("--axis", !options.axis.empty()),
-                                        {"--layer", !options.layer.empty()},
-                                        {"--wall", options.pot_settings.wall_mm.has_value()}})
-      if (given)
-        return failure(
-            ErrorKind::bad_input,
-            fmt::format("{}: expected a drawing, found the mesh {}", option, options.drawing));
+    if (auto fit = check_mesh_options(options); !fit) return fit;
     return import_mesh(options.drawing, options.pot,
                        {options.section.height_mm, options.pot_settings}, console);
   }
@@ -114,7 +138,7 @@ Result<void> import_drawing(ImportOptions options, Console console) {
   if (auto done = publish(options.pot, write_pot(pot->pot, encoding)); !done) return done;
   const Json json = summary(options, *section, *pot);
   if (console.json) print_json(json);
-  tell(console, json);
+  print_summary(console, options, *section, json);
   if (!options.pot_settings.ring_height_mm && pot->deviation.mm > kDrawnDeviationMm)
     console.warn(
         fmt::format("{}: the rings deviate from the drawing by {:.3f} mm, although they are "
@@ -122,6 +146,34 @@ Result<void> import_drawing(ImportOptions options, Console console) {
                     options.drawing, pot->deviation.mm, pot->pot.stack.ring_height_mm()));
   console.print("pot: " + options.pot);
   return {};
+}
+
+void add_shape_options(CLI::App& command, ImportOptions& options) {
+  command.add_option(
+      "--axis", options.axis,
+      "Axis of the pot in the drawing: left, middle, or its x position [mm]; default: "
+      "a separate vertical line, the middle of a symmetric drawing, or its left end");
+  command.add_option("--layer", options.layer,
+                     "The only layer of an SVG or DXF drawing to read, by its name (default: all "
+                     "that are shown)");
+  command
+      .add_option("--height", options.section.height_mm,
+                  "Height of the pot: scales the drawing or mesh [mm] (default: as it is)")
+      ->check(in_range(0.01, 1e5));
+  command
+      .add_option("--wall", options.pot_settings.wall_mm,
+                  "Thickness of wall and floor, for a drawing that shows only the outside [mm] "
+                  "(default: solid)")
+      ->check(in_range(0.01, 1000.0));
+  command
+      .add_option("--ring-height", options.pot_settings.ring_height_mm,
+                  "Maximum ring height [mm] (default: 0.75, or less where the rings would deviate "
+                  "by more than 0.02 mm from the drawing)")
+      ->check(in_range(1e-3, 1e3));
+  command
+      .add_option("--density", options.pot_settings.density_g_cm3, "Density of the clay [g/cm3]")
+      ->check(in_range(0.1, 20.0))
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -134,34 +186,11 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
   command
       ->add_option(
           "drawing", options->drawing,
-          "NAME.svg, NAME.dxf or NAME.csv; or a mesh of a pot: NAME.stl, NAME.obj or NAME.drc")
+          "NAME.svg, NAME.dxf or NAME.csv; or a mesh of a pot: .stl, .obj, .drc, .ply, .off, .glb "
+          "or .3mf")
       ->required();
   command->add_option("-o,--output", options->pot, "NAME.pot.json or NAME.pot.cbor")->required();
-  command->add_option(
-      "--axis", options->axis,
-      "Axis of the pot in the drawing: left, middle, or its x position [mm]; default: "
-      "a separate vertical line, the middle of a symmetric drawing, or its left end");
-  command->add_option("--layer", options->layer,
-                      "The only layer of an SVG or DXF drawing to read, by its name (default: all "
-                      "that are shown)");
-  command
-      ->add_option("--height", options->section.height_mm,
-                   "Height of the pot: scales the drawing or mesh [mm] (default: as it is)")
-      ->check(in_range(0.01, 1e5));
-  command
-      ->add_option("--wall", options->pot_settings.wall_mm,
-                   "Thickness of wall and floor, for a drawing that shows only the outside [mm] "
-                   "(default: solid)")
-      ->check(in_range(0.01, 1000.0));
-  command
-      ->add_option("--ring-height", options->pot_settings.ring_height_mm,
-                   "Maximum ring height [mm] (default: 0.75, or less where the rings would deviate "
-                   "by more than 0.02 mm from the drawing)")
-      ->check(in_range(1e-3, 1e3));
-  command
-      ->add_option("--density", options->pot_settings.density_g_cm3, "Density of the clay [g/cm3]")
-      ->check(in_range(0.1, 20.0))
-      ->capture_default_str();
+  add_shape_options(*command, *options);
   command->footer(
       "\nExamples:\n"
       "  claystack import samples/drawings/jug.svg -o jug.pot.json --height 180\n"

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -46,8 +47,13 @@ Json summary(const std::string& name, const solid::TriangleMesh& mesh, double me
           {"not_of_revolution", std::move(parts)}};
 }
 
-void tell(const Console& console, const MeshPot& made, double mesh_mm3) {
-  const glm::dvec3 &foot = made.axis.through, &up = made.axis.direction;
+/// Rounded to 1 / units, without the sign of a negative zero.
+glm::dvec3 rounded(const glm::dvec3& v, double units) {
+  return glm::round(v * units) / units + 0.0;
+}
+
+void print_summary(const Console& console, const MeshPot& made, double mesh_mm3) {
+  const glm::dvec3 foot = rounded(made.axis.through, 1e3), up = rounded(made.axis.direction, 1e5);
   const ClayStack& stack = made.pot.stack;
   console.print(
       fmt::format("axis through ({:.3f}, {:.3f}, {:.3f}) mm along ({:.5f}, {:.5f}, {:.5f})", foot.x,
@@ -86,7 +92,7 @@ Result<void> import_mesh(const std::string& path, const std::string& pot,
   if (auto done = publish(pot, write_pot(made->pot, encoding)); !done) return done;
   const double mesh_mm3 = solid::signed_volume(*mesh);
   if (console.json) print_json(summary(path, *mesh, mesh_mm3, *made));
-  tell(console, *made, mesh_mm3);
+  print_summary(console, *made, mesh_mm3);
   console.print("pot: " + pot);
   return {};
 }

@@ -1,5 +1,6 @@
 #include "app/cli/device_choice.hpp"
 #include "app/cli/live_throw.hpp"
+#include "app/cli/usage.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -29,7 +30,7 @@ void add_place_options(CLI::App& command, servo::MappingSettings& mapping) {
                                              : servo::Side::right;
           },
           "Side of the pot on which the hand works: right, left or front")
-      ->check(CLI::IsMember({"right", "left", "front"}))
+      ->check(one_of({"right", "left", "front"}))
       ->default_str("right");
   command
       .add_option("--reach", mapping.reach_mm,
@@ -48,7 +49,7 @@ void add_place_options(CLI::App& command, servo::MappingSettings& mapping) {
             mapping.flip_z = axes.find('z') != std::string::npos;
           },
           "Axes to invert, for example xz (default: none)")
-      ->check(CLI::Validator(check_flip, ""));
+      ->check(check_flip);
 }
 
 void add_live_options(CLI::App& command, LiveOptions& options) {
@@ -56,7 +57,7 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
   command
       .add_option("--device", options.device,
                   "Device to throw with: auto, falcon, bridge, spacemouse, simulated, or its place")
-      ->check(CLI::Validator(check_device_name, ""));
+      ->check(check_device_name);
   command.add_option("--record", options.record, "File in which to record the session");
   command.add_option(
       "--seconds", settings.seconds,
@@ -69,7 +70,7 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
   command.add_option("--clay-rate", settings.clay_rate_hz,
                      "Update rate of the clay [Hz] (default: the servo rate)");
   command.add_option("--force-limit", settings.guard.force_limit_n, "Force limit [N]")
-      ->check(CLI::Validator(in_range(0.5, falcon::kMostForceN), ""))
+      ->check(in_range(0.5, falcon::kMostForceN))
       ->capture_default_str();
   command.add_option(
       "--gap", settings.gap_mm,

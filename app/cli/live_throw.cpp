@@ -242,7 +242,7 @@ Result<void> keep_pot(const LiveJob& job, Stage& stage, const Pot& pot) {
 
 /// The first error: files that were not kept, the device, or a throw without a pose.
 Result<void> outcome_of(Stage& stage, Ending ending, const Kept& kept, const Console& console) {
-  if (!kept.session && !kept.pot) console.warn(kept.pot.error().message);
+  if (!kept.session && !kept.pot) console.error(kept.pot.error().message);
   if (auto all = kept.session ? kept.pot : kept.session; !all) return all;
   if (ending == Ending::device_lost) return tl::make_unexpected(stage.device->problem());
   const servo::LiveStatus& status = stage.live->status();
@@ -254,9 +254,11 @@ Result<void> outcome_of(Stage& stage, Ending ending, const Kept& kept, const Con
 
 void print_result(const LiveJob& job, const LiveOptions& options, const Console& console,
                   const Json& json, const Kept& kept) {
+  std::string ended = json["ended"];
+  std::ranges::replace(ended, '_', ' ');
   console.print(fmt::format("{:.1f} s on the wheel, {} poses, ended: {}",
                             json["seconds"].get<double>(), json["poses"].get<std::uint64_t>(),
-                            json["ended"].get<std::string>()));
+                            ended));
   print_clay(console, json);
   if (console.verbose) print_servo(console, json["servo"]);
   if (!job.pot_path.empty() && kept.pot) console.print("pot: " + job.pot_path);

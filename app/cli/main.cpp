@@ -2,8 +2,10 @@
 
 #include "app/cli/memory_room.hpp"
 #include "app/cli/suggestion.hpp"
+#include "app/cli/usage.hpp"
 #include "claystack/core/atomic_file.hpp"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -51,13 +53,23 @@ void handle_signals() {
 
 using namespace clay::cli;
 
+/// Turns "512MiB" into bytes; below this, no command starts.
+std::string parse_size(std::string& text) {
+  constexpr std::uint64_t kLeast = std::uint64_t{8} << 20;
+  const std::string found = text;
+  const bool size = CLI::AsSizeValue(false)(text).empty();
+  if (size && in_range(kLeast, 1e18)(text).empty()) return {};
+  return fmt::format("expected at least 8MiB, as bytes or with a unit (512MiB, 2GiB), found {}",
+                     found);
+}
+
 void add_memory_option(CLI::App& command) {
   command
       .add_option_function<std::uint64_t>(
           "--memory", [](std::uint64_t bytes) { limit_memory(bytes); },
           "Limit on the memory of this command [bytes, or with a unit: 512MiB, 2GiB]; default: "
           "4GiB. A job that cannot fit is refused, with exit status 3")
-      ->transform(CLI::AsSizeValue(false).description(""))
+      ->transform(CLI::Validator(parse_size, ""))
       ->type_name("SIZE");
 }
 
@@ -65,6 +77,19 @@ bool writes_files(std::string_view command) {
   static constexpr std::array kCommands = {"throw",  "export", "check", "strokes",
                                            "import", "render", "bench"};
   return std::ranges::find(kCommands, command) != kCommands.end();
+}
+
+void add_shared_options(CLI::App& command, Console& console) {
+  const std::string& name = command.get_name();
+  command.add_flag("--json", console.json, "Print data as JSON on standard output");
+  command.add_flag("-q,--quiet", console.quiet, "Print errors only");
+  add_memory_option(command);
+  if (writes_files(name))
+    command.add_flag("--no-overwrite", console.no_overwrite,
+                     "Refuse output files that exist (default: replace them; an input is never "
+                     "replaced)");
+  if (name == "throw" || name == "export")
+    command.add_flag("-v,--verbose", console.verbose, "Also print volumes, proofs and timings");
 }
 
 void add_commands(CLI::App& app, Console& console, int& exit) {
@@ -94,18 +119,9 @@ void add_commands(CLI::App& app, Console& console, int& exit) {
   add_batch_command(app, console, exit);
 #endif
   add_doctor_command(app, console, exit);
-  for (CLI::App* command : app.get_subcommands({})) {
-    if (command->get_name() == "studio") continue;  // passes all its arguments to another program
-    command->add_flag("--json", console.json, "Print data as JSON on standard output");
-    command->add_flag("-q,--quiet", console.quiet, "Print errors only");
-    add_memory_option(*command);
-    if (writes_files(command->get_name()))
-      command->add_flag("--no-overwrite", console.no_overwrite,
-                        "Refuse output files that exist (default: replace them; an input is never "
-                        "replaced)");
-    if (command->get_name() == "throw" || command->get_name() == "export")
-      command->add_flag("-v,--verbose", console.verbose, "Also print volumes, proofs and timings");
-  }
+  for (CLI::App* command : app.get_subcommands({}))
+    if (command->get_name() != "studio")  // passes all its arguments to another program
+      add_shared_options(*command, console);
   add_manual_command(app, exit);
 }
 
@@ -132,21 +148,6 @@ clay::Result<void> check_command_name(const CLI::App& app, std::string_view name
                            .append(suggestion(name, names)));
 }
 
-/// The long options of the command, for one that was mistyped.
-std::string option_suggestion(const CLI::App& app, const CLI::Error& error) {
-  const std::string_view text = error.what();
-  const std::size_t begin = text.find("--");
-  const auto parsed = app.get_subcommands();
-  const bool unexpected = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
-  if (!unexpected || begin == std::string_view::npos) return {};
-  const CLI::App& command = parsed.empty() ? app : *parsed.front();
-  const std::string_view word = text.substr(begin, text.find_first_of("=, ]", begin) - begin);
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  return suggestion(word, names);
-}
-
 /// `claystack help COMMAND` is `claystack COMMAND --help`.
 std::vector<std::string> arguments_of(int argc, char** argv) {
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
@@ -161,10 +162,6 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", version_text());
   app.footer(kExamples);
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
-    return std::string("claystack: ") + error.what() + option_suggestion(*failed, error) +
-           "\nrun claystack --help for usage\n";
-  });
 
   Console console;
   int exit = kDone;
@@ -174,7 +171,7 @@ int run(int argc, char** argv) {
   if (!words.empty())
     if (const auto named = check_command_name(app, words.front()); !named)
       return report(named.error());
-  // The window is a program of its own, for which no limit is known in advance.
+  // The window is a separate program, for which no limit is known in advance.
   if (words.empty() || words.front() != "studio") limit_memory(kDefaultMemory);
   try {
     std::ranges::reverse(words);  // as the parser wants them

@@ -79,7 +79,7 @@ Result<void> check_output(const OutputFile& file, const Place& place,
                                  file.path, other.text));
   if (place.regular && console.no_overwrite)
     return failure(ErrorKind::bad_input,
-                   file.path + ": expected a new file with --no-overwrite, found one of that name");
+                   file.path + ": expected a new file with --no-overwrite, found an existing one");
   if (stream) return {};  // opening a pipe and closing it would end its reader
   return AtomicFile::create(file.path).map([](const AtomicFile&) {});
 }

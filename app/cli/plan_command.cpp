@@ -2,6 +2,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/json_output.hpp"
 #include "app/cli/replay.hpp"
+#include "app/cli/usage.hpp"
 #ifdef CLAYSTACK_FALCON
 #include "app/servo/servo_check.hpp"
 #endif
@@ -26,7 +27,8 @@ Json line_json(const PlanLine& line, const StageCost* saved) {
 }
 
 std::string line_text(const PlanLine& line, const StageCost* saved) {
-  std::string text = fmt::format("{:<4}{:<15}{}", line.in ? "in" : "out", line.stage, line.why);
+  std::string text =
+      fmt::format("{:<9}{:<15}{}", line.in ? "used" : "skipped", line.stage, line.why);
   if (saved && saved->with_ns > kMeasurable * saved->without_ns)
     text += fmt::format(" ({:.0f} ns per tick with it, {:.0f} ns without)", saved->with_ns,
                         saved->without_ns);
@@ -43,31 +45,38 @@ struct PlanOptions {
 };
 
 #ifdef CLAYSTACK_FALCON
-Result<void> plan_servo(const SceneSpec& scene, const StepPlan& plan, const PlanOptions& options,
-                        const Console& console, Json& json) {
+/// The contact of the scene with an arm; an error if the arm cannot render it.
+Result<servo::ServoContact> contact_of(const SceneSpec& scene, const StepPlan& plan,
+                                       const PlanOptions& options) {
   falcon::SampledLoop loop;
   loop.rate_hz = *options.rate_hz;
   loop.damping_ns_per_mm = options.damping_ns_per_mm;
   loop.delay_ticks = options.delay_ticks;
-  const auto contact = servo::check_servo(scene, plan, loop);
-  if (!contact)
-    return failure(contact.error().kind, options.scene + ": " + contact.error().message);
-  json["servo"] = {{"contact_height_mm", contact->height_mm},
-                   {"stiffness_n_per_mm", contact->stiffness_n_per_mm},
-                   {"accepted_n_per_mm", contact->accepted_n_per_mm}};
-  console.print(fmt::format("{:<19}{:.4g} N/mm, at most {:.4g} N/mm accepted at {:.6g} Hz",
-                            "contact", contact->stiffness_n_per_mm, contact->accepted_n_per_mm,
-                            loop.rate_hz));
-  return {};
+  return servo::check_servo(scene, plan, loop).map_error([&](Error error) {
+    error.message.insert(0, options.scene + ": ");
+    return error;
+  });
+}
+
+void print_contact(const Console& console, const servo::ServoContact& contact, double rate_hz,
+                   Json& json) {
+  json["servo"] = {{"contact_height_mm", contact.height_mm},
+                   {"stiffness_n_per_mm", contact.stiffness_n_per_mm},
+                   {"accepted_n_per_mm", contact.accepted_n_per_mm}};
+  console.print(fmt::format("contact: {:.4g} N/mm, at most {:.4g} N/mm accepted at {:.6g} Hz",
+                            contact.stiffness_n_per_mm, contact.accepted_n_per_mm, rate_hz));
 }
 
 void add_servo_options(CLI::App& command, PlanOptions& options) {
-  command.add_option(
-      "--rate", options.rate_hz,
-      "Servo rate at which to check whether an arm can render the scene's contact [Hz]");
+  command
+      .add_option("--rate", options.rate_hz,
+                  "Servo rate at which to check whether an arm can render the scene's contact [Hz]")
+      ->check(in_range(10.0, 1e5));
   command.add_option("--damping", options.damping_ns_per_mm, "Damping of the arm [N s/mm]")
+      ->check(in_range(0.0, 1.0))
       ->capture_default_str();
   command.add_option("--delay", options.delay_ticks, "Delay from a reading to its force [ticks]")
+      ->check(in_whole_range(0, 8))
       ->capture_default_str();
 }
 #endif
@@ -78,6 +87,14 @@ Result<void> plan_scene(const PlanOptions& options, const Console& console) {
   if (!scene) return tl::make_unexpected(scene.error());
   const auto wheel = Wheel::build(*scene);
   if (!wheel) return failure(wheel.error().kind, path + ": " + wheel.error().message);
+#ifdef CLAYSTACK_FALCON
+  std::optional<servo::ServoContact> contact;
+  if (options.rate_hz) {
+    const auto checked = contact_of(*scene, wheel->plan(), options);
+    if (!checked) return tl::make_unexpected(checked.error());
+    contact = *checked;
+  }
+#endif
 
   Progress progress(console, "measuring", 0);
   Json json = {{"scene", scene->name}, {"in", Json::array()}, {"left_out", Json::array()}};
@@ -93,8 +110,7 @@ Result<void> plan_scene(const PlanOptions& options, const Console& console) {
         fmt::format("times not measured: a tick may reach {:.0f} rings, expected at most {}",
                     rings_in_reach(*scene), kMostRingsInReach));
 #ifdef CLAYSTACK_FALCON
-  if (options.rate_hz)
-    if (auto done = plan_servo(*scene, wheel->plan(), options, console, json); !done) return done;
+  if (contact) print_contact(console, *contact, *options.rate_hz, json);
 #endif
   if (console.json) print_json(json);
   return {};

@@ -2,6 +2,7 @@
 #include "app/cli/json_output.hpp"
 #include "app/cli/pot_input.hpp"
 #include "app/cli/render_job.hpp"
+#include "app/cli/usage.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -42,7 +43,7 @@ void add_material(CLI::App& sub, render::PictureChoices& choices) {
   sub.add_option_function<std::string>(
          "--material", [&choices](const std::string& id) { choices.material = *find_material(id); },
          "Clay or glaze of the surface")
-      ->check(CLI::IsMember(material_ids()))
+      ->check(one_of(material_ids()))
       ->default_str(std::string(choices.material.id));
 }
 
@@ -114,10 +115,10 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
   sub->add_option("pot", command->pot,
                   std::string(kPotInputs) + "; for a NAME.scene.json its lump is drawn")
       ->required();
-  sub->add_option("-o,--out", command->out, "File for the picture, .png");
+  sub->add_option("-o,--output", command->out, "File for the picture, .png");
   sub->add_option("--turntable", command->turntable, "File for an animation of one turn, .gif");
   sub->add_option("--frames", command->choices.frames, "Number of frames of the turntable")
-      ->check(CLI::Range(1, render::kMostFrames))
+      ->check(in_whole_range(1, render::kMostFrames))
       ->capture_default_str();
   add_size(*sub, *command);
   sub->add_flag("--section", command->choices.section, "Cut the pot open to show its walls");
@@ -132,7 +133,7 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
            command->choices.theme = name == "dark" ? render::Theme::dark : render::Theme::light;
          },
          "Theme of the picture: light or dark")
-      ->check(CLI::IsMember({"light", "dark"}))
+      ->check(one_of({"light", "dark"}))
       ->default_str("light");
   sub->add_option_function<std::string>(
          "--style",
@@ -141,7 +142,7 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
          },
          "geometry: the pot as its rings are; clay: with throwing lines, specks, a rounded rim and "
          "a bare foot below a glaze, which are not in the pot")
-      ->check(CLI::IsMember({"geometry", "clay"}))
+      ->check(one_of({"geometry", "clay"}))
       ->default_str("geometry");
   add_material(*sub, command->choices);
   sub->add_flag("--transparent", command->choices.alone,

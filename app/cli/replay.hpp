@@ -56,8 +56,8 @@ struct Start {
   SceneSpec scene;
   std::optional<Pot> pot;
 };
-/// Reads both, of which one may be empty. A scene wins over what the pot remembers, and a remark
-/// says so.
+/// Reads both, of which one may be empty. A scene takes precedence over the settings that the pot
+/// remembers, with a warning.
 Result<Start> load_start(const std::string& scene_path, const std::string& pot_path,
                          const Console& console);
 /// Errors name the files.

@@ -9,7 +9,7 @@
 
 namespace clay::cli {
 
-/// Sets what is written to the report of the request, if it has one: a page for .html, else what
+/// Sets the text of the report of the request, if it has one: a page for .html, else what
 /// --json prints. `copies` describe the pots among the files. Call it when the options are
 /// complete.
 void set_report(const Pot& pot, solid::ExportRequest& request, const std::vector<PotCopy>& copies);

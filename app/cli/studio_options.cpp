@@ -2,6 +2,7 @@
 
 #include "app/cli/console.hpp"
 #include "app/cli/device_choice.hpp"
+#include "app/cli/usage.hpp"
 #include "app/render/offscreen.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ Result<glm::ivec2> size_of(const std::string& text) {
 void add_device_options(CLI::App& parser, StudioOptions& options) {
   parser
       .add_option("--device", options.device,
-                  "Device: auto, none, or as for `claystack throw` (default auto)")
+                  "Device: none, or one of those of claystack throw (default: auto)")
       ->check([](const std::string& which) {
         return which == "none" ? std::string() : check_device_name(which);
       });
@@ -54,11 +55,11 @@ void add_studio_options(CLI::App& parser, double smallest_scale, double largest_
   parser.add_option("--script", options.script, "Script that drives the window without a screen");
   parser.add_option("--screenshot", options.screenshot,
                     "Picture of the window at the end, a .png file (without a screen)");
-  parser.add_option("--size", options.size, "Size of the window [px] (default 1280x800)");
+  parser.add_option("--size", options.size, "Size of the window [px] (default: 1280x800)");
   parser.add_option("--scale", options.scale, "Scale of text and controls (default: as stored)")
       ->check(in_range(smallest_scale, largest_scale));
   parser.add_option("--theme", options.theme, "Theme: dark or light (default: as stored)")
-      ->check(CLI::IsMember({"dark", "light"}));
+      ->check(one_of({"dark", "light"}));
   parser.add_flag("--log", options.log, "Print events on standard output, one per line");
   add_report_options(parser, options);
   parser.footer(

@@ -9,6 +9,7 @@
 #include "app/cli/pot_input.hpp"
 #include "app/cli/replay.hpp"
 #include "app/cli/throw_work.hpp"
+#include "app/cli/usage.hpp"
 #include "app/history/pot_scene.hpp"
 
 #include "claystack/core/atomic_file.hpp"
@@ -353,7 +354,7 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
   command
       ->add_option("--model", options->model,
                    "Model to use instead of the scene's: conserving or paper")
-      ->check(CLI::IsMember({"conserving", "paper"}));
+      ->check(one_of({"conserving", "paper"}));
   command->add_option(
       "--trace", options->trace,
       "CSV file with one row per tick: time [s], volume error [%], height [mm], force [N]");

@@ -1,6 +1,7 @@
 #include "app/cli/wall_options.hpp"
 
 #include "app/cli/console.hpp"
+#include "app/cli/usage.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -18,8 +19,12 @@ void WallOptions::add_to(CLI::App& command) {
 Result<void> WallOptions::load() {
   demand_ = {min_wall_mm_, std::nullopt};
   if (process_.empty()) return {};
-  return solid::read_process(process_).map(
-      [&](solid::ProcessLimits process) { demand_.process = std::move(process); });
+  return solid::read_process(process_)
+      .map([&](solid::ProcessLimits process) { demand_.process = std::move(process); })
+      .map_error([](Error error) {
+        if (error.message.starts_with("process:")) error.message.insert(0, "--");
+        return error;
+      });
 }
 
 }  // namespace clay::cli

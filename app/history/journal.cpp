@@ -37,7 +37,7 @@ std::string stem_of_now() {
   return fmt::format("{}-{}", std::string_view(text, length), getpid());
 }
 
-/// Renames a file to a name that no file has. False: errno tells why.
+/// Renames a file to a name that no file has. False: errno has the reason.
 bool move_to_new(const fs::path& from, const fs::path& to) {
   if (link(from.c_str(), to.c_str()) == 0) return unlink(from.c_str()) == 0;
   // File systems without hard links: those of cameras' cards, and of a web page.
@@ -73,12 +73,12 @@ Result<fs::path> give_name(int descriptor, const fs::path& temporary, const fs::
 }  // namespace
 
 fs::path recovery_folder() {
-  const fs::path folder = cli::user_folder(cli::UserFolder::state);
+  const fs::path folder = user_folder(UserFolder::state);
   return folder.empty() ? folder : folder / "recovery";
 }
 
 Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs::path& folder) {
-  if (folder.empty()) return failure(ErrorKind::io, std::string("journal: ") + cli::kNoHome);
+  if (folder.empty()) return failure(ErrorKind::io, std::string("journal: ") + kNoHome);
   std::error_code made;
   fs::create_directories(folder, made);
   if (made)

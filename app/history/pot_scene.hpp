@@ -11,7 +11,7 @@ namespace clay::history {
 /// The usual settings of the clay, for a lump or a pot of this height.
 [[nodiscard]] SceneSpec usual_scene(double height_mm);
 
-/// For strokes on a pot: as `Pot::thrown_with` says, or the usual settings for its size. The scene
+/// For strokes on a pot: `Pot::thrown_with`, or the usual settings for its size. The scene
 /// gets a name.
 [[nodiscard]] SceneSpec scene_for(const Pot& pot, const std::string& name);
 

@@ -1,6 +1,7 @@
 #include "app/import/drawing.hpp"
 
 #include "app/import/readers.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -55,7 +56,9 @@ Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,
   const bool svg = name.ends_with(".svg"), dxf = name.ends_with(".dxf");
   if (!svg && !dxf && !name.ends_with(".csv"))
     return failure(ErrorKind::bad_input,
-                   name + ": expected a drawing NAME.svg, NAME.dxf or NAME.csv");
+                   name + ": expected a drawing (.svg, .dxf, .csv), found " + kind_of_file(bytes));
+  if (bytes.empty())
+    return failure(ErrorKind::bad_input, name + ": expected a drawing, found an empty file");
   if (bytes.size() > kMostBytes)
     return failure(ErrorKind::bad_input, fmt::format("{}: expected at most {} MiB, found {}", name,
                                                      kMostBytes >> 20, bytes.size() >> 20));

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-// stb is a single header with warnings of its own.
+// stb is a single header that causes warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wall"
 #pragma GCC diagnostic ignored "-Wextra"

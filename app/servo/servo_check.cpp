@@ -62,7 +62,7 @@ Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
 
 double soften(SceneSpec& scene, const ServoContact& contact) {
   if (!scene.force || contact.stiffness_n_per_mm <= contact.accepted_n_per_mm) return 1.0;
-  // A hair less, so that rounding does not put it above the limit.
+  // Slightly less, so that rounding does not put it above the limit.
   const double part = (1.0 - 1e-12) * contact.accepted_n_per_mm / contact.stiffness_n_per_mm;
   scene.force->stiffness_n_per_mm2 *= part;
   if (scene.force->paper_stiffness_n_per_mm) *scene.force->paper_stiffness_n_per_mm *= part;

@@ -1,5 +1,6 @@
 #include "app/strokes/strokes.hpp"
 #include "core/json/located_json.hpp"
+#include "core/text.hpp"
 
 #include "claystack/engine/files.hpp"
 
@@ -249,11 +250,15 @@ void refuse_endless(const StrokeScript& script) {
 
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name) {
   const auto refused = [&](const std::string& message) {
-    return failure(ErrorKind::bad_input, std::string(name) + ": " + message);
+    return tl::make_unexpected(
+        kind_error({ErrorKind::bad_input, std::string(name) + ": " + message}, text, name,
+                   "a stroke script (.strokes.json)"));
   };
   constexpr std::size_t kMostValues = 1'000'000;
   const auto document = LocatedJson::from_json(text, name, kMostValues);
-  if (!document) return tl::make_unexpected(document.error());
+  if (!document)
+    return tl::make_unexpected(
+        kind_error(document.error(), text, name, "a stroke script (.strokes.json)"));
   try {
     StrokeScript script;
     read(document->root(), script);

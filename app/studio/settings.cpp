@@ -121,7 +121,7 @@ void remember_process(Settings& settings, const std::filesystem::path& path) {
 }
 
 std::filesystem::path settings_path() {
-  const std::filesystem::path folder = cli::user_folder(cli::UserFolder::config);
+  const std::filesystem::path folder = user_folder(UserFolder::config);
   return folder.empty() ? folder : folder / "studio.json";
 }
 
@@ -152,7 +152,7 @@ LoadedSettings load_settings(const std::filesystem::path& path) {
 }
 
 Result<void> save_settings(const Settings& settings, const std::filesystem::path& path) {
-  if (path.empty()) return failure(ErrorKind::io, std::string("settings: ") + cli::kNoHome);
+  if (path.empty()) return failure(ErrorKind::io, std::string("settings: ") + kNoHome);
   std::error_code failed;
   if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed))
     return not_regular(path);

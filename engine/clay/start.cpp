@@ -12,7 +12,7 @@ Result<void> check_start(const SceneSpec& scene, const Pot& start) {
     return failure(ErrorKind::bad_input, setting + ": expected " + expected + ", found " + found);
   };
   const auto name = [](Model model) { return model == Model::paper ? "paper" : "conserving"; };
-  if (start.collapse) return refused("pot", "one that stands", "one that has collapsed");
+  if (start.collapse) return refused("pot", "a standing pot", "a collapsed one");
   if (start.rounding)
     return refused("pot", "an exact one",
                    "one rounded to " + number_text(start.rounding->to_mm) +

@@ -30,7 +30,7 @@ Result<void> check_collapse(const Pot& pot) {
   const auto wrong = [](const std::string& what) {
     return failure(ErrorKind::bad_input, "collapse: " + what);
   };
-  if (!pot.collapse) return wrong("expected a pot that has collapsed, found one that stands");
+  if (!pot.collapse) return wrong("expected a collapsed pot, found a standing one");
   const Collapse& collapse = *pot.collapse;
   if (collapse.failed_ring >= pot.stack.size())
     return wrong("expected a failed ring below " + std::to_string(pot.stack.size()) + ", found " +

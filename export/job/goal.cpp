@@ -1,4 +1,4 @@
-// Scales a pot until it holds, weighs or measures what is asked.
+// Scales a pot until it meets a goal: a capacity, a weight or a size.
 
 #include "claystack/export/job.hpp"
 

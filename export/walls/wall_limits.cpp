@@ -126,7 +126,7 @@ Result<ProcessLimits> process_named(std::string_view name) {
   for (const std::string_view known : kProcessNames)
     names.append(names.empty() ? "" : ", ").append(known);
   return failure(ErrorKind::bad_input,
-                 "process: expected one of " + names + " or a file, found " + std::string(name));
+                 "process: expected " + names + ", or a .json file, found " + std::string(name));
 }
 
 Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view file_name) {

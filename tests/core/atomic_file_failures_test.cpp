@@ -1,7 +1,7 @@
 // The old file survives killed writers, full disks and failing system calls.
 
-#include "tests/engine/files/atomic_folder.hpp"
-#include "tests/engine/files/system_call_fault.hpp"
+#include "tests/core/atomic_folder.hpp"
+#include "tests/core/system_call_fault.hpp"
 
 #include <sys/resource.h>
 #include <array>

@@ -1,5 +1,5 @@
-#include "tests/engine/files/atomic_folder.hpp"
-#include "tests/engine/files/system_call_fault.hpp"
+#include "tests/core/atomic_folder.hpp"
+#include "tests/core/system_call_fault.hpp"
 
 #include <cerrno>
 #include <span>

@@ -42,7 +42,7 @@ TEST_F(ExportOptions, ReportsUnknownProcessesBeforeWriting) {
   EXPECT_FALSE(std::filesystem::exists(stl));
 }
 
-TEST_F(ExportOptions, TheReportIsWhatJsonPrints) {
+TEST_F(ExportOptions, TheReportEqualsTheJsonOutput) {
   const std::string report = folder.file("report.json");
   const Ran printed = run("--json --report " + report);
   ASSERT_EQ(printed.status, 0) << printed.err;

@@ -131,7 +131,7 @@ TEST_F(SectionFiles, TheReportConformsToItsSchema) {
   check(stl + " " + folder.file("a.svg"));
 }
 
-TEST_F(SectionFiles, APotIsScaledToWhatItShallHold) {
+TEST_F(SectionFiles, ScalesAPotToACapacity) {
   const std::string stl = folder.file("a.stl"), copy = folder.file("copy.pot.json");
   const auto json = run("--json --holds 35cl --fired --shrinkage 12% " + stl + " " + copy).json();
   EXPECT_NEAR(json.at("maker").at("fired").at("capacity_ml").get<double>(), 350.0, 1e-3);

@@ -79,5 +79,31 @@ TEST(Usage, SuggestsTheNearestCommandAndOption) {
   EXPECT_EQ(claystack("zzzz").err.find("did you mean"), std::string::npos);
 }
 
+TEST(Usage, ErrorsNameTheOptionTheExpectedAndTheFound) {
+  const struct {
+    const char* arguments;
+    const char* message;
+  } cases[] = {
+      {"", "expected a command, found none\nrun claystack --help for usage\n"},
+      {"export", "expected pot, found none\nrun claystack export --help for usage\n"},
+      {"import a.svg", "expected --output, found none"},
+      {"export a b --segments 2", "--segments: expected a whole number from 3 to 1048576, found 2"},
+      {"export a b --smooth soft", "--smooth: expected fair, exact or none, found soft"},
+      {"export a b --tolerance", "--tolerance: expected a value, found none"},
+      {"export a b --tolerance 1 --tolerance 2",
+       "--tolerance: expected once, found more than once"},
+      {"throw a --at one", "--at: expected a number, found one"},
+      {"throw a b", "unexpected argument b\n"},
+      {"check a --jsn", "unknown option --jsn; did you mean --json?\n"},
+      {"check a --memory lots", "--memory: expected at least 8MiB, "},
+      {"check a --memory 7MiB", "(512MiB, 2GiB), found 7MiB\n"},
+      {"plan a --rate 0", "--rate: expected a number from 10 to 100000, found 0"}};
+  for (const auto& [arguments, message] : cases) {
+    const Ran run = claystack(arguments);
+    EXPECT_EQ(run.status, 2) << arguments;
+    EXPECT_NE(run.err.find(message), std::string::npos) << arguments << "\n" << run.err;
+  }
+}
+
 }  // namespace
 }  // namespace clay::test

@@ -29,6 +29,12 @@ TEST(WrongKind, IsNamedInTheMessage) {
        pot + ": expected a scene (.scene.json), found a pot"},
       {"throw " + scene + " -s " + stl + " -o " + folder.file("y.pot.json"),
        stl + ": expected a session (.session), found an STL mesh"},
+      {"strokes " + scene + " " + session + " -o " + folder.file("y.session"),
+       session + ": expected a stroke script (.strokes.json), found a session"},
+      {"plan " + sample("strokes/cylinder.strokes.json"),
+       ": expected a scene (.scene.json), found a stroke script"},
+      {"import " + pot + " -o " + folder.file("y.pot.json"),
+       pot + ": expected a drawing (.svg, .dxf, .csv), found a pot"},
       {"check " + session, "the file is a session"}};
   for (const Case& c : cases) {
     const Ran run = claystack(c.arguments);

@@ -3,7 +3,7 @@
 #include "app/history/recovery.hpp"
 #include "app/servo/recorder.hpp"
 #include "tests/app/history/strokes.hpp"
-#include "tests/engine/files/system_call_fault.hpp"
+#include "tests/core/system_call_fault.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/wait_until.hpp"
 

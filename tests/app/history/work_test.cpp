@@ -138,7 +138,7 @@ TEST(Work, RefusesStrokesOnACollapsedRoot) {
   EXPECT_EQ(**work.pot(), fallen);
   const auto added = work.add(small_scene(), press_stroke(1));
   ASSERT_FALSE(added);
-  EXPECT_EQ(added.error().message, "pot: expected one that stands, found one that has collapsed");
+  EXPECT_EQ(added.error().message, "pot: expected a standing pot, found a collapsed one");
   const test::ScratchFolder folder;
   ASSERT_TRUE(work.save(folder.file("fallen.work")));
   auto again = load(folder.file("fallen.work"));

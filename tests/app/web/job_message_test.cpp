@@ -166,7 +166,7 @@ TEST(JobMessage, CarriesFiguresFilesAndErrors) {
   EXPECT_EQ(failed->done.error().message, "full");
 }
 
-TEST(JobMessage, MessagesOfAnotherKindAreNone) {
+TEST(JobMessage, IgnoresMessagesOfAnotherKind) {
   EXPECT_FALSE(check_in(message_of(full_question())));
   EXPECT_FALSE(export_in(message_of(full_question())));
 }

@@ -157,7 +157,7 @@ TEST(ContinuedThrow, RefusesAPotThatDoesNotFitTheScene) {
   refused(other, pot, "lump.max_rings: expected 0 or at least the pot's rings, 40, found 39");
   Pot fallen = pot;
   fallen.collapse = Collapse{};
-  refused(scene, fallen, "pot: expected one that stands, found one that has collapsed");
+  refused(scene, fallen, "pot: expected a standing pot, found a collapsed one");
   refused(scene, rounded_pot(pot, 0.001).value(),
           "pot: expected an exact one, found one rounded to 0.001 mm: its clay is not the clay "
           "that was counted");

@@ -165,8 +165,8 @@ struct Rounding {
   friend bool operator==(const Rounding&, const Rounding&) = default;
 };
 
-/// What clay at the crown's height has received more than the top ring did since it grew, outside
-/// and inside [quanta]. A copy of the top ring would be what the rim was a ring lower.
+/// Clay received at the crown's height in excess of the top ring's since the last growth, outside
+/// and inside [quanta]. The next ring that grows is a copy of the top ring with this excess.
 struct Rim {
   WideQuanta outside = 0, inside = 0;
   friend bool operator==(const Rim&, const Rim&) = default;
@@ -189,22 +189,22 @@ struct Pot {
   double density_g_cm3 = 1.9;
   std::optional<Collapse> collapse;
   std::optional<Rounding> rounding;
-  Rim rim{};        ///< for who throws on; of the paper's model none
-  Motion motion{};  ///< likewise; of a scene without clay rules none
-  /// Likewise, in a pot for a file: what opening it would not know. A wheel sets none.
+  Rim rim{};        ///< for the next stroke; zero in the model `paper`
+  Motion motion{};  ///< for the next stroke; zero in scenes without clay rules
+  /// For the next stroke, in pots for files: the settings of the last one. A wheel leaves it empty.
   std::optional<ThrowSettings> thrown_with{};
   friend bool operator==(const Pot&, const Pot&) = default;
 };
 
 // ---- rounded pot ---------------------------------------------------------------------
-// A pot with fewer digits: what a printer cannot show need not be stored. See pot_file.hpp.
+// A pot with fewer digits, because a printer cannot show more. See files.hpp.
 
 /// `pot` with every radius at the nearest multiple of `precision_mm`: whole nanometres, 1e-5 to
 /// 1 mm. A bore less than half a step wide becomes one step: a bore stays a bore.
 ///
-/// The result is a pot of its own: its ledger begins with the clay that it holds, nothing added,
-/// trimmed or outside, and `Pot::rounding` keeps what it held before. Crown, collapse and model
-/// stay as they are; the rim, which tells how to throw on, is gone. Rounded pots round again to the
+/// The result is an independent pot: its ledger begins with the clay that it holds, nothing added,
+/// trimmed or outside, and `Pot::rounding` has the volume before. Crown, collapse and model stay as
+/// they are; `Pot::rim`, which a next stroke would need, is zero. Rounded pots round again to the
 /// same precision or a coarser one.
 ///
 /// Refuses, naming the ring, what would change the topology: a wall that would vanish, rings that

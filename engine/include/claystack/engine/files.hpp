@@ -148,7 +148,7 @@ struct WorkReading {
 
 /// Strict: errors read "NAME:LINE: what was expected, what was found". An unfinished last line is
 /// dropped and reported; a damaged line anywhere is an error. More than kMaxPoses
-/// (session_file.hpp) are refused before the first is read. Uses the memory of the poses and of one
+/// are refused before the first is read. Uses the memory of the poses and of one
 /// line.
 Result<WorkReading> parse_work(std::string_view text, std::string_view name);
 /// For the remains of a crash: reads up to the first damaged line, or to kMaxPoses. Fails only if

@@ -112,7 +112,7 @@ struct StabilitySpec {
   friend bool operator==(const StabilitySpec&, const StabilitySpec&) = default;
 };
 
-/// Rules of real clay on top of `conserving` (docs/model.md), each a stage of its own. The paper's
+/// Rules of real clay on top of `conserving` (docs/model.md), each a separate stage. The paper's
 /// model has none of them.
 struct ClaySpec {
   bool lift = true;          ///< what two tools squeeze out becomes height

@@ -174,7 +174,7 @@ struct StepPlan {
   Model model = Model::conserving;
   unsigned stages = 0;  ///< Stage bits
   ToolMode mode = ToolMode::press;
-  double gap_mm = 0.0;  ///< of poses without one of their own; 0: these have one tool
+  double gap_mm = 0.0;  ///< of poses that have none; 0: these have one tool
   Tool tool;
   RayleighKernel kernel{1.0, 0.0, 1.0, 1};
   std::int64_t inside_share = 0;  ///< alpha in 2^-30

@@ -42,7 +42,7 @@ inline constexpr double kMostShrinkage = 0.5;
 Result<Pot> enlarged(const Pot& pot, double shrinkage);
 
 // ---- goal ----------------------------------------------------------------------------
-// The pot at another size, chosen by what it shall be.
+// The pot scaled to a capacity, a weight or a size.
 
 struct ExportOptions;
 

@@ -43,7 +43,7 @@ struct DeviceError : Error {
 };
 
 /// The Result of core, which it converts to, with the fault kept: a program reacts to it, for
-/// example to no_firmware by loading some. Result itself cannot carry it, because core knows no
+/// example to no_firmware by loading it. Result itself cannot carry it, because core has no
 /// devices. Everything in falcon that a user can cause returns one of the two; only settings and
 /// kinematics, which must not allocate, return OutOfRange and KinematicsError instead.
 template <class T>

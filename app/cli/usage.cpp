@@ -1,0 +1,123 @@
+#include "app/cli/usage.hpp"
+
+#include "app/cli/suggestion.hpp"
+#include "core/number_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <concepts>
+#include <cstddef>
+#include <string_view>
+
+namespace clay::cli {
+namespace {
+
+/// The command that was parsed, or the program if there is none.
+const CLI::App& command_of(const CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  return parsed.empty() ? app : *parsed.front();
+}
+
+/// What follows the first `mark` in the text; empty if it is not there.
+std::string_view after(std::string_view text, std::string_view mark) {
+  const std::size_t at = text.find(mark);
+  return at == std::string_view::npos ? std::string_view() : text.substr(at + mark.size());
+}
+
+std::string_view before(std::string_view text, std::string_view mark) {
+  return text.substr(0, text.find(mark));
+}
+
+std::string unknown_argument(const CLI::App& command, std::string_view word) {
+  if (!word.starts_with('-')) return fmt::format("unexpected argument {}", word);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const std::string_view option = word.substr(0, word.find_first_of("=,]"));
+  return fmt::format("unknown option {}{}", word, suggestion(option, names));
+}
+
+/// "Could not convert: --at = abc" of the parser.
+std::string not_a_number(std::string_view text) {
+  const std::string_view rest = after(text, ": ");
+  return fmt::format("{}: expected a number, found {}", before(rest, " = "), after(rest, " = "));
+}
+
+/// False unless the whole text is a number of this type.
+template <class Number>
+bool parse_all(const std::string& text, Number& value) {
+  const char* const end = text.data() + text.size();
+  std::from_chars_result result{};
+  if constexpr (std::floating_point<Number>)
+    result = clay::from_chars(text.data(), end, value);
+  else
+    result = std::from_chars(text.data(), end, value);
+  return result.ec == std::errc() && result.ptr == end;
+}
+
+/// "fair, exact or none".
+std::string choice_of(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text.append(i == 0 ? "" : i + 1 == words.size() ? " or " : ", ").append(words[i]);
+  return text;
+}
+
+}  // namespace
+
+ValueCheck in_range(double low, double high) {
+  return [=](const std::string& text) -> std::string {
+    double value = 0.0;
+    // Not (value < low): NaN must fail.
+    if (parse_all(text, value) && value >= low && value <= high) return {};
+    return fmt::format("expected a number from {:g} to {:g}, found {}", low, high, text);
+  };
+}
+
+ValueCheck in_whole_range(std::uint64_t low, std::uint64_t high) {
+  return [=](const std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    if (parse_all(text, value) && value >= low && value <= high) return {};
+    return fmt::format("expected a whole number from {} to {}, found {}", low, high, text);
+  };
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  return {[words](const std::string& text) {
+            if (std::ranges::find(words, text) != words.end()) return std::string();
+            return fmt::format("expected {}, found {}{}", choice_of(words), text,
+                               suggestion(text, words));
+          },
+          fmt::format("{{{}}}", fmt::join(words, ","))};
+}
+
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
+  const std::string_view text = error.what();
+  switch (static_cast<CLI::ExitCodes>(error.get_exit_code())) {
+    case CLI::ExitCodes::RequiredError:
+      if (app.get_require_subcommand_min() > 0 && app.get_subcommands().empty())
+        return "expected a command, found none";
+      return fmt::format("expected {}, found none", before(text, " is required"));
+    case CLI::ExitCodes::ExtrasError:
+      return unknown_argument(command_of(app), before(after(text, ": "), " "));
+    case CLI::ExitCodes::ConversionError:
+      return not_a_number(text);
+    case CLI::ExitCodes::ArgumentMismatch:
+      return text.find("At Most") == std::string_view::npos
+                 ? fmt::format("{}: expected a value, found none", before(text, ": "))
+                 : fmt::format("{}: expected once, found more than once", before(text, ": "));
+    case CLI::ExitCodes::RequiresError:
+      return fmt::format("{}: expected {} too, found none", before(text, " requires "),
+                         after(text, " requires "));
+    case CLI::ExitCodes::ExcludesError:
+      return fmt::format("{}: expected no {} with it", before(text, " excludes "),
+                         after(text, " excludes "));
+    default:
+      return std::string(text);
+  }
+}
+
+}  // namespace clay::cli

@@ -1,0 +1,26 @@
+#pragma once
+// Usage errors in the words of all other errors: what was expected, and what was found.
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace clay::cli {
+
+/// Checks of the value of an option: an empty text, or what was expected and found.
+using ValueCheck = std::function<std::string(const std::string&)>;
+
+/// Accepts a finite number within the range; errors show the bounds in short form.
+[[nodiscard]] ValueCheck in_range(double low, double high);
+/// Accepts a whole number within the range.
+[[nodiscard]] ValueCheck in_whole_range(std::uint64_t low, std::uint64_t high);
+/// Accepts one of these words. Help and completions list them.
+[[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);
+
+/// The message for an error of the parser, without the name of the program.
+[[nodiscard]] std::string usage_message(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace clay::cli
