@@ -88,7 +88,15 @@ endif()
 # Each package has its own copyright and changelog, as Debian's policy requires.
 set(package_docs ${PROJECT_BINARY_DIR}/package)
 configure_file(cmake/copyright.in ${package_docs}/copyright @ONLY)
-string(TIMESTAMP package_date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # SOURCE_DATE_EPOCH, if set
+# The time of the last commit, so that every build of it has the same changelog.
+if(NOT DEFINED ENV{SOURCE_DATE_EPOCH})
+  execute_process(COMMAND git -C ${PROJECT_SOURCE_DIR} log -1 --format=%ct
+    OUTPUT_VARIABLE commit_time OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE no_commit)
+  if(NOT no_commit)
+    set(ENV{SOURCE_DATE_EPOCH} ${commit_time})
+  endif()
+endif()
+string(TIMESTAMP package_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 configure_file(cmake/changelog.in ${package_docs}/changelog @ONLY)
 execute_process(COMMAND gzip -9nkf ${package_docs}/changelog COMMAND_ERROR_IS_FATAL ANY)
 foreach(package program=claystack studio=claystack-studio dev=libclaystack-dev python=python3-claystack)

@@ -155,7 +155,7 @@ std::string manual_page(const CLI::App& app, const CLI::App* command) {
   std::ostringstream page;
   const CLI::App& shown = command ? *command : app;
   const std::string name = command ? "claystack-" + command->get_name() : "claystack";
-  page << ".TH " << upper(roff(name)) << " 1 " << CLAYSTACK_RELEASE_DATE << " \"claystack "
+  page << ".TH " << upper(roff(name)) << " 1 " << CLAYSTACK_MANUAL_DATE << " \"claystack "
        << CLAYSTACK_VERSION << "\" \"User Commands\"\n"
        << ".SH NAME\n"
        << roff(name) << " \\- " << roff(shown.get_description()) << '\n';

@@ -68,6 +68,7 @@ void ServoLoop::start() noexcept {
   started_ns_ = last_begun_ns_ = bench_.clock.now_ns();
   pacer_.start(last_begun_ns_);
   guard_.rearm();
+  if (held_ || zeroed_) guard_.pause();
   hand_.reset();
   wanted_ = {};
   status_.ending = Ending::none;
@@ -107,8 +108,12 @@ void ServoLoop::apply(const falcon::DeviceSample& sample, std::int64_t now_us,
   if ((was_held && !held_) || (controls_.rearm() && !held_)) {
     guard_.rearm();
     hand_.reset();
+    zeroed_ = false;
   }
-  if (controls_.zero()) guard_.pause();
+  if (controls_.zero()) {
+    guard_.pause();
+    zeroed_ = true;
+  }
   status_.clutched = controls_.clutched();
   status_.paused = controls_.paused();
 }

@@ -61,7 +61,7 @@ class ServoLoop {
   static Result<ServoLoop> build(const Bench& bench, const LiveSettings& settings);
 
   /// Before the first tick, and after the device was reopened: the force ramps up again from zero,
-  /// and the session continues.
+  /// and the session continues. A pause, and a force that a command set to zero, remain.
   void start() noexcept;
 
   /// Sleeps until the deadline, then ticks. Any result but `none` ends the loop. `heartbeat_us` is
@@ -99,6 +99,7 @@ class ServoLoop {
   Pacer pacer_;
 
   bool held_ = false;          // clutched or paused: the tool does not touch the clay
+  bool zeroed_ = false;        // the force, by command, until the next rearm
   bool thrown_ = false;        // a sample was accepted
   std::int64_t first_us_ = 0;  // time of the first accepted sample
   std::int64_t started_ns_ = 0;

@@ -2,8 +2,8 @@
 # Linux (O_TMPFILE, /proc, EGL, SCHED_FIFO); on macOS only the engine is expected to build.
 class Claystack < Formula
   desc "Throw a pot on a virtual wheel, and export a file that prints"
-  homepage "https://example.org/claystack" # a placeholder, as the next line
-  head "https://example.org/claystack.git", branch: "main"
+  # No homepage, and the clone that holds this file instead of an archive: there is no release yet.
+  head "file://#{File.expand_path("../..", __dir__)}", using: :git, branch: "main"
   license "GPL-3.0-or-later"
 
   depends_on "cmake" => :build

@@ -240,6 +240,35 @@ TEST(LiveLoop, ZeroesAndRestoresTheForceByCommand) {
   EXPECT_EQ(live.status().guard, GuardState::safe);
 }
 
+// The arm may be pulled out because something is wrong: only the user ends what the user began.
+TEST(LiveLoop, KeepsPauseAndZeroedForceWhenTheDeviceIsReopened) {
+  for (const auto& [hold, release] :
+       {std::pair{Command{CommandKind::zero, 0.0}, Command{CommandKind::rearm, 0.0}},
+        std::pair{Command{CommandKind::pause, 1.0}, Command{CommandKind::pause, 0.0}}}) {
+    VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
+    live.run(3.2);
+    ASSERT_GT(glm::length(live.status().force_n), 0.1);
+    ASSERT_TRUE(live.commands.push(hold));
+    live.tick();
+    live.fault(falcon::WireFault::unplugged);
+    ASSERT_EQ(live.run(1.0), Ending::device_lost);
+    live.model->replug();
+    ASSERT_TRUE(live.device.open());
+    live.loop->start();
+    // Off the clay until the force could have ramped up, then in again.
+    const auto again = [&] {
+      live.hand = [from_s = live.time_s](double t) { return press_to(4.0)(t - from_s); };
+      return live.run(3.2);
+    };
+    ASSERT_EQ(again(), Ending::none);
+    EXPECT_EQ(live.status().guard, GuardState::safe);
+    EXPECT_EQ(glm::length(live.status().force_n), 0.0);
+    ASSERT_TRUE(live.commands.push(release));
+    ASSERT_EQ(again(), Ending::none);
+    EXPECT_GT(glm::length(live.status().force_n), 0.1);
+  }
+}
+
 TEST(LiveLoop, StopsWaitingForHomingIfSecondsAreSet) {
   falcon::FalconModelSettings unhomed = VirtualThrow::homed();
   unhomed.homed = false;
