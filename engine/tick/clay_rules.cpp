@@ -52,9 +52,24 @@ Pinched pinched(const RulePress& press, const ClayStack& stack,
 void hold_foot(const ClayStack& stack, const Shell& shell, std::size_t first,
                std::span<double> by) noexcept {
   const double h = stack.ring_height_mm(), start = (static_cast<double>(first) + 0.5) * h;
-  if (start > shell.foot_mm + shell.root_mm) return;
-  for (std::size_t k = 0; k < by.size(); ++k)
-    by[k] *= shell.hold(start + static_cast<double>(k) * h);
+  const double held_to = shell.foot_mm + 2.0 * shell.root_mm;  // `hold` is 1 well below that
+  for (std::size_t k = 0; k < by.size(); ++k) {
+    const double up = start + static_cast<double>(k) * h;
+    if (up > held_to) return;
+    by[k] *= shell.hold(up);
+  }
+}
+
+/// A ring that is touched moves by its part of what it gives way itself, at least.
+void move_touched(TouchedRings& rings, double share, std::size_t first,
+                  std::span<double> by) noexcept {
+  const std::size_t end = std::min(first + by.size(), rings.to());
+  rings.each_slice(std::max(first, rings.from()), end, [=](const TouchedRings::Slice& slice) {
+    in_lanes([=, give = &slice.rows.give[slice.begin], to = &by[slice.ring - first],
+              count = slice.size()]() CLAYSTACK_INLINE {
+      for (std::size_t k = 0; k < count; ++k) to[k] = greater(to[k], share * give[k]);
+    });
+  });
 }
 
 /// The ring that one of two tools would have to push over most, its band in both contacts.
@@ -198,13 +213,9 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
       const Shell shell = shell_at(stack, band, min_wall, press.motion.upward_mm_s,
                                    speed_into(contact.side, press.motion));
       if (shell.share > 0.0)
-        // A ring that is touched moves by its part of what it gives way itself, at least.
         work.shift.lay(stack, band, shell, {contact.side == Side::expansive, hoop, min_wall},
                        [&](std::size_t first, std::span<double> by) {
-                         const TouchedRings& rings = contact.rings;
-                         const std::size_t end = std::min(first + by.size(), rings.to());
-                         for (std::size_t i = std::max(first, rings.from()); i < end; ++i)
-                           by[i - first] = std::max(by[i - first], shell.share * rings.give(i));
+                         move_touched(contact.rings, shell.share, first, by);
                          hold_foot(stack, shell, first, by);
                        });
     }

@@ -43,6 +43,12 @@ template <class Number>
   return pliancy(static_cast<double>(ring.outer2), static_cast<double>(ring.inner2));
 }
 
+/// Not below 0: `pliancy` is 1, without the division. [quanta]
+template <class Quantum>
+[[nodiscard]] CLAYSTACK_INLINE inline Quantum spare_bore(Quantum outer2, Quantum inner2) noexcept {
+  return inner2 - ((outer2 >> 3) + (outer2 >> 5) + (outer2 >> 9));  // of kThin and a little more
+}
+
 /// Limit analysis of a plastic cylinder under a ring load (Tresca, hinge circles; moment M0 =
 /// sigma w^2 / 4 and hoop force N0 = sigma w per mm). The mechanism of least power has the length
 /// L = sqrt(R w); near the rim it turns, near the floor it is clamped. Its load Q_s, and that of a
