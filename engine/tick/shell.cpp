@@ -145,6 +145,16 @@ double trailing(double along_mm_s, double into_mm_s, double thinness) noexcept {
 
 }  // namespace
 
+void hold_foot(const Shell& shell, double h, std::size_t first, std::span<double> by) noexcept {
+  const double start = (static_cast<double>(first) + 0.5) * h;
+  const double held_to = shell.foot_mm + 2.0 * shell.root_mm;  // `hold` is 1 well below that
+  for (std::size_t k = 0; k < by.size(); ++k) {
+    const double up = start + static_cast<double>(k) * h;
+    if (up > held_to) return;
+    by[k] *= shell.hold(up);
+  }
+}
+
 Shell shell_at(const ClayStack& stack, const Band& band, double min_wall_mm, double upward_mm_s,
                double into_mm_s) noexcept {
   Shell shell;

@@ -5,6 +5,9 @@
 #include "engine/clay/packs.hpp"
 #include "engine/tick/band.hpp"
 
+#include <cstddef>
+#include <span>
+
 namespace clay {
 
 /// Farthest from a band that a shell is bent: bounds the work of a tick for pots of any size.
@@ -30,6 +33,10 @@ struct Shell {
     return t > 0.0 ? (t < 1.0 ? t * t * (3.0 - 2.0 * t) : 1.0) : 0.0;
   }
 };
+
+/// A wall moves less near the solid clay that it stands on: so do the rings from `first` on.
+void hold_foot(const Shell& shell, double ring_height_mm, std::size_t first,
+               std::span<double> by_mm) noexcept;
 
 /// By how much a ring may move as part of a shell: 0 where it is solid or nearly so (r < 0.2 R),
 /// 1 from r = 0.4 R. Its hoops are no longer thin there.
