@@ -3,6 +3,7 @@
 // when the writer is destroyed, so that a loop can count in a register.
 
 #include "claystack/engine/clay.hpp"
+#include "engine/clay/lanes.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -53,12 +54,14 @@ class StackWriter {
   /// R^2 and r^2 of the rings from `first` on change by these amounts; no bore opens or closes, and
   /// no radius is beyond its limit. The caller reports what they get with `gain`.
   void change(std::size_t first, std::span<const Ring> changes) noexcept {
-    Ring* const rings = stack_.rings_.data() + first;
-    for (std::size_t k = 0; k < changes.size(); ++k) {
-      rings[k].outer2 += changes[k].outer2;
-      rings[k].inner2 += changes[k].inner2;
-      assert(rings[k].volume() > 0 && rings[k].inner2 >= 0);
-    }
+    in_lanes([rings = stack_.rings_.data() + first, from = changes.data(), count = changes.size()]()
+                 CLAYSTACK_INLINE {
+                   for (std::size_t k = 0; k < count; ++k) {
+                     rings[k].outer2 += from[k].outer2;
+                     rings[k].inner2 += from[k].inner2;
+                     assert(rings[k].volume() > 0 && rings[k].inner2 >= 0);
+                   }
+                 });
   }
   /// Clay along a surface, the outer one or that of a bore: amounts from the rings `from` on to the
   /// rings `to` on. First what all give, then what all get: a ring that does both would wait for

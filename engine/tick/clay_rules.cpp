@@ -23,102 +23,16 @@ double speed_into(Side side, const Motion& motion) noexcept {
   return std::max(side == Side::compressive ? -out : out, 0.0);
 }
 
-/// How far a pinched ring may be pushed over from the tool that is deeper in it [mm].
-struct Pinched {
-  double inward_mm = 0.0, outward_mm = 0.0;
-  bool beside = false;  ///< the tools; else nothing limits it
-};
-
-/// Until both tools push back alike: the overlap with both loses energy all the way. A wall that
-/// is pushed in by u keeps its clay, so its inner surface moves by u R / r.
-Pinched pinched(const RulePress& press, const ClayStack& stack,
-                std::span<const ToolRemoval> removals, std::size_t i) noexcept {
-  double depth[2];
-  for (std::size_t side = 0; side < 2; ++side) {
-    const Contact& contact = removals[side].contact;
-    depth[side] = contact.rings.get(i).depth_mm;
-    if (!(depth[side] > 0.0))
-      depth[side] = signed_depth(press.plan.tool, stack, press.tool.hip_mm.y, i, contact);
-    if (depth[side] <= -1e299) return {};
-  }
-  const Ring& ring = stack.rings()[i];
-  const double opening = ring.inner_mm() > 0.0 ? ring.outer_mm() / ring.inner_mm() : 1.0;
-  const double in = (depth[0] - opening * depth[1]) / (1.0 + opening * opening);
-  const double out = 0.5 * (depth[1] - depth[0]);
-  return {std::max(in, 0.0), std::max(out, 0.0), true};
-}
-
-/// A wall moves less near the solid clay that it stands on.
-void hold_foot(const ClayStack& stack, const Shell& shell, std::size_t first,
-               std::span<double> by) noexcept {
-  const double h = stack.ring_height_mm(), start = (static_cast<double>(first) + 0.5) * h;
-  if (start > shell.foot_mm + shell.root_mm) return;
-  for (std::size_t k = 0; k < by.size(); ++k)
-    by[k] *= shell.hold(start + static_cast<double>(k) * h);
-}
-
-/// The ring that one of two tools would have to push over most, its band in both contacts.
-bool find_push(const RulePress& press, const ClayStack& stack,
-               std::span<const ToolRemoval> removals, Band& band, bool& outward) noexcept {
-  band.give_mm = 0.0;
-  Peak peak;
-  for (const bool from_outside : {true, false}) {
-    const TouchedRings& rings = removals[from_outside ? 0 : 1].contact.rings;
-    Peak side;
-    double most = 0.0;
-    for (std::size_t i = rings.from(); i < rings.to(); ++i) {
-      const double give = rings.give(i);
-      if (!(give > 0.0) || stack.rings()[i].inner2 == 0) continue;
-      const Pinched ring = pinched(press, stack, removals, i);
-      const double push = std::min(give, from_outside ? ring.inward_mm : ring.outward_mm);
-      if (!(push > 0.0)) continue;
-      most = std::max(most, push);
-      side.add(static_cast<double>(i) + 0.5, push);
-    }
-    if (!(most > band.give_mm)) continue;
-    band.give_mm = most;
-    outward = !from_outside;
-    peak = side;
-  }
-  if (peak.weight > 0.0) peak.settle(stack.ring_height_mm(), band);
-  return peak.weight > 0.0;
-}
-
-/// A wall that one of two tools is deeper in is pushed over to the other, never past the middle.
-void centre(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> removals,
-            bool hoop, RuleWork& work) noexcept {
-  Band band;
-  band.low_mm = 1e300;
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (removals[side].contact.rings.empty()) continue;
-    band.low_mm = std::min(band.low_mm, work.bands[side].low_mm);
-    band.high_mm = std::max(band.high_mm, work.bands[side].high_mm);
-  }
-  bool outward = false;
-  if (!find_push(press, stack, removals, band, outward)) return;
-  const double min_wall = press.plan.removal.min_wall_mm;
-  // Where two tools hold the wall, it is not their way that bends it.
-  const Shell shell = shell_at(stack, band, min_wall, 0.0, 0.0);
-  if (!(shell.share > 0.0)) return;
-  work.shift.lay(stack, band, shell, {outward, hoop, min_wall},
-                 [&](std::size_t first, std::span<double> by) {
-                   for (std::size_t k = 0; k < by.size(); ++k) {
-                     const Pinched ring = pinched(press, stack, removals, first + k);
-                     if (!ring.beside) continue;
-                     by[k] = std::min(by[k], outward ? ring.outward_mm : ring.inward_mm);
-                   }
-                   hold_foot(stack, shell, first, by);
-                 });
-  for (std::size_t k = 0; k < 2; ++k) {
-    TouchedRings& rings = removals[k].contact.rings;
-    for (std::size_t i = rings.from(); i < rings.to(); ++i) {
-      double& depth = rings.depth(i);
-      if (!(depth > 0.0)) continue;
-      const Ring &was = stack.rings()[i], is = work.shift.after(i, was);
-      depth += k == 0 ? is.outer_mm() - was.outer_mm() : was.inner_mm() - is.inner_mm();
-      depth = std::max(depth, 0.0);
-    }
-  }
+/// A ring that is touched moves by its part of what it gives way itself, at least.
+void move_touched(TouchedRings& rings, double share, std::size_t first,
+                  std::span<double> by) noexcept {
+  const std::size_t end = std::min(first + by.size(), rings.to());
+  rings.each_slice(std::max(first, rings.from()), end, [=](const TouchedRings::Slice& slice) {
+    in_lanes([=, give = &slice.rows.give[slice.begin], to = &by[slice.ring - first],
+              count = slice.size()]() CLAYSTACK_INLINE {
+      for (std::size_t k = 0; k < count; ++k) to[k] = greater(to[k], share * give[k]);
+    });
+  });
 }
 
 template <unsigned rules>
@@ -188,7 +102,8 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
       if (two || kOneToolBand<rules>) work.bands[k] = band_of(plan.tool, stack, hip_y, contact);
     }
   if (two) {
-    if ((rules & kShift) && !press.trim) centre(press, stack, removals, hoop, work);
+    if ((rules & kShift) && !press.trim)
+      centre(plan, stack, press.tool, work.bands, removals, work.over, work.shift);
     compute_pinch_removal<Model::conserving>(plan.removal, stack, press.tool.gap_mm, dt_s,
                                              removals[0], removals[1], &squeeze);
   } else {
@@ -198,14 +113,10 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
       const Shell shell = shell_at(stack, band, min_wall, press.motion.upward_mm_s,
                                    speed_into(contact.side, press.motion));
       if (shell.share > 0.0)
-        // A ring that is touched moves by its part of what it gives way itself, at least.
         work.shift.lay(stack, band, shell, {contact.side == Side::expansive, hoop, min_wall},
                        [&](std::size_t first, std::span<double> by) {
-                         const TouchedRings& rings = contact.rings;
-                         const std::size_t end = std::min(first + by.size(), rings.to());
-                         for (std::size_t i = std::max(first, rings.from()); i < end; ++i)
-                           by[i - first] = std::max(by[i - first], shell.share * rings.give(i));
-                         hold_foot(stack, shell, first, by);
+                         move_touched(contact.rings, shell.share, first, by);
+                         hold_foot(shell, stack.ring_height_mm(), first, by);
                        });
     }
     squeeze_out(squeeze, stack, contact, removals[0].removed);
@@ -359,6 +270,7 @@ void RuleWork::reserve(const Tool& tool, const ClayStack& stack) {
   const double reach = tool.high() - tool.low() + 3.0 * kLongestShellMm;
   const double rings = reach / stack.ring_height_mm() + 8.0;
   shoulders = shoulders_of(tool);
+  over.reserve(most_contacts(tool, stack.ring_height_mm(), stack.max_rings()));
   shift.reserve(static_cast<std::size_t>(std::min(rings, static_cast<double>(stack.max_rings()))));
 }
 

@@ -5,6 +5,7 @@
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tick.hpp"
 #include "engine/tick/band.hpp"
+#include "engine/tick/centring.hpp"
 #include "engine/tick/redistribution.hpp"
 #include "engine/tick/relief.hpp"
 #include "engine/tick/removal.hpp"
@@ -23,6 +24,7 @@ void follow(Motion& motion, const ToolState& tool) noexcept;
 /// Data that the stages of one part of a tick pass on. Storage is reserved once.
 struct RuleWork {
   Shift shift;
+  PushOver over;                             ///< of a pinch
   std::array<Band, 2> bands;                 ///< of each tool
   Shoulders shoulders;                       ///< of the tool
   std::array<std::array<Cone, 2>, 2> cones;  ///< of each tool: at its lower end, at its upper end

@@ -1,10 +1,10 @@
 #include "engine/tick/heave.hpp"
 
 #include "engine/clay/packs.hpp"
+#include "engine/tick/beside_tool.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 namespace clay {
 namespace {
@@ -275,22 +275,20 @@ class Heaving {
     const double to = std::min(high + 1.0, static_cast<double>(first + count));
     if (!(from < to)) return;
     const auto begin = static_cast<std::size_t>(from), end = static_cast<std::size_t>(to);
-    std::visit(
-        [&](const auto& profile) {
-          for (std::size_t i = begin; i < end; ++i) block_.clear[i - first] = clear_of(profile, i);
-        },
-        tool_.profile());
-  }
-  template <class Profile>
-  [[nodiscard]] double clear_of(const Profile& profile, std::size_t i) const noexcept {
-    const double t = (static_cast<double>(i) + 0.5) * h_ - hip_y_;
-    if (!(t >= tool_.low() && t <= tool_.high())) return kFar;
-    const double f = profile.radius(t), d = contact_.axis_distance_mm;
-    const Ring& ring = stack_.rings()[i];
-    const double near = contact_.side == Side::compressive
-                            ? d - f - rough_root(mm2_from_quanta(ring.outer2))
-                            : rough_root(mm2_from_quanta(ring.inner2)) - (d + f);
-    return std::max(near, 0.0);
+    alignas(kPackBytes) double radii[in_packs_of(kRows)];
+    radii_beside(tool_, h_, hip_y_, begin, end - begin, radii);
+    in_packs([=, f = radii, to = block_.clear + (begin - first), d = contact_.axis_distance_mm,
+              rings = stack_.rings().data() + begin, count = end - begin,
+              outside = contact_.side == Side::compressive](auto n) CLAYSTACK_INLINE {
+      for (std::size_t k = 0; k < count; k += n) {
+        const RingPack<n> pack = load_rings<n>(rings + k, count - k);
+        const auto radius = load_doubles<n>(f + k);
+        const auto surface =
+            rough_roots<n>(doubles_of(outside ? pack.outer2 : pack.inner2) * kMm2PerQuantum);
+        const Doubles<n> near = outside ? d - radius - surface : surface - (d + radius);
+        store(to + k, radius < 0.0 ? all_of<Doubles<n>>(kFar) : greater(near, 0.0));
+      }
+    });
   }
 
   /// As much of what is carried as ring i takes.

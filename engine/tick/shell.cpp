@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace clay {
 namespace {
@@ -57,15 +56,27 @@ Stiffness stiffness_of(const Ring* rings, std::size_t count) noexcept {
   return stiffness;
 }
 
+/// Whether all these rings are pliant, as nearly all of a wall are.
+bool all_pliant(const Ring* rings, std::size_t count) noexcept {
+  bool pliant = false;
+  in_packs([=, to = &pliant](auto n) CLAYSTACK_INLINE {
+    Quantas<n> spare{};  // the sign of the least
+    for (std::size_t k = 0; k < count; k += n) {
+      const RingPack<n> pack = load_rings<n>(rings + k, count - k);
+      spare |= spare_bore(pack.outer2, pack.inner2);
+    }
+    *to = !any(spare < 0);
+  });
+  return pliant;
+}
+
 /// What each of these rings adds to a stop: nothing where it is pliant.
 CLAYSTACK_INLINE inline void stops_of(const Ring* rings, std::size_t count, double per_stop,
                                       double* stops) noexcept {
   for (std::size_t k = 0; k < count; ++k) {
     const Ring ring = rings[k];
     const double pliant = pliancy(lane_double(ring.outer2), lane_double(ring.inner2));
-    const auto outer2 = static_cast<std::uint64_t>(ring.outer2);
-    const auto thin = static_cast<Quanta>((outer2 >> 3) + (outer2 >> 5));
-    stops[k] = ring.inner2 < thin ? per_stop * (1.0 - pliant) : 0.0;
+    stops[k] = spare_bore(ring.outer2, ring.inner2) < 0 ? per_stop * (1.0 - pliant) : 0.0;
   }
 }
 
@@ -82,6 +93,7 @@ double free_length(const ClayStack& stack, double end_mm, bool up, double most, 
   const auto rings_seen = static_cast<std::size_t>(most / h) + 3;
   if (const std::size_t seen = std::min(rings_seen, there); up || seen == rings_seen) {
     const Ring* const from = rings.data() + (up ? first : first + 1 - seen);
+    if (all_pliant(from, seen)) return most;
     const Stiffness stiffness = stiffness_of(from, seen);
     const bool seeks_foot = foot_mm != nullptr && stiffness.most >= 1.0;
     if (stiffness.sum * h * per_stop < 0.999999 && !seeks_foot) return most;
@@ -132,6 +144,16 @@ double trailing(double along_mm_s, double into_mm_s, double thinness) noexcept {
 }
 
 }  // namespace
+
+void hold_foot(const Shell& shell, double h, std::size_t first, std::span<double> by) noexcept {
+  const double start = (static_cast<double>(first) + 0.5) * h;
+  const double held_to = shell.foot_mm + 2.0 * shell.root_mm;  // `hold` is 1 well below that
+  for (std::size_t k = 0; k < by.size(); ++k) {
+    const double up = start + static_cast<double>(k) * h;
+    if (up > held_to) return;
+    by[k] *= shell.hold(up);
+  }
+}
 
 Shell shell_at(const ClayStack& stack, const Band& band, double min_wall_mm, double upward_mm_s,
                double into_mm_s) noexcept {

@@ -5,6 +5,9 @@
 #include "engine/clay/packs.hpp"
 #include "engine/tick/band.hpp"
 
+#include <cstddef>
+#include <span>
+
 namespace clay {
 
 /// Farthest from a band that a shell is bent: bounds the work of a tick for pots of any size.
@@ -31,6 +34,10 @@ struct Shell {
   }
 };
 
+/// A wall moves less near the solid clay that it stands on: so do the rings from `first` on.
+void hold_foot(const Shell& shell, double ring_height_mm, std::size_t first,
+               std::span<double> by_mm) noexcept;
+
 /// By how much a ring may move as part of a shell: 0 where it is solid or nearly so (r < 0.2 R),
 /// 1 from r = 0.4 R. Its hoops are no longer thin there.
 template <class Number>
@@ -41,6 +48,12 @@ template <class Number>
 }
 [[nodiscard]] inline double pliancy(const Ring& ring) noexcept {
   return pliancy(static_cast<double>(ring.outer2), static_cast<double>(ring.inner2));
+}
+
+/// Not below 0: `pliancy` is 1, without the division. [quanta]
+template <class Quantum>
+[[nodiscard]] CLAYSTACK_INLINE inline Quantum spare_bore(Quantum outer2, Quantum inner2) noexcept {
+  return inner2 - ((outer2 >> 3) + (outer2 >> 5) + (outer2 >> 9));  // of kThin and a little more
 }
 
 /// Limit analysis of a plastic cylinder under a ring load (Tresca, hinge circles; moment M0 =

@@ -23,42 +23,48 @@ CLAYSTACK_INLINE inline Number smooth(Number t) noexcept {
 struct Rows {
   static constexpr std::size_t kMost = 128;                 // a multiple of eight
   alignas(kPackBytes) double outer2[kMost], inner2[kMost];  ///< [quanta]
-  double by[kMost];                   ///< how far the ring moves, less where it is not thin [mm]
   double thinness[kMost];             ///< (R^2 - r^2) / (R^2 + r^2): thickness over middle radius
   double outer[kMost], inner[kMost];  ///< [mm]
 };
 
+/// Rings that are not thin move less than `by`.
 template <std::size_t n>
-CLAYSTACK_INLINE inline void load_rows(Rows& rows, const Ring* rings, const double* by,
+CLAYSTACK_INLINE inline void load_rows(Rows& rows, const Ring* rings, double* by,
                                        std::size_t count) noexcept {
+  Quantas<n> spare{};  // the sign of the least
   for (std::size_t k = 0; k < count; k += n) {
     const RingPack<n> pack = load_rings<n>(rings + k, count - k);
     const auto outer2 = doubles_of(pack.outer2), inner2 = doubles_of(pack.inner2);
     store(rows.outer2 + k, outer2);
     store(rows.inner2 + k, inner2);
-    store(rows.by + k, load_doubles<n>(by + k) * pliancy(outer2, inner2));
+    spare |= spare_bore(pack.outer2, pack.inner2);
     const Doubles<n> per_both = 1.0 / (outer2 + inner2);
     store(rows.thinness + k, (outer2 - inner2) * per_both);
   }
+  if (any(spare < 0))
+    for (std::size_t k = 0; k < count; k += n)
+      store(by + k, load_doubles<n>(by + k) * pliancy(load_doubles<n>(rows.outer2 + k),
+                                                      load_doubles<n>(rows.inner2 + k)));
   const std::size_t end = (count + n - 1) / n * n;
   if (end % (2 * n) != 0) store(rows.outer2 + end, all_of<Doubles<n>>(1.0));  // for roots of 2 n
 }
 
 template <std::size_t n>
-CLAYSTACK_INLINE inline Doubles<n> pushed_in(const Rows& rows, std::size_t k) noexcept {
+CLAYSTACK_INLINE inline Doubles<n> pushed_in(const Rows& rows, const double* by,
+                                             std::size_t k) noexcept {
   const auto outer = load_doubles<n>(rows.outer + k);
-  const auto u = lesser(load_doubles<n>(rows.by + k), outer);
+  const auto u = lesser(load_doubles<n>(by + k), outer);
   const Doubles<n> q = u * (2.0 * outer - u) * kQuantaPerMm2;
   const Doubles<n> most = kMostOfBore * load_doubles<n>(rows.inner2 + k);
   return lesser(lesser(q, most), kMostLaneQuanta);
 }
 template <std::size_t n>
-CLAYSTACK_INLINE inline Doubles<n> pushed_out(const Rows& rows, std::size_t k, double per_min_wall,
-                                              double largest2) noexcept {
+CLAYSTACK_INLINE inline Doubles<n> pushed_out(const Rows& rows, const double* by, std::size_t k,
+                                              double per_min_wall, double largest2) noexcept {
   const auto outer2 = load_doubles<n>(rows.outer2 + k), inner2 = load_doubles<n>(rows.inner2 + k);
   const auto outer = load_doubles<n>(rows.outer + k), inner = load_doubles<n>(rows.inner + k);
   const Doubles<n> room = 0.5 * ((outer2 - inner2) * kMm2PerQuantum * per_min_wall - outer - inner);
-  const auto u = lesser(load_doubles<n>(rows.by + k), greater(room, 0.0));
+  const auto u = lesser(load_doubles<n>(by + k), greater(room, 0.0));
   const Doubles<n> q = u * (2.0 * inner + u) * kQuantaPerMm2, left = largest2 - outer2;
   return lesser(lesser(q, greater(left, 0.0)), kMostLaneQuanta);
 }
@@ -114,7 +120,7 @@ void Shift::bend(double h, const Band& band, const Shell& shell, std::size_t fir
 }
 
 void Shift::move(const ClayStack& stack, const Push& push, std::size_t first, std::size_t count,
-                 const double* by) noexcept {
+                 double* by) noexcept {
   static const double largest2 = static_cast<double>(quanta_from_radius(kMaxRadiusMm));
   Rows rows;
   Quanta sum = 0;  // of 128 rings: fits
@@ -134,7 +140,7 @@ void Shift::move(const ClayStack& stack, const Push& push, std::size_t first, st
         store(r->inner + k, root(load_doubles<n>(r->inner2 + k) * kMm2PerQuantum));
       }
       for (std::size_t k = 0; k < count; k += n)
-        add(k, change_rows<n>(*r, k, pushed_out<n>(*r, k, per_min_wall, most), -hoop, changes));
+        add(k, change_rows<n>(*r, k, pushed_out<n>(*r, by, k, per_min_wall, most), -hoop, changes));
     } else {
       for (std::size_t k = 0; k < count; k += 2 * n) {
         const Doubles<n> low = load_doubles<n>(r->outer2 + k) * kMm2PerQuantum;
@@ -144,7 +150,7 @@ void Shift::move(const ClayStack& stack, const Push& push, std::size_t first, st
         store(r->outer + k + n, doubles<n>(high_half<n>(outer)));
       }
       for (std::size_t k = 0; k < count; k += n)
-        add(k, change_rows<n>(*r, k, -pushed_in<n>(*r, k), -hoop, changes));
+        add(k, change_rows<n>(*r, k, -pushed_in<n>(*r, by, k), -hoop, changes));
     }
     *total = sum_of(raised);
   });

@@ -75,8 +75,9 @@ class Shift {
   /// To and from whole packs of rows.
   static void bend(double h, const Band& band, const Shell& shell, std::size_t first,
                    std::size_t count, double* by) noexcept;
+  /// `by` becomes less where the wall is not thin.
   void move(const ClayStack& stack, const Push& push, std::size_t first, std::size_t count,
-            const double* by) noexcept;
+            double* by) noexcept;
   void settle(const ClayStack& stack) noexcept;
 
   std::size_t from_ = 0, count_ = 0;

@@ -1,6 +1,7 @@
 #include "engine/tick/smear.hpp"
 
 #include "engine/clay/packs.hpp"
+#include "engine/tick/beside_tool.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -69,23 +70,36 @@ class Smear {
         store(at->get + to + k, all_of<Doubles<n>>(1e300));
       }
     });
-    const std::size_t beside = std::max(first, beside_from_);
-    for (std::size_t i = beside; i < std::min(first + count, beside_to_); ++i)
-      places.get[to + i - first] = room_beside_tool(i);
+    const TouchedRings& touched = contact_.rings;
+    const std::size_t end = first + count;
+    double* const get = places.get + to;
+    find_room(std::max(first, beside_from_), std::min(end, touched.from()), first, get);
+    find_room(std::max(first, touched.to()), std::min(end, beside_to_), first, get);
+    for (std::size_t i = std::max(first, touched.from()); i < std::min(end, touched.to()); ++i)
+      get[i - first] = sponge_ ? 1e300 : 0.0;
     if (!sponge_) return;
     for (std::size_t k = 0; k < count; ++k)
       places.depth[to + k] = contact_.rings.get(first + k).depth_mm;
   }
 
-  [[nodiscard]] double room_beside_tool(std::size_t i) const noexcept {
-    if (contact_.rings.has(i)) return sponge_ ? 1e300 : 0.0;
-    const double t = (static_cast<double>(i) + 0.5) * stack_.ring_height_mm() - hip_y_;
-    if (t < tool_.low() || t > tool_.high()) return 1e300;
-    const double clear = -depth_of(stack_.rings()[i], tool_.radius(t), contact_);
-    if (!(clear > 0.0)) return 0.0;
-    const Ring& ring = stack_.rings()[i];
-    const double surface = outside_ ? 2.0 * ring.outer_mm() : ring.inner_mm();
-    return 0.5 * clear * surface * kQuantaPerMm2;
+  /// Of the rings from..end-1, beside the tool but not touched.
+  void find_room(std::size_t from, std::size_t end, std::size_t first, double* get) noexcept {
+    if (!(from < end)) return;
+    alignas(kPackBytes) double radii[kMostBeside], rooms[kMostBeside];
+    radii_beside(tool_, stack_.ring_height_mm(), hip_y_, from, end - from, radii);
+    in_packs([f = radii, to = rooms, d = contact_.axis_distance_mm, count = end - from,
+              rings = stack_.rings().data() + from, outside = outside_](auto n) CLAYSTACK_INLINE {
+      using D = Doubles<n>;
+      for (std::size_t k = 0; k < count; k += n) {
+        const RingPack<n> pack = load_rings<n>(rings + k, count - k);
+        const D radius = load_doubles<n>(f + k);
+        const D surface = root(doubles_of(outside ? pack.outer2 : pack.inner2) * kMm2PerQuantum);
+        const D depth = outside ? surface + radius - d : d + radius - surface;
+        const D room = -0.5 * depth * (outside ? 2.0 * surface : surface) * kQuantaPerMm2;
+        store(to + k, radius < 0.0 ? all_of<D>(1e300) : depth < 0.0 ? room : D{});
+      }
+    });
+    std::copy_n(rooms, end - from, get + (from - first));
   }
 
   void pairs(std::size_t first, std::size_t count, std::size_t stride, double k0) noexcept {

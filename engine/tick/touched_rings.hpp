@@ -87,6 +87,9 @@ class TouchedRings {
   }
 
   [[nodiscard]] double& depth(std::size_t ring) noexcept { return block(ring).depth[row(ring)]; }
+  [[nodiscard]] double depth(std::size_t ring) const noexcept {
+    return blocks_[(ring - origin_) / kBlock].depth[row(ring)];
+  }
   [[nodiscard]] double& coverage(std::size_t ring) noexcept {
     return block(ring).coverage[row(ring)];
   }
