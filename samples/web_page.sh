@@ -7,8 +7,11 @@
 set -eu
 cd "$(dirname "$0")/.."
 
+fail() { echo "claystack: $1" >&2; exit 3; }
 as_root=""
 [ "$(id -u)" -eq 0 ] || as_root=sudo
+[ -z "$as_root" ] || command -v sudo >/dev/null ||
+  fail "expected root or sudo, for chroot and mounts"
 system=${CLAYSTACK_WEB_SYSTEM:-${XDG_CACHE_HOME:-$HOME/.cache}/claystack-web}
 compiler=3.1.69  # of Emscripten: the page's bits depend on its mathematical functions
 case "$system" in
@@ -16,9 +19,15 @@ case "$system" in
 esac
 
 if [ ! -x "$system/usr/bin/apt-get" ]; then
-  sh samples/install_packages.sh debootstrap
-  $as_root debootstrap --variant=minbase trixie "$system"
+  sh samples/install_packages.sh debootstrap || fail "expected debootstrap, could not install it"
+  # The folder appears when the system is complete: an interrupted run leaves nothing that the next
+  # one would use.
+  $as_root rm -rf "$system.part"
+  $as_root debootstrap --variant=minbase trixie "$system.part" ||
+    fail "could not install Debian 13 into $system; debootstrap names the reason above"
+  $as_root mv "$system.part" "$system"
 fi
+$as_root unshare --mount true || fail "expected the right to mount, which containers often lack"
 # A mount namespace: nothing stays mounted, whatever happens to this command.
 # $1: a command for the shell of that system, in the sources.
 inside() {
@@ -34,8 +43,11 @@ inside() {
 # exceptions are not in its cache: it may add them (FROZEN_CACHE).
 inside "
   dpkg -s emscripten cmake ninja-build pkgconf dpkg-dev brotli >/dev/null 2>&1 || {
-    apt-get update -qq
-    apt-get install -y -qq --no-install-recommends emscripten cmake ninja-build pkgconf dpkg-dev brotli
+    apt-get update -qq &&
+      apt-get install -y -qq --no-install-recommends emscripten cmake ninja-build pkgconf dpkg-dev brotli
+  } || {
+    echo 'claystack: could not install Emscripten into $system; apt-get names the reason above' >&2
+    exit 3
   }
   mkdir -p /opt/claystack-web
   sed 's/^FROZEN_CACHE = True/FROZEN_CACHE = False/' /usr/share/emscripten/.emscripten >/opt/claystack-web/emscripten

@@ -2,11 +2,13 @@
 
 #include "app/cli/memory_room.hpp"
 #include "claystack/engine/files.hpp"
-#ifdef CLAYSTACK_WINDOW
+#ifdef CLAYSTACK_THUMBNAIL
 #include "app/render/image_file.hpp"
-#include "app/render/offscreen.hpp"
 #include "app/render/pot_view.hpp"
 #include "app/render/thumbnail.hpp"
+#endif
+#ifdef CLAYSTACK_WINDOW
+#include "app/render/offscreen.hpp"
 #endif
 
 #include <algorithm>
@@ -44,7 +46,7 @@ void pack_pot(const Pot& pot, solid::ExportRequest& request,
   });
   if (!wanted) return;
   request.options.pot_file = write_pot(pot, PotEncoding::cbor);
-#ifdef CLAYSTACK_WINDOW
+#ifdef CLAYSTACK_THUMBNAIL
   constexpr int kPixels = 256;
   if (!thumbnail) thumbnail = render::png_of(render::thumbnail(render::view_of(pot), kPixels));
   request.options.thumbnail_png = *thumbnail;

@@ -1,10 +1,11 @@
 #include "app/render/picture.hpp"
 
+#include "app/render/circle.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 namespace clay::render {
 namespace {
@@ -20,11 +21,11 @@ std::vector<glm::dvec3> outline_points(const PotView& pot) {
   const std::size_t count = pot.rows.size();
   const std::size_t stride = std::max<std::size_t>(1, count / kCircles);
   const double height = count > 0 ? pot.height_mm / static_cast<double>(count) : 0.0;
+  const std::vector<glm::dvec2> directions = directions_around(kCirclePoints);
   const auto add = [&](std::size_t row, double y) {
-    for (std::size_t k = 0; k < kCirclePoints; ++k) {
-      const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kCirclePoints;
+    for (const glm::dvec2& direction : directions) {
       const double radius = static_cast<double>(pot.rows[row].outer_mm);
-      const glm::dvec3 point{radius * std::sin(angle), y, radius * std::cos(angle)};
+      const glm::dvec3 point{radius * direction.y, y, radius * direction.x};
       const bool fell = pot.fallen && row >= pot.fallen->first_row;
       points.push_back(fell ? glm::dvec3(pot.fallen->place * glm::dvec4(point, 1.0)) : point);
     }

@@ -1,5 +1,6 @@
 #include "app/render/thumbnail.hpp"
 
+#include "app/render/circle.hpp"
 #include "core/colour_scale.hpp"
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 namespace clay::render {
@@ -187,10 +187,8 @@ class Drawing {
         whole_(projection_matrix(camera, 1.0)),
         side_(side),
         canvas_(side) {
-    for (std::size_t k = 0; k <= kSectors; ++k) {
-      const double angle = 2.0 * std::numbers::pi * static_cast<double>(k % kSectors) / kSectors;
-      directions_.emplace_back(std::sin(angle), std::cos(angle));
-    }
+    for (const glm::dvec2& d : directions_around(kSectors)) directions_.emplace_back(d.y, d.x);
+    directions_.push_back(directions_.front());
   }
 
   void add(const Band& band, const glm::dmat4& place) {

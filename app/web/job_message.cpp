@@ -126,6 +126,29 @@ auto members(Like<studio::ExportFigures> auto& of) {
                   thinnest_mm, thinnest_at_mm, faired_mm, moved_mm, moved_at_mm, problems, marks);
 }
 
+auto members(Like<strokes::Stroke> auto& of) {
+  auto& [name, hint, kind, through_mm, outline, outline_in_mm, inside, speed_mm_s, passes, step_mm,
+         hold_s, trim, gap_mm, from_mm, ease_mm] = of;
+  return std::tie(name, hint, kind, through_mm, outline, outline_in_mm, inside, speed_mm_s, passes,
+                  step_mm, hold_s, trim, gap_mm, from_mm, ease_mm);
+}
+auto members(Like<strokes::StrokeScript> auto& of) {
+  auto& [seed, rate_hz, tremor_mm, travel_mm_s, start_mm, all] = of;
+  return std::tie(seed, rate_hz, tremor_mm, travel_mm_s, start_mm, all);
+}
+auto members(Like<studio::LessonQuestion> auto& of) {
+  auto& [script, scene, pot, node, step, passes_left] = of;
+  return std::tie(script, scene, pot, node, step, passes_left);
+}
+auto members(Like<studio::PathPoint> auto& of) {
+  auto& [at_mm, time_s] = of;
+  return std::tie(at_mm, time_s);
+}
+auto members(Like<studio::LessonPlan> auto& of) {
+  auto& [node, step, mode, gap_mm, path, after, left_mm2, problem] = of;
+  return std::tie(node, step, mode, gap_mm, path, after, left_mm2, problem);
+}
+
 // A value as CBOR: an optional or a pointer may be null, a class is the array of its members.
 template <class Value>
 struct Cbor {
@@ -171,6 +194,13 @@ struct Cbor<Pot> {
   static json of(const Pot& pot) { return Bytes::of(write_pot(pot, PotEncoding::cbor)); }
   static void read(const json& from, Pot& into) {
     into = parse_pot(Bytes::in(from), "the pot of the window").value();
+  }
+};
+template <>
+struct Cbor<SceneSpec> {
+  static json of(const SceneSpec& scene) { return write_scene(scene); }
+  static void read(const json& from, SceneSpec& into) {
+    into = parse_scene(from.get<std::string>(), "the scene of the window").value();
   }
 };
 template <>
@@ -238,15 +268,24 @@ std::string message_of(const studio::PotQuestion& question) { return message("ch
 
 std::string message_of(const ExportQuestion& question) { return message("export", question); }
 
+std::string message_of(const studio::LessonQuestion& question) { return message("plan", question); }
+
 Question question_in(std::string_view message) {
   const json value = value_in(message);
-  return {member<studio::PotQuestion>(value, "check"), member<ExportQuestion>(value, "export")};
+  return {member<studio::PotQuestion>(value, "check"), member<ExportQuestion>(value, "export"),
+          member<studio::LessonQuestion>(value, "plan")};
 }
 
 std::string message_of(const studio::PotCheck& check) { return message("checked", check); }
 
 std::optional<studio::PotCheck> check_in(std::string_view message) {
   return member<studio::PotCheck>(value_in(message), "checked");
+}
+
+std::string message_of(const studio::LessonPlan& plan) { return message("planned", plan); }
+
+std::optional<studio::LessonPlan> plan_in(std::string_view message) {
+  return member<studio::LessonPlan>(value_in(message), "planned");
 }
 
 std::string message_of(const ExportAnswer& answer) {

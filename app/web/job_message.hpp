@@ -3,6 +3,7 @@
 // with the same bits.
 
 #include "app/studio/export_choices.hpp"
+#include "app/studio/guide/lesson.hpp"
 #include "app/studio/readings/pot_check.hpp"
 
 #include <optional>
@@ -24,16 +25,20 @@ struct ExportAnswer {
 
 [[nodiscard]] std::string message_of(const studio::PotQuestion& question);
 [[nodiscard]] std::string message_of(const ExportQuestion& question);
-/// One of the two; both empty for a message of another version of the page.
+[[nodiscard]] std::string message_of(const studio::LessonQuestion& question);
+/// One of the three; all empty for a message of another version of the page.
 struct Question {
   std::optional<studio::PotQuestion> check;
   std::optional<ExportQuestion> exporting;
+  std::optional<studio::LessonQuestion> lesson;
 };
 [[nodiscard]] Question question_in(std::string_view message);
 
 [[nodiscard]] std::string message_of(const studio::PotCheck& check);
 [[nodiscard]] std::string message_of(const ExportAnswer& answer);
+[[nodiscard]] std::string message_of(const studio::LessonPlan& plan);
 [[nodiscard]] std::optional<studio::PotCheck> check_in(std::string_view message);
 [[nodiscard]] std::optional<ExportAnswer> export_in(std::string_view message);
+[[nodiscard]] std::optional<studio::LessonPlan> plan_in(std::string_view message);
 
 }  // namespace clay::web

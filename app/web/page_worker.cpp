@@ -13,7 +13,7 @@ EM_JS(void, page_stop, (int slot), { Module["page"].stop(slot); });
 
 }  // namespace
 
-std::array<PageWorker*, 2> PageWorker::all_{};
+std::array<PageWorker*, 3> PageWorker::all_{};
 
 PageWorker::PageWorker(Slot slot) : slot_(slot) { all_[static_cast<std::size_t>(slot)] = this; }
 PageWorker::~PageWorker() { all_[static_cast<std::size_t>(slot_)] = nullptr; }

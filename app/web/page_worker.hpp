@@ -11,7 +11,7 @@ namespace clay::web {
 
 class PageWorker {
  public:
-  enum class Slot { check, exporting };
+  enum class Slot { check, exporting, lesson };
 
   explicit PageWorker(Slot slot);
   ~PageWorker();
@@ -33,7 +33,7 @@ class PageWorker {
   static void show_stage(int slot, std::string_view stage);
 
  private:
-  static std::array<PageWorker*, 2> all_;
+  static std::array<PageWorker*, 3> all_;  // by slot
   Slot slot_;
   bool busy_ = false;
   std::optional<std::string> answer_;

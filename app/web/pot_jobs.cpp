@@ -43,6 +43,7 @@ ExportAnswer run(ExportQuestion question) {
 std::string answer_to(std::string_view message) {
   Question question = question_in(message);
   if (question.check) return message_of(check_pot(*question.check));
+  if (question.lesson) return message_of(plan_step(*question.lesson));
   return message_of(run(std::move(*question.exporting)));
 }
 

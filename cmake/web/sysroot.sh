@@ -63,7 +63,7 @@ for notice in "$top"/unpacked/usr/share/doc/*/copyright "$top"/sources/*/debian/
   cat "$notice"
 done >"$root/licences.txt"
 
-cmake -G Ninja -S "$here/libraries" -B "$top/libraries" -DCMAKE_BUILD_TYPE=Release \
+cmake -C "$here/libraries/checks.cmake" -G Ninja -S "$here/libraries" -B "$top/libraries" -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_TOOLCHAIN_FILE="$here/toolchain.cmake" -DSYSROOT="$root" -DSOURCES="$top/sources" \
   -DCMAKE_INSTALL_PREFIX="$root"
 cmake --build "$top/libraries" -j "${JOBS:-2}"

@@ -61,6 +61,11 @@ void Guide::ask(const Document& document) {
 
 void Guide::receive(LessonPlan plan) {
   if (plan.node != node_ || plan.step != state_.step) return;
+  if (!plan.problem.empty()) {  // the card shows it; a stroke or undo makes another plan
+    demonstration_ = Demonstration::none;
+    plan_ = std::move(plan);
+    return;
+  }
   if (state_.tries == 0) state_.start_mm2 = plan.left_mm2;
   const double enough = std::max(kLeftMm2, kLeftShare * state_.start_mm2);
   const bool there = plan.left_mm2 <= (state_.tries > 0 ? enough : kNothingMm2);
@@ -77,7 +82,7 @@ void Guide::receive(LessonPlan plan) {
 void Guide::update(const Document& document, const StrokeController& stroke) {
   if (!active() || finished() || !document.has_work()) return;
   if (stroke.throwing()) {
-    if (!plan_ || stroke.view() == seen_) return;
+    if (!plan_ || plan_->path.empty() || stroke.view() == seen_) return;
     seen_ = stroke.view();
     const double left = plan_->left_from(seen_);
     progress_ = std::clamp(1.0 - left / std::max(1.0, state_.start_mm2), 0.0, 1.0);

@@ -3,14 +3,14 @@
 // is there. It can play the strokes itself.
 
 #include "app/studio/document.hpp"
-#include "app/studio/guide/lesson.hpp"
+#include "app/studio/guide/lesson_planner.hpp"
 #include "app/studio/samples.hpp"
 #include "app/studio/stroke_controller.hpp"
-#include "core/worker.hpp"
 
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace clay::studio {
 
@@ -21,10 +21,8 @@ enum class Demonstration { none, step, all };
 
 class Guide {
  public:
-  /// Without `threads` plans are made within `update`, so that scripts are reproducible.
-  explicit Guide(bool threads)
-      : planner_([](const LessonQuestion& question, const auto&) { return plan_step(question); },
-                 threads) {}
+  /// Without `background` plans are made within `update`, so that scripts are reproducible.
+  explicit Guide(bool background) : planner_(background) {}
 
   /// Starts with the first step of a sample.
   Result<void> begin(const Sample& sample, Demonstration demonstration);
@@ -78,7 +76,7 @@ class Guide {
   double progress_ = 0.0;
   render::PotView seen_;  // of `progress_`
   Demonstration demonstration_ = Demonstration::none;
-  NewestWorker<LessonQuestion, LessonPlan> planner_;
+  LessonPlanner planner_;
 };
 
 }  // namespace clay::studio

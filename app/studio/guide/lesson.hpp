@@ -47,7 +47,7 @@ struct LessonPlan {
   std::vector<PathPoint> path;  ///< empty: the tool would not touch the clay
   render::PotView after;        ///< the pot after all passes that are left
   double left_mm2 = 0.0;        ///< difference of the pot from that, see `left_from`
-  std::string problem;          ///< why there is no plan
+  std::string problem;          ///< why there is no plan; then the path is empty
 
   /// How far a pot is from the result: a pull is to make the wall thinner and taller, wherever it
   /// stands; all other strokes move it.

@@ -37,7 +37,7 @@ void Play::advance(AppState& state) {
   Actions actions;
   if (!state.stroke.throwing()) {
     playing_ = false;
-    if (plan == nullptr || !state.ui.shows<NoDialog>()) return;
+    if (plan == nullptr || plan->path.empty() || !state.ui.shows<NoDialog>()) return;
     if (read_ != plan->path.data()) {
       read_ = plan->path.data();
       rest_until_s_ = now_s + kReadS;

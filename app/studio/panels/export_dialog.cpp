@@ -15,13 +15,6 @@
 namespace clay::studio {
 namespace {
 
-/// PDF and the report: a web page has neither cairo nor a picture beside its own.
-#ifdef __EMSCRIPTEN__
-constexpr bool kWritesPages = false;
-#else
-constexpr bool kWritesPages = true;
-#endif
-
 /// A box for each ending that can be written, in the order of the table of formats; they wrap.
 void draw_meshes(ExportChoices& choices) {
   bool first = true;
@@ -42,7 +35,7 @@ void draw_meshes(ExportChoices& choices) {
 }
 
 /// Each function edits its own part of `choices`.
-void draw_formats(ExportChoices& choices) {
+void draw_formats(const ViewModel& model, ExportChoices& choices) {
   form_row("Files");
   draw_meshes(choices);
   form_row("Also");
@@ -51,16 +44,15 @@ void draw_formats(ExportChoices& choices) {
   ImGui::Checkbox("SVG", &choices.section);
   ImGui::SameLine();
   ImGui::Checkbox("DXF", &choices.dxf);
-  if (kWritesPages) {
+  if (!kInPage) {
     ImGui::SameLine();
     ImGui::Checkbox("PDF", &choices.pdf);
   }
   ImGui::SameLine();
   ImGui::Checkbox("Pot", &choices.pot);
-  if (kWritesPages) {
-    ImGui::SameLine();
-    ImGui::Checkbox("Report", &choices.report);
-  }
+  if (kInPage) return faint_text(model.colours(), "PDF and the report need the native program.");
+  ImGui::SameLine();
+  ImGui::Checkbox("Report", &choices.report);
 }
 
 void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actions) {
@@ -159,7 +151,7 @@ void draw_buttons(const ViewModel& model, Actions& actions) {
     if (main_button("Export (Ctrl+Enter)", model.colours()))
       actions.emplace_back(RunCommand{"export.write"});
     ImGui::SameLine();
-    if (!exporting.written.empty()) {
+    if (!exporting.written.empty() && !kInPage) {
       if (ImGui::Button("Open folder")) actions.emplace_back(RunCommand{"export.folder"});
       ImGui::SameLine();
     }
@@ -173,7 +165,7 @@ void draw(const ExportDialog&, const ViewModel& model, Actions& actions, const V
   begin_dialog("##export", rect, 40.0f);
   dialog_title(model, "Export");
   ExportChoices choices = model.ui.exporting.choices;
-  draw_formats(choices);
+  draw_formats(model, choices);
   form_place(choices.name, choices.folder, actions);
   draw_choices(model, choices, actions);
   if (choices != model.ui.exporting.choices) actions.emplace_back(EditExport{choices});

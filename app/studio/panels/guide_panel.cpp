@@ -16,7 +16,7 @@ constexpr ImGuiWindowFlags kCard =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
-constexpr float kCardEm = 30.0f, kTwoRowsEm = 22.0f;
+constexpr float kCardEm = 30.0f, kDotEm = 0.9f;
 
 const char* name_of_tool(ToolMode mode) {
   return mode == ToolMode::pinch    ? "Two fingers"
@@ -31,14 +31,14 @@ void draw_steps(const Guide& guide, const Palette& colours) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   for (std::size_t i = 0; i < guide.steps(); ++i) {
-    const ImVec2 middle(at.x + radius + static_cast<float>(i) * 0.9f * em, at.y + 0.5f * em);
+    const ImVec2 middle(at.x + radius + static_cast<float>(i) * kDotEm * em, at.y + 0.5f * em);
     const ImVec4& colour = i < guide.step() ? colours.good : colours.accent;
     if (i <= guide.step())
       draw->AddCircleFilled(middle, radius, ImGui::GetColorU32(colour));
     else
       draw->AddCircle(middle, radius, ImGui::GetColorU32(colours.faint));
   }
-  ImGui::Dummy({0.9f * em * static_cast<float>(guide.steps()), em});
+  ImGui::Dummy({kDotEm * em * static_cast<float>(guide.steps()), em});
 }
 
 void draw_progress(double part, const Palette& colours) {
@@ -116,8 +116,8 @@ double distance_mm(const LessonPlan& plan, const glm::dvec3& tool_mm) {
 
 }  // namespace
 
-void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect) {
-  if (!model.guide.active() || !model.ui.shows<NoDialog>()) return;
+float draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect) {
+  if (!model.guide.active() || !model.ui.shows<NoDialog>()) return 0.0f;
   const float em = ImGui::GetFontSize();
   const float width = std::min(rect.size_px.x - 2.0f * em, kCardEm * em);
   ImGui::SetNextWindowPos(
@@ -128,20 +128,24 @@ void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect) 
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   ImGui::Begin("##guide", nullptr, kCard);
   const Guide& guide = model.guide;
-  if (width > kTwoRowsEm * em || !guide.finished()) draw_steps(guide, model.colours());
-  ImGui::SameLine();
-  ImGui::TextColored(model.colours().faint, "%s",
-                     guide.finished() ? guide.title()
-                                      : fmt::format("{}, step {} of {}", guide.title(),
-                                                    guide.step() + 1, guide.steps())
-                                            .c_str());
+  const std::string title = guide.finished() ? guide.title()
+                                             : fmt::format("{}, step {} of {}", guide.title(),
+                                                           guide.step() + 1, guide.steps());
+  const float dots = kDotEm * em * static_cast<float>(guide.steps());
+  if (dots + ImGui::CalcTextSize(title.c_str()).x + 2.0f * em < ImGui::GetContentRegionAvail().x) {
+    draw_steps(guide, model.colours());
+    ImGui::SameLine();
+  }
+  ImGui::TextColored(model.colours().faint, "%s", title.c_str());
   if (guide.finished())
     draw_finish(model, actions);
   else
     draw_present_step(model, actions);
+  const float height = ImGui::GetWindowHeight() + em;
   ImGui::End();
   ImGui::PopStyleColor();
   ImGui::PopStyleVar();
+  return height;
 }
 
 void draw_path(const ViewModel& model, const ViewRect& rect) {

@@ -179,6 +179,7 @@ void form_place(std::string& name, std::string& folder, Actions& actions) {
   form_row("Name");
   ImGui::InputText("##name", &name);
   form_row("Folder");
+  if (kInPage) return ImGui::TextDisabled("Downloads of the browser");
   const float button = ImGui::CalcTextSize("Choose...").x + 3.0f * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemSpacing.x);
   ImGui::InputText("##folder", &folder);

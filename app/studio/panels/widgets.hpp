@@ -39,7 +39,14 @@ bool form_slider(const char* label, float& value, float low, float high, const s
 bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
                  const char* none = nullptr);
 
-/// Lines for the name and the folder of files.
+/// A web page has neither folders nor cairo, and no picture beside its own.
+#ifdef __EMSCRIPTEN__
+inline constexpr bool kInPage = true;
+#else
+inline constexpr bool kInPage = false;
+#endif
+
+/// Lines for the name and the folder of files; a page has downloads only.
 void form_place(std::string& name, std::string& folder, Actions& actions);
 /// A list of clays and glazes; the one that was chosen now, or null.
 [[nodiscard]] const Material* choose_material(const Material& shown);

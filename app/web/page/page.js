@@ -219,7 +219,7 @@ const page = {
 
 // ---- workers -----------------------------------------------------------------------------------
 
-const workers = [null, null];
+const workers = [];  // by slot, see PageWorker; each begins with its first question
 function answered(slot, bytes) {
   const place = studio._malloc(bytes.length || 1);
   studio.HEAPU8.set(bytes, place);

@@ -11,6 +11,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace clay::web {
@@ -166,9 +167,69 @@ TEST(JobMessage, CarriesFiguresFilesAndErrors) {
   EXPECT_EQ(failed->done.error().message, "full");
 }
 
+TEST(JobMessage, CarriesTheQuestionForALesson) {
+  const strokes::Stroke stroke{.name = "Pull",
+                               .hint = "Draw it up.",
+                               .kind = strokes::StrokeKind::pull,
+                               .through_mm = {{0.1, 0.2}},
+                               .outline = {{1.0 / 3.0, 0.0}, {48.0, 1.0}},
+                               .outline_in_mm = true,
+                               .inside = true,
+                               .speed_mm_s = 45.5,
+                               .passes = 3,
+                               .step_mm = {0.3, 0.4},
+                               .hold_s = 0.5,
+                               .trim = true,
+                               .gap_mm = {11.0, 7.5},
+                               .from_mm = 17.3,
+                               .ease_mm = 0.6};
+  const auto script = std::make_shared<const strokes::StrokeScript>(
+      strokes::StrokeScript{7, 250.0, 0.07, 400.0, {130.0, 140.0}, {stroke, stroke}});
+  studio::LessonQuestion asked{script, {}, cup(5.0), 9, 1, 2};
+  asked.scene.name = "cup";
+  asked.scene.clay = ClaySpec{.floor_mm = 1.0 / 7.0};
+  asked.scene.tool = {EllipseSpec{12.0, 7.1}, ToolMode::pinch, 6.5};
+  const Question received = question_in(message_of(asked));
+  ASSERT_TRUE(received.lesson);
+  EXPECT_FALSE(received.check || received.exporting);
+  EXPECT_EQ(received.lesson->scene, asked.scene);
+  EXPECT_EQ(received.lesson->pot->stack.volume(), asked.pot->stack.volume());
+  EXPECT_EQ(received.lesson->node, 9u);
+  EXPECT_EQ(received.lesson->step, 1u);
+  EXPECT_EQ(received.lesson->passes_left, 2);
+  // The script with its strokes: the same bytes once more.
+  EXPECT_EQ(message_of(*received.lesson), message_of(asked));
+  const strokes::StrokeScript& found = *received.lesson->script;
+  EXPECT_EQ(std::tie(found.seed, found.rate_hz, found.tremor_mm, found.travel_mm_s, found.start_mm),
+            std::tie(script->seed, script->rate_hz, script->tremor_mm, script->travel_mm_s,
+                     script->start_mm));
+  ASSERT_EQ(found.strokes.size(), 2u);
+  EXPECT_EQ(found.strokes[1].kind, strokes::StrokeKind::pull);
+  EXPECT_EQ(found.strokes[1].outline, stroke.outline);
+  EXPECT_EQ(found.strokes[1].gap_mm, stroke.gap_mm);
+}
+
+TEST(JobMessage, CarriesThePlanOfAStroke) {
+  studio::LessonPlan plan{.node = 3,
+                          .step = 2,
+                          .mode = ToolMode::trim,
+                          .gap_mm = 0.1,
+                          .path = {{{0.2, 1.0 / 3.0}, 0.4}, {{0.5, 0.6}, 0.7}},
+                          .after = render::view_of(*cup(4.0)),
+                          .left_mm2 = 0.8,
+                          .problem = "none"};
+  const auto found = plan_in(message_of(plan));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(std::tie(found->node, found->step, found->mode, found->gap_mm, found->path,
+                     found->after, found->left_mm2, found->problem),
+            std::tie(plan.node, plan.step, plan.mode, plan.gap_mm, plan.path, plan.after,
+                     plan.left_mm2, plan.problem));
+}
+
 TEST(JobMessage, IgnoresMessagesOfAnotherKind) {
   EXPECT_FALSE(check_in(message_of(full_question())));
   EXPECT_FALSE(export_in(message_of(full_question())));
+  EXPECT_FALSE(plan_in(message_of(full_question())));
 }
 
 }  // namespace
