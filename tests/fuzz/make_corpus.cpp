@@ -2,7 +2,7 @@
 
 #include "tests/fuzz/mesh_promise.hpp"
 #ifdef CLAYSTACK_APP
-#include "tests/fuzz/text_promise.hpp"
+#include "tests/fuzz/program_readers.hpp"
 #endif
 
 #include <filesystem>
@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   for (const FormatFacts& facts : kFormatFacts)
     if (!write_files(corpus / name_of(facts.format), samples::good_files(facts.format))) return 3;
 #ifdef CLAYSTACK_APP
-  for (const clay::samples::TextReader& reader : clay::samples::text_readers(CLAYSTACK_SAMPLES))
+  for (const clay::samples::TextReader& reader : clay::samples::program_readers(CLAYSTACK_SAMPLES))
     if (!write_files(corpus / reader.name, reader.good)) return 3;
 #endif
   return 0;

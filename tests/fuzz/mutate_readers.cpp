@@ -4,10 +4,7 @@
 
 #include "tests/fuzz/mesh_promise.hpp"
 #include "tests/fuzz/mesh_words.hpp"
-#include "tests/fuzz/text_promise.hpp"
-#ifdef CLAYSTACK_STUDIO
-#include "app/studio/settings.hpp"
-#endif
+#include "tests/fuzz/program_readers.hpp"
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -70,14 +67,7 @@ int main(int argc, char** argv) {
     kept &=
         report(facts.name, count, solid::samples::first_broken(facts.format, seed, count, begin));
   }
-  auto readers = samples::text_readers(argv[2]);
-#ifdef CLAYSTACK_STUDIO
-  readers.push_back({"settings", {studio::write_settings({})}, [](std::string_view bytes) {
-                       return samples::round_trip(bytes, studio::parse_settings,
-                                                  studio::write_settings);
-                     }});
-#endif
-  for (const samples::TextReader& reader : readers)
+  for (const samples::TextReader& reader : samples::program_readers(argv[2]))
     kept &= report(reader.name, count, samples::first_broken(reader, seed, count, begin));
   if (most_mib() > 512) {
     std::fprintf(stderr, "expected at most 512 MiB, found %ld\n", most_mib());

@@ -77,16 +77,18 @@ inline std::string good_certificate() {
   return solid::write_certificate(certificate);
 }
 
+/// The promise of a reader without a writer.
+template <class Parse>
+auto read_only(Parse parse) {
+  return [parse](std::string_view bytes) -> std::optional<std::string> {
+    const auto value = parse(bytes, kFuzzed);
+    if (value || value.error().message.starts_with(kFuzzed)) return std::nullopt;
+    return "unnamed error: " + value.error().message;
+  };
+}
+
 /// Those of engine, export and strokes; `folder` is samples/.
 inline std::vector<TextReader> text_readers(const std::string& folder) {
-  // What has no writer is only read.
-  const auto read_only = [](auto parse) {
-    return [parse](std::string_view bytes) -> std::optional<std::string> {
-      const auto value = parse(bytes, kFuzzed);
-      if (value || value.error().message.starts_with(kFuzzed)) return std::nullopt;
-      return "unnamed error: " + value.error().message;
-    };
-  };
   const auto pot = [](PotEncoding encoding) {
     return [encoding](std::string_view bytes) {
       return round_trip(bytes, parse_pot,
