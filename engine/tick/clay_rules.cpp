@@ -84,15 +84,29 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
   }
 }
 
+/// One tool moves the wall that it presses.
+void bend(const RulePress& press, const ClayStack& stack, Contact& contact, bool hoop,
+          RuleWork& work) noexcept {
+  const Band& band = work.bands[0];
+  const double min_wall = press.plan.removal.min_wall_mm;
+  const Shell shell = shell_at(stack, band, min_wall, press.motion.upward_mm_s,
+                               speed_into(contact.side, press.motion));
+  if (!(shell.share > 0.0)) return;
+  work.shift.lay(stack, band, shell, {contact.side == Side::expansive, hoop, min_wall},
+                 [&](std::size_t first, std::span<double> by) {
+                   move_touched(contact.rings, shell.share, first, by);
+                   hold_foot(shell, stack.ring_height_mm(), first, by);
+                 });
+}
+
 template <unsigned rules>
 void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> removals,
                 RuleWork& work) noexcept {
   const StepPlan& plan = press.plan;
   const double hip_y = press.tool.hip_mm.y, dt_s = press.tool.dt_s;
-  const double min_wall = plan.removal.min_wall_mm;
-  constexpr bool hoop = (rules & kHoop) != 0;
   work.shift.clear();
-  const Squeeze squeeze{min_wall, plan.clay.floor_rings, (rules & kShift) ? &work.shift : nullptr};
+  const Squeeze squeeze{plan.removal.min_wall_mm, plan.clay.floor_rings,
+                        (rules & kShift) ? &work.shift : nullptr};
   const bool two = removals.size() == 2;
   if (!two || kTwoToolBand<rules>)
     for (std::size_t k = 0; k < removals.size(); ++k) {
@@ -108,17 +122,7 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
                                              removals[0], removals[1], &squeeze);
   } else {
     Contact& contact = removals[0].contact;
-    if ((rules & kShift) && !press.trim) {
-      const Band& band = work.bands[0];
-      const Shell shell = shell_at(stack, band, min_wall, press.motion.upward_mm_s,
-                                   speed_into(contact.side, press.motion));
-      if (shell.share > 0.0)
-        work.shift.lay(stack, band, shell, {contact.side == Side::expansive, hoop, min_wall},
-                       [&](std::size_t first, std::span<double> by) {
-                         move_touched(contact.rings, shell.share, first, by);
-                         hold_foot(shell, stack.ring_height_mm(), first, by);
-                       });
-    }
+    if ((rules & kShift) && !press.trim) bend(press, stack, contact, (rules & kHoop) != 0, work);
     squeeze_out(squeeze, stack, contact, removals[0].removed);
   }
   if constexpr (rules & kHeave)
@@ -180,6 +184,31 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
   return flow(up + flow(amount - up, false), true);
 }
 
+/// Takes what stands in the cones beyond the contacts. Returns the clay.
+WideQuanta relieve(const RulePress& press, std::span<const ToolRemoval> removals,
+                   const RuleWork& work, const ClayStack& stack, StackWriter& writer) noexcept {
+  WideQuanta removed = 0;
+  for (std::size_t k = 0; k < removals.size(); ++k)
+    if (!removals[k].contact.rings.empty())
+      for (const Cone& cone : work.cones[k])
+        if (cone.meets)
+          removed +=
+              relieve_beyond(press.plan, cone, stack, press.tool.dt_s, removals[k].contact, writer);
+  return removed;
+}
+
+/// Smears what each tool presses.
+void smear_surfaces(const RulePress& press, std::span<const ToolRemoval> removals,
+                    const RuleWork& work, const ClayStack& stack, StackWriter& writer) noexcept {
+  const StepPlan& plan = press.plan;
+  for (std::size_t k = 0; k < removals.size(); ++k)
+    if (!removals[k].contact.rings.empty())
+      smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.dt_s, removals[k].contact,
+            work.bands[k],
+            {plan.clay.surface_per_s, plan.removal.yield_depth_mm, plan.removal.min_wall_mm},
+            writer);
+}
+
 template <unsigned rules>
 Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, const RuleWork& work,
                ClayStack& stack, Ledger& ledger, Rim& all_rim) noexcept {
@@ -193,13 +222,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, co
   }
   WideQuanta removed = remove_clay(removals, stack, rim);
   if constexpr (rules & kHeave)
-    if (!press.trim)
-      for (std::size_t k = 0; k < removals.size(); ++k)
-        if (!removals[k].contact.rings.empty())
-          for (const Cone& cone : work.cones[k])
-            if (cone.meets)
-              removed +=
-                  relieve_beyond(plan, cone, stack, press.tool.dt_s, removals[k].contact, writer);
+    if (!press.trim) removed += relieve(press, removals, work, stack, writer);
   if (press.trim)
     ledger.trimmed += removed;
   else if ((rules & kLift) && removals.size() == 2)
@@ -207,13 +230,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, co
   else
     writer.put_on_crown(displace<rules>(press, removals, work, removed, stack, rim));
   if constexpr (rules & kSmear)
-    if (!press.trim)
-      for (std::size_t k = 0; k < removals.size(); ++k)
-        if (!removals[k].contact.rings.empty())
-          smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.dt_s, removals[k].contact,
-                work.bands[k],
-                {plan.clay.surface_per_s, plan.removal.yield_depth_mm, plan.removal.min_wall_mm},
-                writer);
+    if (!press.trim) smear_surfaces(press, removals, work, stack, writer);
   Flow flow;
   flow.lowest = work.lowest;
   flow.highest = work.highest;

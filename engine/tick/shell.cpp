@@ -80,6 +80,16 @@ CLAYSTACK_INLINE inline void stops_of(const Ring* rings, std::size_t count, doub
   }
 }
 
+/// Whether surely none of these rings stops the wall; with a foot to seek: nor is solid. `nearest`
+/// of them to the band is the first to be stiff, as a rule.
+bool bends_freely(std::span<const Ring> rings, const Ring& nearest, double per_stop,
+                  bool seeks_foot) noexcept {
+  if (spare_bore(nearest.outer2, nearest.inner2) >= 0 && all_pliant(rings.data(), rings.size()))
+    return true;
+  const Stiffness stiffness = stiffness_of(rings.data(), rings.size());
+  return stiffness.sum * per_stop < 0.999999 && !(seeks_foot && stiffness.most >= 1.0);
+}
+
 /// How far the wall is free to bend from an end of the band: to the floor, to a solid part, or
 /// farther than `most`. `foot_mm`: the top of the first solid ring below, if there is one.
 double free_length(const ClayStack& stack, double end_mm, bool up, double most, double stop,
@@ -92,11 +102,8 @@ double free_length(const ClayStack& stack, double end_mm, bool up, double most, 
   // Most walls have no stop there. The loop below sees two rings less; nearly a stop is left to it.
   const auto rings_seen = static_cast<std::size_t>(most / h) + 3;
   if (const std::size_t seen = std::min(rings_seen, there); up || seen == rings_seen) {
-    const Ring* const from = rings.data() + (up ? first : first + 1 - seen);
-    if (all_pliant(from, seen)) return most;
-    const Stiffness stiffness = stiffness_of(from, seen);
-    const bool seeks_foot = foot_mm != nullptr && stiffness.most >= 1.0;
-    if (stiffness.sum * h * per_stop < 0.999999 && !seeks_foot) return most;
+    const std::span some = rings.subspan(up ? first : first + 1 - seen, seen);
+    if (bends_freely(some, rings[first], h * per_stop, foot_mm != nullptr)) return most;
   }
   const double within = level - static_cast<double>(first);
   double piece = h * (up ? 1.0 - within : within);  // of the ring that the end lies in
