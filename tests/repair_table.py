@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Repairs the real meshes that Debian packages contain, and prints a table for docs/repair.md.
 
-    python3 tests/repair_table.py build/release/app/claystack SCRATCH_FOLDER [SECONDS_PER_FILE]
+    python3 tests/repair_table.py build/release/app/claystack SCRATCH_FOLDER [SECONDS_PER_FILE [JOBS]]
 
 Downloads the packages with apt-get and unpacks them into SCRATCH_FOLDER; installs nothing. The limit
 and the times are seconds of a processor, of all threads together, so that a busy machine does not
@@ -15,9 +15,12 @@ import resource
 import shutil
 import subprocess
 import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-PACKAGES = ["cura", "prusa-slicer", "assimp-testmodels", "openscad", "admesh"]
+PACKAGES = ["cura", "prusa-slicer", "assimp-testmodels", "libcgal-demo", "openscad", "admesh"]
+SUFFIXES = (".stl", ".obj", ".off", ".ply")
 
 
 def fetch(scratch):
@@ -27,22 +30,28 @@ def fetch(scratch):
             continue
         subprocess.run(["apt-get", "download", package], cwd=scratch, check=True, capture_output=True)
         subprocess.run(["dpkg", "-x", next(scratch.glob(package + "_*.deb")), to], check=True)
-
-
-def run(arguments, seconds):
-    """The result and its processor time; None if that exceeds the limit."""
-    child = subprocess.Popen(
-        arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace",
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds)))
-    out, err = child.communicate()
-    return None if child.returncode < 0 else subprocess.CompletedProcess(arguments, child.returncode, out, err)
+        for archive in to.rglob("data.tar.gz"):  # the meshes of CGAL
+            subprocess.run(["tar", "xzf", archive, "-C", archive.parent], check=True)
 
 
 def timed(arguments, seconds):
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = run(arguments, seconds)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return done, sum(after[i] - before[i] for i in range(2))
+    """The result, None if its processor time exceeds the limit; and that time, of all its threads."""
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        child = subprocess.Popen(
+            arguments, stdout=out, stderr=err,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds)))
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        texts = []
+        for file in (out, err):
+            file.seek(0)
+            texts.append(file.read().decode(errors="replace"))
+    done = subprocess.CompletedProcess(arguments, child.returncode, *texts)
+    return (None if child.returncode < 0 else done), usage.ru_utime + usage.ru_stime
+
+
+def run(arguments, seconds):
+    return timed(arguments, seconds)[0]
 
 
 def admesh_accepts(path):
@@ -80,7 +89,7 @@ def examine(claystack, scratch, seconds, path):
     row["closed"] = report.get("closed", False)
     if not row["read"] or row["sound"]:
         return row
-    out = scratch / "out" / (path.name + ".stl")
+    out = scratch / "out" / f"{row['package']}_{path.name}.stl"
     out.unlink(missing_ok=True)
     done, row["seconds"] = timed([claystack, "check", "--repair", "--quiet", "-o", str(out), str(path)], seconds)
     row["repaired"] = bool(done) and done.returncode == 0
@@ -99,11 +108,13 @@ def examine(claystack, scratch, seconds, path):
 def main():
     claystack, scratch = sys.argv[1], Path(sys.argv[2]).resolve()
     seconds = int(sys.argv[3]) if len(sys.argv) > 3 else 60
+    jobs = int(sys.argv[4]) if len(sys.argv) > 4 else os.cpu_count()
     (scratch / "out").mkdir(parents=True, exist_ok=True)
     fetch(scratch)
     files = sorted(p for package in PACKAGES for p in (scratch / package).rglob("*")
-                   if p.suffix.lower() in (".stl", ".obj") and p.is_file())
-    rows = [examine(claystack, scratch, seconds, p) for p in files]  # one by one: their times are told apart
+                   if p.suffix.lower() in SUFFIXES and p.is_file())
+    with ThreadPoolExecutor(jobs) as pool:
+        rows = list(pool.map(lambda path: examine(claystack, scratch, seconds, path), files))
     heads = ["package", "files", "read", "sound", "prints", "closed, unsound", "repaired", "open", "repaired",
              *JUDGES, "slowest [s]"]
     print("|", " | ".join(heads), "|")
