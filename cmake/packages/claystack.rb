@@ -12,10 +12,16 @@ class Claystack < Formula
   depends_on "ninja" => :build
   depends_on "nlohmann-json" => :build
   depends_on "pkg-config" => :build
+  depends_on "tl-expected" => :build
+  depends_on "boost"
+  depends_on "cairo"
   depends_on "cgal"
   depends_on "draco"
   depends_on "fmt"
+  depends_on "gmp"
   depends_on "libzip"
+  depends_on "meshoptimizer"
+  depends_on "mpfr"
   depends_on "open-mesh"
   depends_on "xxhash"
   uses_from_macos "libxml2"

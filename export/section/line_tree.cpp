@@ -90,44 +90,58 @@ void LineTree::for_each_child(Node node, Visit visit) const {
   if (first + 1 < levels_[node.level - 1].size()) visit(Node{node.level - 1, first + 1});
 }
 
-void LineTree::descend(Node node, const Box& near, const LineEdge& edge, double& bound2) const {
+void LineTree::descend(Node node, const Box& near, const LineEdge& edge, Search& search) const {
   step_of_loop();
-  if (distance2(box(node), near) >= bound2) return;
+  if (search.done() || distance2(box(node), near) >= search.least2) return;
   if (node.level == 0)
     for_each_edge(node, [&](const LineEdge& mine) {
-      bound2 = std::min(bound2, solid::distance2(mine, edge));
+      search.least2 = std::min(search.least2, solid::distance2(mine, edge));
     });
   else
-    for_each_child(node, [&](Node child) { descend(child, near, edge, bound2); });
+    for_each_child(node, [&](Node child) { descend(child, near, edge, search); });
 }
 
-void LineTree::descend(Node node, const LineTree& other, Node across, double& bound2) const {
+void LineTree::descend(Node node, const LineTree& other, Node across, Search& search) const {
   step_of_loop();
-  if (distance2(box(node), other.box(across)) >= bound2) return;
+  if (search.done() || distance2(box(node), other.box(across)) >= search.least2) return;
   if (node.level == 0 && across.level == 0)
     for_each_edge(node, [&](const LineEdge& mine) {
       const Box near = box_of(mine);
-      if (distance2(near, other.box(across)) >= bound2) return;
+      if (distance2(near, other.box(across)) >= search.least2) return;
       other.for_each_edge(across, [&](const LineEdge& theirs) {
-        if (distance2(near, box_of(theirs)) < bound2)
-          bound2 = std::min(bound2, solid::distance2(mine, theirs));
+        if (distance2(near, box_of(theirs)) < search.least2)
+          search.least2 = std::min(search.least2, solid::distance2(mine, theirs));
       });
     });
   else if (node.level >= across.level)
-    for_each_child(node, [&](Node child) { descend(child, other, across, bound2); });
+    for_each_child(node, [&](Node child) { descend(child, other, across, search); });
   else
-    other.for_each_child(across, [&](Node child) { descend(node, other, child, bound2); });
+    other.for_each_child(across, [&](Node child) { descend(node, other, child, search); });
 }
 
-double LineTree::nearest2(const LineEdge& edge, double bound2) const {
-  if (!edges_.empty()) descend({levels_.size() - 1, 0}, box_of(edge), edge, bound2);
-  return bound2;
+double LineTree::run(const LineEdge& edge, Search search) const {
+  if (!edges_.empty()) descend({levels_.size() - 1, 0}, box_of(edge), edge, search);
+  return search.least2;
 }
+
+double LineTree::run(const LineTree& other, Search search) const {
+  if (!edges_.empty() && !other.edges_.empty())
+    descend({levels_.size() - 1, 0}, other, {other.levels_.size() - 1, 0}, search);
+  return search.least2;
+}
+
+double LineTree::nearest2(const LineEdge& edge, double bound2) const { return run(edge, {bound2}); }
 
 double LineTree::nearest2(const LineTree& other, double bound2) const {
-  if (!edges_.empty() && !other.edges_.empty())
-    descend({levels_.size() - 1, 0}, other, {other.levels_.size() - 1, 0}, bound2);
-  return bound2;
+  return run(other, {bound2});
+}
+
+bool LineTree::any_nearer2(const LineEdge& edge, double bound2) const {
+  return run(edge, {bound2, bound2}) < bound2;
+}
+
+bool LineTree::any_nearer2(const LineTree& other, double bound2) const {
+  return run(other, {bound2, bound2}) < bound2;
 }
 
 }  // namespace clay::solid::inline section

@@ -23,7 +23,17 @@ class LineTree {
   /// The same for the nearest pair of edges, one of each line.
   [[nodiscard]] double nearest2(const LineTree& other, double bound2) const;
 
+  /// Whether there is such an edge, or pair; ends at the first that is found.
+  [[nodiscard]] bool any_nearer2(const LineEdge& edge, double bound2) const;
+  [[nodiscard]] bool any_nearer2(const LineTree& other, double bound2) const;
+
  private:
+  struct Search {
+    double least2;         ///< so far
+    double enough2 = 0.0;  ///< ends below this
+
+    [[nodiscard]] bool done() const noexcept { return least2 < enough2; }
+  };
   struct Box {
     double rho_low, rho_high, y_low, y_high;
   };
@@ -36,8 +46,10 @@ class LineTree {
   static Box around(const Box& a, const Box& b);
 
   [[nodiscard]] const Box& box(Node node) const { return levels_[node.level][node.index]; }
-  void descend(Node node, const Box& box, const LineEdge& edge, double& bound2) const;
-  void descend(Node node, const LineTree& other, Node across, double& bound2) const;
+  [[nodiscard]] double run(const LineEdge& edge, Search search) const;
+  [[nodiscard]] double run(const LineTree& other, Search search) const;
+  void descend(Node node, const Box& box, const LineEdge& edge, Search& search) const;
+  void descend(Node node, const LineTree& other, Node across, Search& search) const;
   template <class Visit>
   void for_each_edge(Node leaf, Visit visit) const;
   template <class Visit>

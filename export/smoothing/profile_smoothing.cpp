@@ -53,6 +53,7 @@ class PieceSmoother {
         // Never 0, so that the guard finds and corrects walls that would meet.
         limit_(options.min_wall_mm ? std::max(*options.min_wall_mm, piece.least_step_mm)
                                    : least_own_wall_mm(piece)),
+        own_walls_(piece, limit_),
         plan_(piece, fairing_length_mm(piece, options)),
         flange_guard_(piece, limit_),
         overshot_(piece) {}
@@ -102,14 +103,14 @@ class PieceSmoother {
 
   /// True if the guard found walls too thin and could undo some smoothing there.
   bool guard_found_more() {
-    if (!thinner_than(piece_, lines_, limit_)) return false;
-    const RingFlags suspects = rings_near_thin(piece_, lines_, limit_);
-    const std::vector<double> own =
-        walls_by_ring_mm(piece_, stepped_lines(piece_), limit_, suspects);
-    const std::vector<double> now = walls_by_ring_mm(piece_, lines_, limit_, suspects);
+    const WallGauge gauge(piece_, lines_);
+    if (!gauge.thinner_than(limit_)) return false;
+    const RingFlags suspects = gauge.rings_near_thin(limit_);
+    const std::vector<double> now = gauge.by_ring_mm(limit_, suspects);
+    const std::vector<double>& own = own_walls_.by_ring_mm(suspects);
     std::vector<ThinRing> thin;
     for (std::size_t i = 0; i < piece_.size(); ++i)
-      if (now[i] < own[i] * kWallRounding) thin.push_back({i, now[i]});
+      if (suspects[i] != 0 && now[i] < own[i] * kWallRounding) thin.push_back({i, now[i]});
     return (options_.mode == Smoothing::fair && (plan_.refine(thin) || plan_.use_chords(thin))) ||
            plan_.keep_steps(thin);
   }
@@ -131,18 +132,18 @@ class PieceSmoother {
   /// the walls too far; then the fairing was undone, jumps were cut or the simplification was
   /// undone instead.
   bool volume_kept() {
-    RingFlags rings(piece_.size(), 1);
+    RingFlags rings = all_rings();
     Correction correction = corrected(rings, 0.0);
     const bool taken = correction.lacking_over_pi < 0.0;
     result_.taken_mm = 0.0;
-    if (taken && thinner_than(piece_, correction.lines, limit_)) {
+    if (taken && WallGauge(piece_, correction.lines).thinner_than(limit_)) {
       rings = thick_rings();
       Correction careful = careful_correction(rings);
       if (careful.moved_mm > 0.0) {
         correction = std::move(careful);
       } else {
         result_.taken_mm = correction.moved_mm;
-        rings.assign(piece_.size(), 1);
+        rings = all_rings();
       }
     }
     if (correction.moved_mm > allowed_move_mm()) {
@@ -210,9 +211,9 @@ class PieceSmoother {
   }
 
   /// Rings that can be moved that far without approaching the limit of the guard.
-  RingFlags thick_rings() const {
+  RingFlags thick_rings() {
     const double spare = 2.0 * allowed_move_mm();  // across a solid both sides move
-    const std::vector<double> own = walls_of(stepped_lines(piece_), limit_);
+    const std::vector<double>& own = own_walls_.by_ring_mm(all_rings());
     const std::vector<double> now = walls_of(lines_, limit_ + spare);
     RingFlags thick(piece_.size());
     for (std::size_t i = 0; i < piece_.size(); ++i)
@@ -223,8 +224,8 @@ class PieceSmoother {
   /// Moves only the flagged rings, which must be thick. A wall runs from the outside of one ring to
   /// the bore of another one: where the move thins a wall, the rings around it are unflagged. Moves
   /// nothing if too few rings remain.
-  Correction careful_correction(RingFlags& rings) const {
-    const std::vector<double> own = walls_of(stepped_lines(piece_), limit_);
+  Correction careful_correction(RingFlags& rings) {
+    const std::vector<double>& own = own_walls_.by_ring_mm(all_rings());
     const std::vector<double> before = walls_of(lines_, limit_);
     for (int round = 0; round < kCarefulRounds; ++round) {
       Correction made = corrected(rings, 0.0);
@@ -244,8 +245,10 @@ class PieceSmoother {
   }
 
   std::vector<double> walls_of(const WallLines& lines, double cap_mm) const {
-    return walls_by_ring_mm(piece_, lines, cap_mm, RingFlags(piece_.size(), 1));
+    return WallGauge(piece_, lines).by_ring_mm(cap_mm, all_rings());
   }
+
+  RingFlags all_rings() const { return RingFlags(piece_.size(), 1); }
 
   void report_fairing() {
     if (plan_.lengths().empty()) return;
@@ -260,7 +263,7 @@ class PieceSmoother {
     plan_.kept_for_volume().report(KeptFor::volume, {}, result_.guard);
     const KeptStretches& thinned = plan_.kept_for_wall();
     if (!thinned.empty())
-      thinned.report(KeptFor::wall, walls_by_ring_mm(piece_, lines_, limit_, thinned.rings()),
+      thinned.report(KeptFor::wall, WallGauge(piece_, lines_).by_ring_mm(limit_, thinned.rings()),
                      result_.guard);
   }
 
@@ -274,6 +277,7 @@ class PieceSmoother {
   const PieceWalls& piece_;
   const SmoothingOptions& options_;
   double limit_;
+  StepWalls own_walls_;
   SmoothingPlan plan_;
   FlangeGuard flange_guard_;
   WallLines lines_;

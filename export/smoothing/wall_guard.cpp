@@ -1,7 +1,6 @@
 #include "export/smoothing/wall_guard.hpp"
 
 #include "core/cancel.hpp"
-#include "export/section/line_tree.hpp"
 #include "export/smoothing/fair_wall.hpp"
 
 #include <algorithm>
@@ -142,45 +141,59 @@ double least_own_wall_mm(const PieceWalls& piece) {
   return through_clay(LineTree(lines.outer), LineTree(lines.bore), least);
 }
 
-bool thinner_than(const PieceWalls& piece, const WallLines& lines, double limit_mm) {
+bool WallGauge::thinner_than(double limit_mm) const {
   const double bound = limit_mm * kWallRounding;
-  return least_across(piece, lines.outer, bound) < bound ||
-         LineTree(lines.outer).nearest2(LineTree(lines.bore), bound * bound) < bound * bound;
+  return least_across(piece_, lines_.outer, bound) < bound ||
+         outer_.any_nearer2(bore_, bound * bound);
 }
 
-RingFlags rings_near_thin(const PieceWalls& piece, const WallLines& lines, double limit_mm) {
-  const LineTree outer(lines.outer), bore(lines.bore);
+RingFlags WallGauge::rings_near_thin(double limit_mm) const {
   const double bound = limit_mm * kWallRounding, bound2 = bound * bound;
-  RingFlags rings(piece.size(), 0);
+  RingFlags rings(piece_.size(), 0);
   const auto flag = [&](std::size_t first, std::size_t end) {
     std::fill(rings.begin() + static_cast<std::ptrdiff_t>(first),
               rings.begin() + static_cast<std::ptrdiff_t>(end), char{1});
   };
-  for_each_edge(piece, lines.bore, [&](std::size_t first, std::size_t end, const LineEdge& edge) {
-    if (outer.nearest2(edge, bound2) < bound2) flag(first, end);
+  for_each_edge(piece_, lines_.bore, [&](std::size_t first, std::size_t end, const LineEdge& edge) {
+    if (outer_.any_nearer2(edge, bound2)) flag(first, end);
   });
-  for_each_edge(piece, lines.outer, [&](std::size_t first, std::size_t end, const LineEdge& edge) {
-    if (2.0 * std::min(edge.from.rho, edge.to.rho) < bound || bore.nearest2(edge, bound2) < bound2)
-      flag(first, end);
-  });
+  for_each_edge(
+      piece_, lines_.outer, [&](std::size_t first, std::size_t end, const LineEdge& edge) {
+        if (2.0 * std::min(edge.from.rho, edge.to.rho) < bound || bore_.any_nearer2(edge, bound2))
+          flag(first, end);
+      });
   return rings;
 }
 
-std::vector<double> walls_by_ring_mm(const PieceWalls& piece, const WallLines& lines, double cap_mm,
-                                     const RingFlags& rings) {
-  const LineTree outer(lines.outer), bore(lines.bore);
-  std::vector<double> walls(piece.size(), cap_mm * cap_mm);
-  for_each_clipped(piece, lines.bore, rings, [&](std::size_t i, const LineEdge& edge) {
-    walls[i] = outer.nearest2(edge, walls[i]);
+std::vector<double> WallGauge::by_ring_mm(double cap_mm, const RingFlags& rings) const {
+  std::vector<double> walls(piece_.size(), cap_mm * cap_mm);
+  for_each_clipped(piece_, lines_.bore, rings, [&](std::size_t i, const LineEdge& edge) {
+    walls[i] = outer_.nearest2(edge, walls[i]);
   });
-  for_each_clipped(piece, lines.outer, rings, [&](std::size_t i, const LineEdge& edge) {
-    walls[i] = bore.nearest2(edge, walls[i]);
-    if (piece.bore.radius[i] > 0.0) return;
+  for_each_clipped(piece_, lines_.outer, rings, [&](std::size_t i, const LineEdge& edge) {
+    walls[i] = bore_.nearest2(edge, walls[i]);
+    if (piece_.bore.radius[i] > 0.0) return;
     const double across = 2.0 * std::min(edge.from.rho, edge.to.rho);
     keep_least(walls[i], across * across);
   });
   for (double& wall : walls) wall = std::sqrt(wall);
   return walls;
+}
+
+const std::vector<double>& StepWalls::by_ring_mm(const RingFlags& rings) {
+  if (!gauge_) {
+    gauge_.emplace(piece_, stepped_lines(piece_));
+    measured_.assign(piece_.size(), 0);
+    walls_mm_.assign(piece_.size(), cap_mm_);
+  }
+  RingFlags missing = rings;
+  for (std::size_t i = 0; i < missing.size(); ++i)
+    if (measured_[i] != 0) missing[i] = 0;
+  if (std::ranges::find(missing, 1) == missing.end()) return walls_mm_;
+  const std::vector<double> found = gauge_->by_ring_mm(cap_mm_, missing);
+  for (std::size_t i = 0; i < missing.size(); ++i)
+    if (missing[i] != 0) walls_mm_[i] = found[i], measured_[i] = 1;
+  return walls_mm_;
 }
 
 }  // namespace clay::solid::inline smoothing

@@ -1,7 +1,8 @@
 #pragma once
+#include "export/section/line_tree.hpp"
 #include "export/smoothing/piece_walls.hpp"
 
-#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace clay::solid::inline smoothing {
@@ -31,20 +32,48 @@ struct WallLines {
 /// across (2R) where there is no bore; and vertically through floors, lids and solids.
 [[nodiscard]] double least_own_wall_mm(const PieceWalls& piece);
 
-/// True if these walls are thinner than `limit_mm` anywhere, apart from rounding. Vertical
-/// thickness is not checked, because smoothing keeps the levels.
-[[nodiscard]] bool thinner_than(const PieceWalls& piece, const WallLines& lines, double limit_mm);
-
-/// A flag for each ring beside which an edge is thinner than the limit.
+/// A flag for each ring.
 using RingFlags = std::vector<char>;
-[[nodiscard]] RingFlags rings_near_thin(const PieceWalls& piece, const WallLines& lines,
-                                        double limit_mm);
 
-/// For each flagged ring the minimum distance [mm] from the points of either wall at its heights,
-/// both ends included, to the other wall at any height; twice the radius where clay reaches the
-/// axis. Larger values, and those of unflagged rings, are set to `cap_mm`. Exact: the walls are
-/// clipped ring by ring.
-[[nodiscard]] std::vector<double> walls_by_ring_mm(const PieceWalls& piece, const WallLines& lines,
-                                                   double cap_mm, const RingFlags& rings);
+/// Measures the walls between two lines. The piece outlives it.
+class WallGauge {
+ public:
+  WallGauge(const PieceWalls& piece, const WallLines& lines)
+      : piece_(piece), lines_(lines), outer_(lines.outer), bore_(lines.bore) {}
+
+  /// True if the walls are thinner than `limit_mm` anywhere, apart from rounding. Vertical
+  /// thickness is not checked, because smoothing keeps the levels.
+  [[nodiscard]] bool thinner_than(double limit_mm) const;
+
+  /// Flags the rings beside which an edge is thinner than the limit.
+  [[nodiscard]] RingFlags rings_near_thin(double limit_mm) const;
+
+  /// For each flagged ring the minimum distance [mm] from the points of either wall at its heights,
+  /// both ends included, to the other wall at any height; twice the radius where clay reaches the
+  /// axis. Larger values, and those of unflagged rings, are set to `cap_mm`. Exact: the walls are
+  /// clipped ring by ring.
+  [[nodiscard]] std::vector<double> by_ring_mm(double cap_mm, const RingFlags& rings) const;
+
+ private:
+  const PieceWalls& piece_;
+  WallLines lines_;
+  LineTree outer_, bore_;
+};
+
+/// The walls of the steps by ring, each measured once, when it is needed. The piece outlives it.
+class StepWalls {
+ public:
+  StepWalls(const PieceWalls& piece, double cap_mm) : piece_(piece), cap_mm_(cap_mm) {}
+
+  /// As `WallGauge::by_ring_mm` of the steps for the flagged rings. Others are any value.
+  const std::vector<double>& by_ring_mm(const RingFlags& rings);
+
+ private:
+  const PieceWalls& piece_;
+  double cap_mm_;
+  std::optional<WallGauge> gauge_;
+  RingFlags measured_;
+  std::vector<double> walls_mm_;
+};
 
 }  // namespace clay::solid::inline smoothing

@@ -2,7 +2,7 @@
 //   curvature_combs SAMPLE LENGTH_MM OUT_PREFIX
 // writes OUT_PREFIX-outside.svg and OUT_PREFIX-inside.svg, and prints the largest values.
 //   curvature_combs
-// prints what the fairing of all samples moves, and how long it takes.
+// prints what the fairing of all samples moves, and its processor time.
 
 #include "app/chart/plot.hpp"
 #include "claystack/core/atomic_file.hpp"
@@ -10,10 +10,11 @@
 #include "tests/export/job/sample_pots.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -116,16 +117,15 @@ int draw(const std::string& sample, double length_mm, const std::string& prefix)
   return 0;
 }
 
-double median_ms(const ClayStack& stack, double length_mm) {
-  std::vector<double> times(stack.size() < kManyRings ? kRounds : 1);
-  for (double& time : times) {
-    const auto begin = std::chrono::steady_clock::now();
+/// Of the processor, the least of some rounds: other programs disturb it little.
+double least_ms(const ClayStack& stack, double length_mm) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t round = 0; round < (stack.size() < kManyRings ? kRounds : 1); ++round) {
+    const std::clock_t begin = std::clock();
     (void)smoothed(stack, length_mm, 0.02);
-    time =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    least = std::min(least, 1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   }
-  std::sort(times.begin(), times.end());
-  return times[times.size() / 2];
+  return least;
 }
 
 /// A bellied wall of 100 mm or more with the kinks of strokes.
@@ -142,7 +142,7 @@ ClayStack bellied(std::size_t count) {
 }
 
 void time(const char* name, const ClayStack& stack, double length_mm) {
-  const double chords = median_ms(stack, 0.0), faired = median_ms(stack, length_mm);
+  const double chords = least_ms(stack, 0.0), faired = least_ms(stack, length_mm);
   std::printf("%-20s %8.3f ms straight, %8.3f ms faired, ratio %.2f\n", name, chords, faired,
               faired / chords);
 }
