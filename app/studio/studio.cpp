@@ -211,7 +211,7 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   draw_hint(model, actions, free);
   draw_guide(model, actions, free);
   draw_dialog(model, actions, view);
-  draw_banner(model, actions, view);
+  draw_banner(model, actions, view, verdict);
 }
 
 /// Compares the view and the panels with those on the screen, and chooses the resolution of the
