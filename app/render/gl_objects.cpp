@@ -54,6 +54,15 @@ Renderbuffer make_storage(GLenum format, int width, int height, int samples) {
   return buffer;
 }
 
+Texture make_colours(int width, int height) {
+  Texture texture = make_texture();
+  glBindTexture(GL_TEXTURE_2D, texture.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  filter_linearly();
+  glBindTexture(GL_TEXTURE_2D, 0);
+  return texture;
+}
+
 }  // namespace
 
 const char* glsl_version() {
@@ -63,6 +72,13 @@ const char* glsl_version() {
 Buffer make_buffer() { return Buffer(generated(glGenBuffers)); }
 VertexArray make_vertex_array() { return VertexArray(generated(glGenVertexArrays)); }
 Texture make_texture() { return Texture(generated(glGenTextures)); }
+
+void filter_linearly() {
+  for (const GLenum filter : {GLenum{GL_TEXTURE_MIN_FILTER}, GLenum{GL_TEXTURE_MAG_FILTER}})
+    glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
+  for (const GLenum wrap : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}})
+    glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+}
 
 Result<Program> make_program(std::string_view name, const std::string& vertex,
                              const std::string& fragment) {
@@ -109,14 +125,21 @@ Result<Canvas> Canvas::create(int width_px, int height_px, int samples) {
   canvas.height_ = height_px;
   canvas.samples_ = samples;
   const int taken = std::min(samples, static_cast<int>(most));
-  canvas.colour_ = make_storage(GL_RGBA8, width_px, height_px, taken);
+  if (taken > 1)
+    canvas.colour_ = make_storage(GL_RGBA8, width_px, height_px, taken);
+  else
+    canvas.texture_ = make_colours(width_px, height_px);
   canvas.depth_ = make_storage(GL_DEPTH_COMPONENT24, width_px, height_px, taken);
   canvas.framebuffer_ = Framebuffer(generated(glGenFramebuffers));
   GLint bound = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.framebuffer());
-  glFramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                            canvas.colour_.get());
+  if (taken > 1)
+    glFramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                              canvas.colour_.get());
+  else
+    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                           canvas.texture_.get(), 0);
   glFramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
                             canvas.depth_.get());
   const GLenum status = glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);

@@ -54,6 +54,8 @@ using Program = GlName<gl::delete_program>;
 Buffer make_buffer();
 VertexArray make_vertex_array();
 Texture make_texture();
+/// Of the bound 2D texture.
+void filter_linearly();
 
 /// The first line of the shaders for this context.
 [[nodiscard]] const char* glsl_version();
@@ -71,12 +73,14 @@ void set(const Program& program, const char* name, const glm::vec3& value);
 void set(const Program& program, const char* name, const glm::vec2& value);
 void set(const Program& program, const char* name, float value);
 
-/// Colour and depth, multisampled if `samples` is above 1.
+/// Colour and depth, multisampled if `samples` is above 1; otherwise the colour is a texture.
 class Canvas {
  public:
   /// `device`: the driver refuses this size.
   static Result<Canvas> create(int width_px, int height_px, int samples);
   [[nodiscard]] GLuint framebuffer() const noexcept { return framebuffer_.get(); }
+  /// The texture, with linear filtering; 0 if multisampled.
+  [[nodiscard]] GLuint colour() const noexcept { return texture_.get(); }
   [[nodiscard]] bool is(int width_px, int height_px, int samples) const noexcept {
     return width_ == width_px && height_ == height_px && samples_ == samples;
   }
@@ -85,6 +89,7 @@ class Canvas {
 
  private:
   Framebuffer framebuffer_;
+  Texture texture_;
   Renderbuffer colour_, depth_;
   int width_ = 0, height_ = 0, samples_ = 0;
 };

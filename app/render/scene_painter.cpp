@@ -60,9 +60,11 @@ Result<ScenePainter> ScenePainter::create() {
 void ScenePainter::paint(const Picture& picture, Viewport viewport) {
   const SceneFrame frame(picture, viewport);
   FrameBlock block = frame.block;
-  const ShadowMap shadow = shadow_of(frame.bodies, glm::vec3(frame.block.to_lamp));
-  block.viewport.z = shadow.half_side_mm;
-  send(shadow);
+  if (!picture.alone && frame.from_above()) {
+    const ShadowMap shadow = shadow_of(frame.bodies, glm::vec3(frame.block.to_lamp));
+    block.viewport.z = shadow.half_side_mm;
+    send(shadow);
+  }
   send(block);
   glViewport(0, 0, viewport.width_px, viewport.height_px);
   glDisable(GL_BLEND);
@@ -103,10 +105,7 @@ void ScenePainter::send(const ShadowMap& map) {
   constexpr auto kSide = static_cast<GLsizei>(ShadowMap::kSide);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RG8, kSide, kSide, 0, GL_RG, GL_UNSIGNED_BYTE,
                map.light.data());
-  for (const GLenum filter : {GLenum{GL_TEXTURE_MIN_FILTER}, GLenum{GL_TEXTURE_MAG_FILTER}})
-    glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
-  for (const GLenum wrap : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}})
-    glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+  filter_linearly();
 }
 
 /// At the far plane, so it covers only empty pixels.

@@ -12,11 +12,11 @@ constexpr std::size_t kDiscs = 28;   // discs that approximate a body
 constexpr float kLampWidth = 0.16f;  // tangent of the lamp's angular size
 constexpr float kAmbientDepth = 0.62f;
 
-/// A disc of clay in a body's coordinates, and its lowest point in the wheel's.
+/// A disc of clay in a body's coordinates.
 struct Disc {
   float y, radius;
-  glm::vec3 centre;  ///< in the wheel's coordinates
-  float low;
+  glm::vec3 centre;       ///< in the wheel's coordinates
+  float strength, reach;  ///< of the sky that it hides: at its edge, and how far beyond
 };
 
 struct Caster {
@@ -32,7 +32,10 @@ Caster caster_of(const Body& body) {
   for (std::size_t k = 0; k < count; ++k) {
     const Level& level = levels[k * (levels.size() - 1) / std::max<std::size_t>(1, count - 1)];
     const glm::vec3 centre(body.place * glm::vec4(0.0f, level.y, 0.0f, 1.0f));
-    caster.discs.push_back({level.y, level.outer, centre, centre.y - level.outer * tilt});
+    const float low = std::max(0.0f, centre.y - level.outer * tilt);
+    caster.discs.push_back({level.y, level.outer, centre,
+                            kAmbientDepth / (1.0f + 2.0f * low / (level.outer + 1e-6f)),
+                            0.30f * level.outer + low + 1e-6f});
   }
   return caster;
 }
@@ -52,9 +55,13 @@ float lamp_hidden(const Caster& caster, const glm::vec3& point, const glm::vec3&
   for (const Disc& disc : caster.discs) {
     const float along = (disc.y - from.y) / way.y;
     if (along < 0.0f) continue;
-    const float off = std::hypot(from.x + along * way.x, from.z + along * way.z) - disc.radius;
+    const float x = from.x + along * way.x, z = from.z + along * way.z;
     const float width = 1.5f * texel + kLampWidth * along;
-    if (off < width) hidden = std::max(hidden, smooth(0.5f - 0.5f * off / width));
+    const float reach = disc.radius + width, squared = x * x + z * z;
+    if (squared >= reach * reach) continue;
+    const float off = std::sqrt(squared) - disc.radius;
+    hidden = std::max(hidden, smooth(0.5f - 0.5f * off / width));
+    if (hidden >= 1.0f) break;
   }
   return hidden;
 }
@@ -62,11 +69,11 @@ float lamp_hidden(const Caster& caster, const glm::vec3& point, const glm::vec3&
 float sky_hidden(const Caster& caster, const glm::vec3& point) {
   float hidden = 0.0f;
   for (const Disc& disc : caster.discs) {
-    const float off = std::hypot(point.x - disc.centre.x, point.z - disc.centre.z) - disc.radius;
-    const float low = std::max(0.0f, disc.low);
-    const float reach = 0.30f * disc.radius + low;
-    const float strength = kAmbientDepth / (1.0f + 2.0f * low / (disc.radius + 1e-6f));
-    hidden = std::max(hidden, strength * std::exp(-std::max(0.0f, off) / (reach + 1e-6f)));
+    const float x = point.x - disc.centre.x, z = point.z - disc.centre.z;
+    const float off = std::max(0.0f, std::sqrt(x * x + z * z) - disc.radius);
+    // exp(-t) is below 1 / (1 + t): most discs need no exponential.
+    if (disc.strength * disc.reach <= hidden * (disc.reach + off)) continue;
+    hidden = std::max(hidden, disc.strength * std::exp(-off / disc.reach));
   }
   return hidden;
 }

@@ -80,6 +80,7 @@ Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot&
   if (choices.smoothing == solid::Smoothing::fair && !pot.collapse)
     options.smooth_length_mm = choices.smooth_length_mm;
   options.name = options.source = choices.name;
+  options.material = choices.material;
   const bool solid = !choices.meshes.empty() || choices.step;
   if (solid || choices.section || choices.dxf || choices.pdf || choices.report)
     options.shrinkage = 0.01 * choices.shrinkage_percent;

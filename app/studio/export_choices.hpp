@@ -5,6 +5,7 @@
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
 #include "claystack/export/job.hpp"
+#include "core/material.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -34,6 +35,7 @@ struct ExportChoices {
   std::string process;            ///< as for --process; empty: none
   double min_wall_mm = 0.0;       ///< 0: the limit of the process, if there is one
   double shrinkage_percent = 0.0;
+  std::string material{kWet.id};  ///< of a GLB, as for --material
   friend bool operator==(const ExportChoices&, const ExportChoices&) = default;
 };
 

@@ -61,7 +61,7 @@ Result<void> run_script(const StudioOptions& options, const LogLine& log) {
   return {};
 }
 
-/// How long the picture was behind the mouse.
+/// How long the picture was behind the mouse, and how many pictures there were.
 void log_motion(const FrameTimes& times, const LogLine& log) {
   const auto text = [](const Histogram& motion) {
     return fmt::format("median {:.1f} ms, 99 % {:.1f} ms, of {}",
@@ -70,6 +70,10 @@ void log_motion(const FrameTimes& times, const LogLine& log) {
   };
   if (times.hover.count() > 0) log("motion to picture, hovering: " + text(times.hover));
   if (times.stroke.count() > 0) log("motion to picture, in a stroke: " + text(times.stroke));
+  if (times.intervals > 0)
+    log(fmt::format("frames while moving: {:.1f} per second, of {}; drawing: median {:.1f} ms",
+                    times.fps(), times.drawing.count(),
+                    1e-6 * static_cast<double>(times.drawing.quantile_ns(0.5))));
 }
 
 Result<void> run_window(const StudioOptions& options, const LogLine& log) {

@@ -128,6 +128,7 @@ void show_export(AppState& state) {
   if (choices.name.empty()) choices.process = state.settings.process;
   choices.name = export_name(state);
   choices.folder = export_folder(state);
+  choices.material = state.settings.material.id;
   exporting = {.choices = choices, .preview = {}, .problem = {}, .written = {}, .result = {}};
   state.ui.dialog = ExportDialog{};
 }

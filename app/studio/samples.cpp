@@ -20,7 +20,7 @@ const std::array<Sample, 4>& samples() {
   static const std::array<Sample, 4> all = {
       Sample{"bowl", "Bowl", "Open wide, and keep the floor", embedded::bowl_scene_json,
              embedded::bowl_session, embedded::bowl_strokes_json},
-      Sample{"vase", "Vase", "A belly, a shoulder, a lip", embedded::vase_scene_json,
+      Sample{"vase", "Vase", "A belly, a shoulder and a narrow neck", embedded::vase_scene_json,
              embedded::vase_session, embedded::vase_strokes_json},
       Sample{"bottle", "Bottle", "Collar a neck over a full body", embedded::bottle_scene_json,
              embedded::bottle_session, embedded::bottle_strokes_json},

@@ -61,6 +61,9 @@ Result<std::unique_ptr<Studio>> Studio::create(Host& host, Settings settings,
   auto painter = render::Painter::create();
   if (!painter) return tl::make_unexpected(painter.error());
   studio->painter_.emplace(std::move(*painter));
+  auto smoother = render::EdgeSmoother::create();
+  if (!smoother) return tl::make_unexpected(smoother.error());
+  studio->smoother_.emplace(std::move(*smoother));
   studio->context_ = ImGui::CreateContext();
   connect_imgui(host);
   if (!ImGui_ImplOpenGL3_Init(render::glsl_version()))
@@ -101,6 +104,7 @@ bool Studio::frame(Painting painting) {
   last_s_ = now_s;
   if (state_.ui.restyle) restyle();
   if (awake_frames_ > 0) --awake_frames_;
+  if (!moving()) times_.last_ns = 0;
   state_.ui.notices.expire(now_s);
   state_.readings.update(state_.document, state_.stroke, wanted_of(state_.settings, state_.ui),
                          now_ns, state_.log);
@@ -212,7 +216,7 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   draw_hint(model, actions, free);
   keep_above_guide(model, draw_guide(model, actions, free));
   draw_dialog(model, actions, view);
-  draw_banner(model, actions, view);
+  draw_banner(model, actions, view, verdict);
 }
 
 /// The room for the card grows with it between strokes only: during a stroke the view stands still.
@@ -255,46 +259,56 @@ void Studio::paint() {
   const std::int64_t now_ns = steady_ns();
   quality_.took(seconds(now_ns - begun_ns));
   if (!moving()) return;
+  times_.drawing.add(now_ns - begun_ns);
+  if (times_.last_ns > 0) {
+    times_.between_ns += now_ns - times_.last_ns;
+    ++times_.intervals;
+  }
   times_.last_ns = now_ns;
-  if (times_.drawing.count() == 0) times_.first_ns = times_.last_ns;
-  times_.drawing.add(times_.last_ns - begun_ns);
+}
+
+/// A canvas of the chosen resolution. False: the driver refuses it, which is reported.
+bool Studio::fit(std::optional<render::Canvas>& canvas) {
+  const render::Viewport view = state_.scene.viewport();
+  const int width = std::max(1, view.width_px / fine_.divisor);
+  const int height = std::max(1, view.height_px / fine_.divisor);
+  if (canvas && canvas->is(width, height, 0)) return true;
+  canvas.reset();
+  auto made = render::Canvas::create(width, height, 0);
+  if (!made) {
+    report(state_, made.error());
+    return false;
+  }
+  canvas.emplace(std::move(*made));
+  redraw_ = true;
+  return true;
 }
 
 /// Draws the picture into a separate canvas, because the painter fills its whole target. Returns
 /// whether it was necessary.
 bool Studio::update_canvas() {
-  const render::Viewport view = state_.scene.viewport();
-  const int width = std::max(1, view.width_px / fine_.divisor);
-  const int height = std::max(1, view.height_px / fine_.divisor);
-  if (!canvas_ || !canvas_->is(width, height, 0)) {
-    canvas_.reset();
-    auto made = render::Canvas::create(width, height, 0);
-    if (!made) {
-      report(state_, made.error());
-      return false;
-    }
-    canvas_.emplace(std::move(*made));
-    redraw_ = true;
-  }
-  if (!redraw_) return false;
+  const bool reduced = fine_.divisor > 1;
+  if (!fit(canvas_) || (reduced && !fit(smoothed_)) || !redraw_) return false;
   glBindFramebuffer(GL_FRAMEBUFFER, canvas_->framebuffer());
-  painter_->paint(picture_, width, height, fine_.samples);
+  painter_->paint(picture_, canvas_->width_px(), canvas_->height_px(), fine_.samples);
+  if (reduced) smoother_->draw(*canvas_, *smoothed_);
   redraw_ = false;
   return true;
 }
 
 /// Copies the canvas to the window.
 void Studio::draw_view(unsigned target) {
-  if (!canvas_) return;
+  const auto& canvas = fine_.divisor > 1 ? smoothed_ : canvas_;
+  if (!canvas) return;
   const glm::ivec2 size = state_.host.size_px();
   const ViewRect& rect = state_.scene.rect();
   const render::Viewport view = state_.scene.viewport();
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas_->framebuffer());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas->framebuffer());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
   // OpenGL counts rows from the bottom.
   const int left = static_cast<int>(rect.corner_px.x);
   const int top = size.y - static_cast<int>(rect.corner_px.y);
-  glBlitFramebuffer(0, 0, canvas_->width_px(), canvas_->height_px(), left, top - view.height_px,
+  glBlitFramebuffer(0, 0, canvas->width_px(), canvas->height_px(), left, top - view.height_px,
                     left + view.width_px, top, GL_COLOR_BUFFER_BIT,
                     fine_.divisor > 1 ? GL_LINEAR : GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, target);

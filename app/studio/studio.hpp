@@ -1,6 +1,7 @@
 #pragma once
 // The window: processes input, updates the state, draws a frame.
 
+#include "app/render/edge_smoother.hpp"
 #include "app/render/gl_objects.hpp"
 #include "app/render/painter.hpp"
 #include "app/studio/app_state.hpp"
@@ -43,8 +44,8 @@ class Quality {
   }
 
  private:
-  // The next finer level costs up to four times as much.
-  static constexpr double kSlowS = 0.033, kFastS = 0.006;
+  // The next finer level costs up to three times as much.
+  static constexpr double kSlowS = 0.033, kFastS = 0.010;
   static constexpr int kFramesBetween = 30;
   void change(std::size_t level) noexcept {
     level_ = level;
@@ -60,14 +61,14 @@ class Quality {
 /// Frames with a moving pot.
 struct FrameTimes {
   Histogram drawing;  ///< time until the frame is complete
-  std::int64_t first_ns = 0, last_ns = 0;
+  /// From one such frame to the next, and how many times; `last_ns` 0: the pot was at rest.
+  std::int64_t last_ns = 0, between_ns = 0, intervals = 0;
   /// From a motion of the mouse until the frame that shows it is complete, without and with a
   /// stroke. The time until the screen shows it is not included.
   Histogram hover, stroke;
   [[nodiscard]] double fps() const noexcept {
-    return last_ns > first_ns ? 1e9 * static_cast<double>(drawing.count() - 1) /
-                                    static_cast<double>(last_ns - first_ns)
-                              : 0.0;
+    return between_ns > 0 ? 1e9 * static_cast<double>(intervals) / static_cast<double>(between_ns)
+                          : 0.0;
   }
 };
 
@@ -121,13 +122,16 @@ class Studio {
   void paint();
   void draw_view(unsigned target);
   bool update_canvas();
+  bool fit(std::optional<render::Canvas>& canvas);
 
   static constexpr int kFramesAfterInput = 3;  // frames until an ImGui window has settled
 
   AppState state_;
   ImGuiContext* context_ = nullptr;
   std::optional<render::Painter> painter_;
-  std::optional<render::Canvas> canvas_;
+  std::optional<render::EdgeSmoother> smoother_;
+  /// The picture of the view; with fewer pixels than the view, `smoothed_` is the one shown.
+  std::optional<render::Canvas> canvas_, smoothed_;
   std::deque<Input> input_;
   std::array<int, kPadButtons> pad_keys_{};  // the key that each button holds down; 0: none
   std::int64_t moved_ns_ = 0;  // arrival of the first motion that no frame shows yet; 0: none

@@ -103,9 +103,9 @@ auto members(Like<studio::PotCheck> auto& of) {
 }
 auto members(Like<studio::ExportChoices> auto& of) {
   auto& [meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm, smoothing,
-         smooth_length_mm, process, min_wall_mm, shrinkage_percent] = of;
+         smooth_length_mm, process, min_wall_mm, shrinkage_percent, material] = of;
   return std::tie(meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm,
-                  smoothing, smooth_length_mm, process, min_wall_mm, shrinkage_percent);
+                  smoothing, smooth_length_mm, process, min_wall_mm, shrinkage_percent, material);
 }
 auto members(Like<ExportQuestion> auto& of) {
   auto& [kind, choices, pot] = of;

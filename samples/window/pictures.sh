@@ -1,9 +1,10 @@
 #!/bin/sh
 # sh samples/window/pictures.sh PROGRAM FOLDER [NAME...]: renders the panels and dialogs of the window
 # in both themes, in a small, a normal, a large and a double-scale size, as FOLDER/NAME-THEME-SIZE-SCALE.png; all
-# pictures, or those named. They are for inspection by eye; no test compares them.
+# pictures, or those named. With ImageMagick, FOLDER/sheet-THEME-SIZE-SCALE-NUMBER.png shows twelve of
+# them beside each other. They are for inspection by eye; no test compares them.
 set -eu
-[ $# -ge 2 ] || { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
+[ $# -ge 2 ] || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
 program=$(realpath "$1")
 mkdir -p "$2"
 out=$(realpath "$2")
@@ -76,3 +77,21 @@ picture sizing sizing "$pots/vase.pot.json"
 picture fine throw "$pots/fine.scene.json"
 picture plate plain "$pots/plate.scene.json"
 picture lump plain samples/bottle.scene.json
+
+# sheet THEME SIZE SCALE: contact sheets, each picture 640 px wide.
+sheet() {
+  set -- "$1-$2-$3" "$out"/*-"$1-$2-$3.png"
+  [ -e "$2" ] || return 0
+  name=$1
+  shift
+  montage "$@" -resize 640x -tile 3x4 -geometry +6+6 "$out/sheet-$name-%02d.png"
+}
+if command -v montage >/dev/null; then
+  rm -f "$out"/sheet-*.png
+  for theme in dark light; do
+    sheet $theme 800x600 1
+    sheet $theme 1280x800 1
+    sheet $theme 2560x1440 1
+    sheet $theme 2560x1440 2
+  done
+fi

@@ -52,16 +52,19 @@ std::vector<std::string> figures_at(const ViewModel& model, const render::ToolVi
   return lines;
 }
 
-void draw_lines(ImDrawList* draw, const std::vector<std::string>& lines, ImVec2 at, float right) {
-  const float em = ImGui::GetFontSize();
+/// Beside the tool: at its right, or at its left if there is no room.
+void draw_lines(ImDrawList* draw, const std::vector<std::string>& lines, glm::vec2 tool_px,
+                float right) {
+  const float em = ImGui::GetFontSize(), gap = 3.2f * em;
   float width = 0.0f;
   for (const std::string& line : lines)
     width = std::max(width, ImGui::CalcTextSize(line.c_str()).x);
-  if (at.x + width + em > right) at.x = right - width - em;
+  ImVec2 at(tool_px.x + gap, tool_px.y - 2.0f * em);
+  if (at.x + width + em > right) at.x = tool_px.x - gap - width;
   const float height = 1.25f * em * static_cast<float>(lines.size());
   draw->AddRectFilled({at.x - 0.5f * em, at.y - 0.3f * em},
                       {at.x + width + 0.5f * em, at.y + height + 0.1f * em},
-                      ImGui::GetColorU32(ImGuiCol_PopupBg, 0.82f), 0.4f * em);
+                      ImGui::GetColorU32(ImGuiCol_PopupBg, kOverView), 0.4f * em);
   for (const std::string& line : lines) {
     draw->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), line.c_str());
     at.y += 1.25f * em;
@@ -99,8 +102,9 @@ void draw_floor(const ViewModel& model, ImDrawList* draw) {
   for (float x = left->x; x < right->x; x += 2.0f * dash)
     draw->AddLine({x, left->y}, {std::min(x + dash, right->x), left->y}, ink, 0.1f * em);
   const std::string text = fmt::format("floor stop {}", length_text(y_mm, model.settings.unit));
-  draw->AddText({left->x - 0.5f * em - ImGui::CalcTextSize(text.c_str()).x, left->y - 0.6f * em},
-                ink, text.c_str());
+  shaded_text(draw,
+              {left->x - 0.7f * em - ImGui::CalcTextSize(text.c_str()).x, left->y - 0.5f * em},
+              text, ImGui::GetStyleColorVec4(ImGuiCol_Text));
 }
 
 }  // namespace
@@ -124,9 +128,7 @@ void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
   const bool near = model.stroke.throwing() || rho < widest + 40.0;
   if (near && (tool->inside || rho < kBoreMm + 20.0)) draw_floor(model, draw);
   draw_pull(model, draw, at);
-  if (near)
-    draw_lines(draw, figures_at(model, *tool), {at.x + 3.2f * em, at.y - 2.0f * em},
-               rect.corner_px.x + rect.size_px.x);
+  if (near) draw_lines(draw, figures_at(model, *tool), at, rect.corner_px.x + rect.size_px.x);
   draw->PopClipRect();
 }
 

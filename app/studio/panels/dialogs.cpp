@@ -59,7 +59,7 @@ template <class Done>
 void draw_path(const std::string& path, const char* help, const char* button,
                const ViewModel& model, Actions& actions) {
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(-1.0f);
+  ImGui::SetNextItemWidth(kToEdge);
   std::string typed = path;
   const bool entered = ImGui::InputText("##path", &typed, ImGuiInputTextFlags_EnterReturnsTrue);
   if (typed != path) actions.emplace_back(EditPath{typed});

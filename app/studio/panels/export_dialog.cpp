@@ -15,18 +15,44 @@
 namespace clay::studio {
 namespace {
 
-/// A box for each ending that can be written, in the order of the table of formats; they wrap.
+/// Boxes in columns, the same for every row: six, or as many as have room.
+class BoxRow {
+ public:
+  explicit BoxRow(const char* label) {
+    form_row(label);
+    left_ = ImGui::GetCursorPosX();
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float room = ImGui::GetContentRegionAvail().x;
+    const float least = ImGui::GetFrameHeight() + ImGui::CalcTextSize("Report").x +
+                        style.ItemInnerSpacing.x + 0.5f * style.ItemSpacing.x;
+    columns_ = std::clamp(static_cast<int>(room / least), 1, 6);
+    pitch_ = room / static_cast<float>(columns_);
+  }
+  bool box(const char* title, bool& wanted) {
+    const int column = count_ % columns_;
+    if (column > 0)
+      ImGui::SameLine(left_ + pitch_ * static_cast<float>(column));
+    else if (count_ > 0)
+      ImGui::SetCursorPosX(left_);
+    ++count_;
+    return ImGui::Checkbox(title, &wanted);
+  }
+
+ private:
+  float left_ = 0.0f, pitch_ = 0.0f;
+  int columns_ = 1, count_ = 0;
+};
+
+/// A box for each ending that can be written, in the order of the table of formats.
 void draw_meshes(ExportChoices& choices) {
-  bool first = true;
+  BoxRow row("Files");
   std::string_view last_ending;
   for (const solid::FormatFacts& facts : solid::kFormatFacts) {
     if (!facts.written || facts.ending == last_ending) continue;
     last_ending = facts.ending;
     const auto at = std::ranges::find(choices.meshes, facts.format);
     bool wanted = at != choices.meshes.end();
-    if (!first) ImGui::SameLine();
-    first = false;
-    if (!ImGui::Checkbox(std::string(facts.title).c_str(), &wanted)) continue;
+    if (!row.box(std::string(facts.title).c_str(), wanted)) continue;
     if (wanted)
       choices.meshes.insert(std::ranges::lower_bound(choices.meshes, facts.format), facts.format);
     else
@@ -36,23 +62,20 @@ void draw_meshes(ExportChoices& choices) {
 
 /// Each function edits its own part of `choices`.
 void draw_formats(const ViewModel& model, ExportChoices& choices) {
-  form_row("Files");
   draw_meshes(choices);
-  form_row("Also");
-  ImGui::Checkbox("STEP", &choices.step);
-  ImGui::SameLine();
-  ImGui::Checkbox("SVG", &choices.section);
-  ImGui::SameLine();
-  ImGui::Checkbox("DXF", &choices.dxf);
-  if (!kInPage) {
-    ImGui::SameLine();
-    ImGui::Checkbox("PDF", &choices.pdf);
-  }
-  ImGui::SameLine();
-  ImGui::Checkbox("Pot", &choices.pot);
-  if (kInPage) return faint_text(model.colours(), "PDF and the report need the native program.");
-  ImGui::SameLine();
-  ImGui::Checkbox("Report", &choices.report);
+  BoxRow also("Also");
+  also.box("STEP", choices.step);
+  also.box("SVG", choices.section);
+  also.box("DXF", choices.dxf);
+  if (!kInPage) also.box("PDF", choices.pdf);
+  also.box("Pot", choices.pot);
+  if (!kInPage) also.box("Report", choices.report);
+  if (kInPage) faint_text(model.colours(), "PDF and the report need the native program.");
+  if (std::ranges::find(choices.meshes, solid::MeshFormat::glb) == choices.meshes.end()) return;
+  form_row("Surface of the GLB");
+  const Material* shown = find_material(choices.material);
+  if (const Material* chosen = choose_material(shown != nullptr ? *shown : kWet))
+    choices.material = chosen->id;
 }
 
 void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actions) {
@@ -103,7 +126,8 @@ void draw_figures(const ViewModel& model, const ExportFigures& figures) {
     value_row(colours, "Walls moved by",
               fmt::format("at most {:.2f} mm, at a height of {:.1f} mm", figures.moved_mm,
                           figures.moved_at_mm));
-  for (const std::string& problem : figures.problems) wrapped_text(problem, colours.warning);
+  for (const std::string& problem : figures.problems)
+    wrapped_text(sentence(problem), colours.warning);
 }
 
 /// Progress, figures or the problem, in an area of fixed height, so that the dialog keeps its
@@ -162,7 +186,7 @@ void draw_buttons(const ViewModel& model, Actions& actions) {
 }  // namespace
 
 void draw(const ExportDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
-  begin_dialog("##export", rect, 40.0f);
+  begin_dialog("##export", rect, 44.0f);
   dialog_title(model, "Export");
   ExportChoices choices = model.ui.exporting.choices;
   draw_formats(model, choices);

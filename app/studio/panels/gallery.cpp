@@ -83,7 +83,7 @@ void draw_lump(const ViewModel& model, Actions& actions) {
   const double height_mm = lump_height_mm(clay_kg, radius_mm);
   faint_text(model.colours(),
              fmt::format("Height {}", length_text(height_mm, model.settings.unit)));
-  if (ImGui::Button("Throw this lump", {-1.0f, 0.0f}))
+  if (ImGui::Button("Throw this lump", {kToEdge, 0.0f}))
     actions.emplace_back(BeginWork{lump_of(clay_kg, radius_mm), nullptr, {}});
   ImGui::Columns(1);
 }
@@ -166,14 +166,9 @@ void draw(const GalleryDialog&, const ViewModel& model, Actions& actions, const 
   ImGui::Spacing();
   draw_recoverable(model, actions);
   draw_samples(model, actions);
-  const auto divide = [] {
-    ImGui::Spacing();
-    ImGui::Separator();
-    ImGui::Spacing();
-  };
-  divide();
+  rule();
   draw_lump(model, actions);
-  divide();
+  rule();
   draw_files(model, actions);
   ImGui::End();
 }

@@ -32,7 +32,7 @@ void choose_target(const ViewModel& model, Actions& actions) {
       "goal.none", "goal.bowl", "goal.vase", "goal.bottle", "goal.cylinder", "goal.file"};
   const Target* target = model.ui.target.get();
   ImGui::TextUnformatted("Target profile");
-  ImGui::SetNextItemWidth(-1.0f);
+  ImGui::SetNextItemWidth(kToEdge);
   if (!ImGui::BeginCombo("##target", target != nullptr ? target->name.c_str() : "None")) return;
   for (const std::string_view id : kChoices)
     if (ImGui::Selectable(find_command(id)->title)) actions.emplace_back(RunCommand{id});
@@ -62,6 +62,46 @@ void draw_goal(const ViewModel& model, Actions& actions) {
   choose_target(model, actions);
 }
 
+namespace {
+
+/// One side of a wall in the view, from the foot up.
+using WallLine = std::vector<ImVec2>;
+
+WallLine wall_line(const ViewModel& model, const render::PotView& pot, double side,
+                   float render::Row::*radius) {
+  WallLine line;
+  const double row_mm = pot.height_mm / static_cast<double>(pot.rows.size());
+  for (std::size_t row = 0; row < pot.rows.size(); ++row) {
+    const double rho_mm = side * static_cast<double>(pot.rows[row].*radius);
+    const auto at = model.scene.pixel_of({rho_mm, row_mm * (static_cast<double>(row) + 0.5)});
+    if (!at) return {};
+    line.emplace_back(at->x, at->y);
+  }
+  return line;
+}
+
+/// The wall between both lines, and its edge: up the outside, over the lip, down the bore and along
+/// the floor to the axis.
+void draw_target_side(ImDrawList* draw, const render::PotView& pot, const WallLine& outer,
+                      const WallLine& inner) {
+  const ImVec4 ink = ImGui::GetStyleColorVec4(ImGuiCol_Text);
+  const ImU32 face = ImGui::GetColorU32(ImVec4(ink.x, ink.y, ink.z, 0.13f));
+  for (std::size_t row = 1; row < outer.size(); ++row)
+    draw->AddQuadFilled(inner[row - 1], outer[row - 1], outer[row], inner[row], face);
+  WallLine edge = outer;
+  for (std::size_t row = inner.size(); row-- > 0;) {
+    edge.push_back(inner[row]);
+    if (pot.rows[row].inner_mm > 0.0f || row + 1 == inner.size()) continue;
+    edge.back().y = inner[row + 1].y;  // the floor is level
+    break;
+  }
+  draw->AddPolyline(edge.data(), static_cast<int>(edge.size()),
+                    ImGui::GetColorU32(ImVec4(ink.x, ink.y, ink.z, 0.75f)), ImDrawFlags_None,
+                    0.12f * ImGui::GetFontSize());
+}
+
+}  // namespace
+
 void draw_target(const ViewModel& model, const ViewRect& rect) {
   const Target* target = model.ui.target.get();
   if (target == nullptr || !model.document.has_work() || !model.ui.shows<NoDialog>() ||
@@ -74,33 +114,10 @@ void draw_target(const ViewModel& model, const ViewRect& rect) {
   // Smoothed edges would show every quad.
   const ImDrawListFlags flags =
       std::exchange(draw->Flags, draw->Flags & ~ImDrawListFlags_AntiAliasedFill);
-  const float em = ImGui::GetFontSize();
-  const ImVec4 ink = ImGui::GetStyleColorVec4(ImGuiCol_Text);
-  const ImU32 edge = ImGui::GetColorU32(ImVec4(ink.x, ink.y, ink.z, 0.75f));
-  const ImU32 face = ImGui::GetColorU32(ImVec4(ink.x, ink.y, ink.z, 0.13f));
-  const double row_mm = pot.height_mm / static_cast<double>(pot.rows.size());
-  const auto place = [&](double rho_mm, std::size_t row) {
-    const auto at = model.scene.pixel_of({rho_mm, row_mm * (static_cast<double>(row) + 0.5)});
-    return at ? std::optional(ImVec2(at->x, at->y)) : std::nullopt;
-  };
   for (const double side : {1.0, -1.0}) {
-    std::optional<ImVec2> outer, inner;  // of the row below
-    bool bore = false;
-    for (std::size_t row = 0; row < pot.rows.size(); ++row) {
-      const auto out = place(side * static_cast<double>(pot.rows[row].outer_mm), row);
-      const auto in = place(side * static_cast<double>(pot.rows[row].inner_mm), row);
-      if (out && in && outer && inner) {
-        draw->AddQuadFilled(*inner, *outer, *out, *in, face);
-        draw->AddLine(*outer, *out, edge, 0.12f * em);
-        // The bore begins at the axis.
-        if (const auto from = bore ? inner : place(0.0, row); from && pot.rows[row].inner_mm > 0.0f)
-          draw->AddLine(*from, *in, edge, 0.12f * em);
-      }
-      bore = pot.rows[row].inner_mm > 0.0f;
-      outer = out;
-      inner = in;
-    }
-    if (outer && inner) draw->AddLine(*outer, *inner, edge, 0.12f * em);
+    const WallLine outer = wall_line(model, pot, side, &render::Row::outer_mm);
+    const WallLine inner = wall_line(model, pot, side, &render::Row::inner_mm);
+    if (!outer.empty() && !inner.empty()) draw_target_side(draw, pot, outer, inner);
   }
   draw->Flags = flags;
   draw->PopClipRect();

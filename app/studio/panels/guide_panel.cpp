@@ -19,10 +19,10 @@ constexpr ImGuiWindowFlags kCard =
 constexpr float kCardEm = 30.0f, kDotEm = 0.9f;
 
 const char* name_of_tool(ToolMode mode) {
-  return mode == ToolMode::pinch    ? "Two fingers"
-         : mode == ToolMode::trim   ? "Trimming tool"
-         : mode == ToolMode::smooth ? "Sponge"
-                                    : "Ball";
+  return mode == ToolMode::pinch    ? "Tool: two fingers"
+         : mode == ToolMode::trim   ? "Tool: trimming tool"
+         : mode == ToolMode::smooth ? "Tool: sponge"
+                                    : "Tool: ball";
 }
 
 /// One dot for each step: done, present, to come.

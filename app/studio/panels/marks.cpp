@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
 
 namespace clay::studio {
 namespace {
@@ -16,14 +19,6 @@ namespace {
 constexpr float kLeastViewEm = 18.0f;  // minimum height of the view for the scale
 constexpr int kSteps = 5;
 constexpr float kNoteEm = 10.0f;  // width of the note below the scale
-
-void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImVec4& colour) {
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  const float pad = 0.2f * ImGui::GetFontSize();
-  draw->AddRectFilled({at.x - pad, at.y - 0.5f * pad}, {at.x + size.x + pad, at.y + size.y + pad},
-                      ImGui::GetColorU32(ImGuiCol_WindowBg, 0.75f), pad);
-  draw->AddText(at, ImGui::GetColorU32(colour), text.c_str());
-}
 
 ImU32 colour_of(const render::Swatch& swatch) {
   return IM_COL32(swatch.red, swatch.green, swatch.blue, 255);
@@ -38,38 +33,61 @@ ImU32 in_shade(const render::Swatch& swatch) {
   return IM_COL32(shade(swatch.red), shade(swatch.green), shade(swatch.blue), 255);
 }
 
+/// Text beside the scale, and its place from the scale's upper left corner.
+struct ScaleText {
+  ImVec2 at;
+  std::string text;
+};
+
+std::vector<ScaleText> texts_of_scale(const PotCheck& check, const ImVec2& bar, LengthUnit unit) {
+  const float em = ImGui::GetFontSize();
+  const render::WallMap map = wall_map_of(check);
+  std::vector<ScaleText> texts{{{0.0f, -1.9f * em}, "Wall thickness"}};
+  for (int step = 0; step <= kSteps; ++step)
+    texts.push_back(
+        {{bar.x + 0.6f * em, bar.y * (1.0f - static_cast<float>(step) / kSteps) - 0.5f * em},
+         length_text(map.top_mm * step / kSteps, unit) + (step == kSteps ? " or more" : "")});
+  if (check.limit)
+    texts.push_back(
+        {{0.0f, bar.y + 0.9f * em},
+         wrapped(fmt::format("Hatched red: below {}, {}",
+                             length_text(check.limit->min_wall_mm, unit), check.limit->process),
+                 kNoteEm * em)});
+  return texts;
+}
+
 /// The scale of the wall map: the same range for every pot, with the limit marked.
 void draw_scale(const PotCheck& check, const ViewRect& rect, float top_px, LengthUnit unit) {
-  const float em = ImGui::GetFontSize();
+  const float em = ImGui::GetFontSize(), pad = 0.7f * em;
   if (rect.size_px.y < kLeastViewEm * em) return;
   const render::WallMap map = wall_map_of(check);
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
-  const ImVec4 ink = ImGui::GetStyleColorVec4(ImGuiCol_Text);
-  const float height = std::min(11.0f * em, 0.45f * rect.size_px.y), width = 1.1f * em;
-  const ImVec2 low(rect.corner_px.x + 1.2f * em, top_px + 2.2f * em);
-  shaded_text(draw, {low.x, low.y - 1.8f * em}, "Wall thickness", ink);
-  for (int px = 0; px < static_cast<int>(height); ++px) {
-    const double wall = map.top_mm * (1.0 - (px + 0.5) / static_cast<double>(height));
+  const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
+  const ImVec2 bar(1.1f * em, std::round(std::min(11.0f * em, 0.45f * rect.size_px.y)));
+  const ImVec2 low(std::round(rect.corner_px.x + 1.4f * em), std::round(top_px + 2.8f * em));
+  const std::vector<ScaleText> texts = texts_of_scale(check, bar, unit);
+  ImVec2 high(low.x + bar.x, low.y + bar.y);
+  for (const ScaleText& text : texts) {
+    const ImVec2 size = ImGui::CalcTextSize(text.text.c_str());
+    high = {std::max(high.x, low.x + text.at.x + size.x),
+            std::max(high.y, low.y + text.at.y + size.y)};
+  }
+  draw->AddRectFilled({low.x - pad, low.y + texts.front().at.y - 0.7f * pad},
+                      {high.x + pad, high.y + 0.7f * pad},
+                      ImGui::GetColorU32(ImGuiCol_PopupBg, kOverView), 0.4f * em);
+  for (int px = 0; px < static_cast<int>(bar.y); ++px) {
+    const double wall = map.top_mm * (1.0 - (px + 0.5) / static_cast<double>(bar.y));
     const render::Swatch swatch = render::wall_swatch(map, wall);
     const float y = low.y + static_cast<float>(px);
-    draw->AddRectFilledMultiColor({low.x, y}, {low.x + width, y + 1.0f}, in_shade(swatch),
+    draw->AddRectFilledMultiColor({low.x, y}, {low.x + bar.x, y + 1.0f}, in_shade(swatch),
                                   colour_of(swatch), colour_of(swatch), in_shade(swatch));
   }
   for (int step = 0; step <= kSteps; ++step) {
-    const double wall = map.top_mm * step / kSteps;
-    const float y = low.y + height * (1.0f - static_cast<float>(step) / kSteps);
-    draw->AddLine({low.x, y}, {low.x + width + 0.3f * em, y}, ImGui::GetColorU32(ink));
-    const std::string more = step == kSteps ? " or more" : "";
-    shaded_text(draw, {low.x + width + 0.6f * em, y - 0.55f * em}, length_text(wall, unit) + more,
-                ink);
+    const float y = low.y + bar.y * (1.0f - static_cast<float>(step) / kSteps);
+    draw->AddLine({low.x + bar.x, y}, {low.x + bar.x + 0.3f * em, y}, ink);
   }
-  if (check.limit)
-    shaded_text(
-        draw, {low.x, low.y + height + 0.9f * em},
-        wrapped(fmt::format("Hatched red: below {}, {}",
-                            length_text(check.limit->min_wall_mm, unit), check.limit->process),
-                kNoteEm * em),
-        ink);
+  for (const ScaleText& text : texts)
+    draw->AddText({low.x + text.at.x, low.y + text.at.y}, ink, text.text.c_str());
 }
 
 /// A circle around the thinnest place, with its thickness.
@@ -126,7 +144,7 @@ void draw_mark(const ViewModel& model, const ViewRect& rect, const Mark& mark, g
   const float em = ImGui::GetFontSize();
   // Only the problem; the dialog lists its source and further places.
   const std::string text =
-      wrapped(mark.text.substr(0, std::min(mark.text.find(';'), mark.text.find(" ("))),
+      wrapped(sentence(mark.text.substr(0, std::min(mark.text.find(';'), mark.text.find(" (")))),
               std::min(16.0f * em, 0.45f * rect.size_px.x));
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const float right = rect.corner_px.x + rect.size_px.x;
@@ -135,8 +153,13 @@ void draw_mark(const ViewModel& model, const ViewRect& rect, const Mark& mark, g
   const ImU32 colour = ImGui::GetColorU32(model.colours().warning);
   const ImVec2 low(corner.x - 0.5f * em, corner.y - 0.4f * em);
   const ImVec2 high(corner.x + size.x + 0.5f * em, corner.y + size.y + 0.4f * em);
-  draw->AddLine({at.x, at.y}, {0.5f * (low.x + high.x), high.y}, colour, 0.12f * em);
-  draw->AddCircle({at.x, at.y}, 0.7f * em, colour, 0, 0.16f * em);
+  const glm::vec2 foot(0.5f * (low.x + high.x), high.y);
+  const float ring = 0.7f * em, away = glm::distance(foot, at);
+  if (away > ring) {
+    const glm::vec2 edge = at + (ring / away) * (foot - at);
+    draw->AddLine({edge.x, edge.y}, {foot.x, foot.y}, colour, 0.12f * em);
+  }
+  draw->AddCircle({at.x, at.y}, ring, colour, 0, 0.16f * em);
   draw->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_PopupBg), 0.3f * em);
   draw->AddRect(low, high, colour, 0.3f * em);
   draw->AddText(corner, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());

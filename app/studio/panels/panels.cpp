@@ -45,6 +45,17 @@ bool is_open(const Settings& settings, const Panel& panel) {
   return remembered == settings.open.end() ? panel.open : remembered->second;
 }
 
+/// The header of the tool's panel has the name of the tool.
+bool draw_header(const Panel& panel, const Settings& settings) {
+  const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.5f * padding.x, padding.y));
+  const std::string_view title =
+      panel.draw == &draw_tool ? name_of(settings.tool.mode) : panel.title;
+  const bool shown = ImGui::CollapsingHeader(fmt::format("{}###{}", title, panel.title).c_str());
+  ImGui::PopStyleVar();
+  return shown;
+}
+
 /// Arrows that a menu within a menu needs.
 struct UsedArrows {
   bool left = false, right = false;
@@ -68,6 +79,13 @@ void walk_menus(std::size_t open, const UsedArrows& used, Actions& actions) {
   ImGui::NavMoveRequestCancel();  // otherwise ImGui closes the menu
   actions.emplace_back(OpenMenu{(open + (left ? count - 1 : 1)) % count});
 }
+
+/// The first commands of groups within a menu.
+constexpr std::array<std::string_view, 16> kGroups = {
+    "file.new_bowl", "file.learn_bowl", "file.open",        "file.save",
+    "file.export",   "file.settings",   "file.quit",        "edit.to_start",
+    "tool.next",     "tool.sphere",     "tool.smaller",     "view.nearer",
+    "view.cut_half", "view.goal",       "view.certificate", "view.theme"};
 
 /// What is needed most, at the right end of the menu.
 void draw_main_buttons(const ViewModel& model, Actions& actions) {
@@ -171,7 +189,7 @@ void draw_column(const ViewModel& model, Actions& actions, Column column, glm::v
     if (panel.column != column) continue;
     const bool open = is_open(model.settings, panel);
     ImGui::SetNextItemOpen(open);
-    const bool shown = ImGui::CollapsingHeader(panel.title);
+    const bool shown = draw_header(panel, model.settings);
     if (shown != open) actions.emplace_back(FoldPanel{panel.id, shown});
     if (!shown) continue;
     ImGui::PushID(panel.id);
@@ -185,6 +203,8 @@ void draw_column(const ViewModel& model, Actions& actions, Column column, glm::v
 
 float draw_menu(const ViewModel& model, Actions& actions) {
   if (!ImGui::BeginMainMenuBar()) return 0.0f;
+  // In a low window the longest menu fits without lines only.
+  const bool grouped = ImGui::GetIO().DisplaySize.y > 42.0f * ImGui::GetFontSize();
   if (model.ui.open_menu) ImGui::OpenPopup(menus()[*model.ui.open_menu].title);
   for (std::size_t i = 0; i < menus().size(); ++i) {
     const Menu& menu = menus()[i];
@@ -195,6 +215,7 @@ float draw_menu(const ViewModel& model, Actions& actions) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(2.5f * spacing.x, spacing.y));
     for (const Command& command : commands()) {
       if (!command.id.starts_with(menu.prefix)) continue;
+      if (grouped && std::ranges::find(kGroups, command.id) != kGroups.end()) ImGui::Separator();
       const bool on = command.checked != nullptr && command.checked(model);
       if (ImGui::MenuItem(command.title, text_of(command.chord).c_str(), on,
                           command.enabled(model)))
@@ -237,7 +258,7 @@ void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size
   ImGui::PopStyleVar(2);
 }
 
-void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect) {
+void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect, float top_px) {
   const auto& notice = model.ui.notices.shown();
   if (!notice) return;
   // A note does not cover a dialog.
@@ -245,7 +266,7 @@ void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect)
   const float pad = ImGui::GetFontSize();
   const float width = std::min(rect.size_px.x - 2.0f * pad, 40.0f * ImGui::GetFontSize());
   ImGui::SetNextWindowPos(
-      {rect.corner_px.x + 0.5f * (rect.size_px.x - width), rect.corner_px.y + pad});
+      {rect.corner_px.x + 0.5f * (rect.size_px.x - width), top_px + 0.5f * pad});
   ImGui::SetNextWindowSize({width, 0.0f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.4f * pad);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);

@@ -40,7 +40,7 @@ void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, g
 float draw_menu(const ViewModel& model, Actions& actions);
 [[nodiscard]] float status_height();
 void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size_px);
-void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect);
+void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect, float top_px);
 void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect);
 /// Draws over the view: figures at the tool, how hard the hand pulls, and the floor to keep.
 void draw_at_tool(const ViewModel& model, const ViewRect& rect);

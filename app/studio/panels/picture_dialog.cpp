@@ -30,7 +30,7 @@ void draw_size(PictureFile& file) {
     file.look.size = {std::clamp(sides[0], kSmallestSidePx, render::kMaxSidePx),
                       std::clamp(sides[1], kSmallestSidePx, render::kMaxSidePx)};
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(-1.0f);
+  ImGui::SetNextItemWidth(kToEdge);
   if (!ImGui::BeginCombo("##size", "Usual sizes")) return;
   const auto offer = [&](const auto& sizes) {
     for (const render::Viewport& size : sizes)
@@ -81,7 +81,7 @@ void draw_state(const ViewModel& model) {
   std::error_code ignored;
   const std::filesystem::path path = path_of(pictures.file);
   if (model.picture_running) {
-    ImGui::ProgressBar(model.picture_progress, {-1.0f, 0.0f},
+    ImGui::ProgressBar(model.picture_progress, {kToEdge, 0.0f},
                        fmt::format("{:.0f} %", 100.0f * model.picture_progress).c_str());
   } else if (!pictures.problem.empty()) {
     wrapped_text(pictures.problem, colours.fault);

@@ -23,7 +23,7 @@ void draw_pot(const ViewModel& model, Actions& actions) {
   value_row(
       colours, "Clay mass",
       grams < 1000.0 ? fmt::format("{:.0f} g", grams) : fmt::format("{:.2f} kg", 1e-3 * grams));
-  ImGui::SetNextItemWidth(-1.0f);
+  ImGui::SetNextItemWidth(kToEdge);
   if (const Material* chosen = choose_material(model.settings.material))
     actions.emplace_back(SetMaterial{*chosen});
 }
@@ -31,6 +31,7 @@ void draw_pot(const ViewModel& model, Actions& actions) {
 namespace {
 
 constexpr std::size_t kMostStretches = 3;
+constexpr float kTipEm = 22.0f;
 
 void draw_thin_places(const PotCheck& check, const Palette& colours, LengthUnit unit) {
   const std::vector<Stretch> stretches = thin_stretches(check);
@@ -48,7 +49,7 @@ void draw_walls(const ViewModel& model, Actions& actions) {
   const Palette& colours = model.colours();
   bool map = model.settings.wall_map;
   if (ImGui::Checkbox("Wall thickness map", &map)) actions.emplace_back(SetWallMap{map});
-  ImGui::SetNextItemWidth(-1.0f);
+  ImGui::SetNextItemWidth(kToEdge);
   std::string process = model.settings.process;
   if (choose_process(model, "No process", process, actions))
     actions.emplace_back(SetProcess{process});
@@ -59,8 +60,10 @@ void draw_walls(const ViewModel& model, Actions& actions) {
                check->thin()  ? colours.warning
                : check->limit ? colours.good
                               : ImGui::GetStyleColorVec4(ImGuiCol_Text));
+  if (check->limit && ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "%s", wrapped("Source: " + check->limit->source, kTipEm * ImGui::GetFontSize()).c_str());
   draw_thin_places(*check, colours, model.settings.unit);
-  if (check->limit) faint_text(colours, "Source: " + check->limit->source);
 }
 
 namespace {

@@ -63,19 +63,27 @@ std::vector<Section> all_sections() {
 
 using Columns = std::vector<std::vector<Section>>;
 
-/// Columns of similar length, in order.
-Columns columns_of(std::vector<Section> sections, std::size_t count) {
-  const auto lines = [](const Section& section) { return section.rows.size() + 2; };
-  std::size_t all = 0;
-  for (const Section& section : sections) all += lines(section);
-  Columns columns(count);
-  std::size_t before = 0;
-  for (Section& section : sections) {
-    const std::size_t middle = before + lines(section) / 2;
-    before += lines(section);
-    columns[std::min(columns.size() - 1, middle * columns.size() / all)].push_back(
-        std::move(section));
+/// In order, in columns of at most so many lines.
+Columns columns_up_to(const std::vector<Section>& sections, std::size_t most_lines) {
+  Columns columns;
+  std::size_t lines = most_lines;
+  for (const Section& section : sections) {
+    const std::size_t more = section.rows.size() + 2;  // its title, and the gap below
+    if (lines + more > most_lines) {
+      columns.emplace_back();
+      lines = 0;
+    }
+    columns.back().push_back(section);
+    lines += more;
   }
+  return columns;
+}
+
+/// As low as possible.
+Columns columns_of(const std::vector<Section>& sections, std::size_t count) {
+  Columns columns;
+  for (std::size_t most_lines = 1; columns.empty() || columns.size() > count; ++most_lines)
+    columns = columns_up_to(sections, most_lines);
   return columns;
 }
 

@@ -103,7 +103,7 @@ constexpr std::array kIcons = {
     Icon{"tool.press", "Press", &press_icon},    Icon{"tool.pinch", "Pinch", &pinch_icon},
     Icon{"tool.smooth", "Smooth", &smooth_icon}, Icon{"tool.trim", "Trim", &trim_icon},
     Icon{"tool.needle", "Level", &needle_icon},  Icon{"tool.wire", "Cut off", &wire_icon},
-    Icon{"tool.trim_foot", "Foot", &foot_icon},  Icon{"view.cut_half", "Open", &cut_icon},
+    Icon{"tool.trim_foot", "Foot", &foot_icon},  Icon{"view.cut_half", "Inside", &cut_icon},
     Icon{"view.wall_map", "Walls", &walls_icon},
 };
 constexpr std::size_t kTools = 7;  // the rest are views

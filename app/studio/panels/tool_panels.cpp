@@ -110,9 +110,6 @@ void draw_bar(float part, const std::string& text, const ImVec4& colour) {
 
 void draw_tool(const ViewModel& model, Actions& actions) {
   ToolChoice tool = model.settings.tool;
-  ImGui::PushFont(model.ui.fonts.title);
-  ImGui::TextUnformatted(name_of(tool.mode));
-  ImGui::PopFont();
   faint_text(model.colours(), help_text(tool.mode));
   if (cuts_level(tool.mode)) return;
   const std::size_t shapes = tool.own.t_mm.empty() ? 3 : 4;

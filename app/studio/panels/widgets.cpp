@@ -14,7 +14,7 @@ int choice_row(const char* id, std::span<const char* const> titles, int chosen) 
   ImGui::PushID(id);
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   const float count = static_cast<float>(titles.size());
-  const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1.0f)) / count;
+  const float width = std::floor((ImGui::GetContentRegionAvail().x - gap * (count - 1.0f)) / count);
   int clicked = -1;
   for (int i = 0; i < static_cast<int>(titles.size()); ++i) {
     if (i > 0) ImGui::SameLine(0.0f, gap);
@@ -25,11 +25,22 @@ int choice_row(const char* id, std::span<const char* const> titles, int chosen) 
       ImGui::PushStyleColor(ImGuiCol_ButtonHovered, face);
       ImGui::PushStyleColor(ImGuiCol_Text, ink_on(face));
     }
-    if (ImGui::Button(titles[static_cast<std::size_t>(i)], ImVec2(width, 0.0f))) clicked = i;
+    const bool last = i + 1 == static_cast<int>(titles.size());
+    if (ImGui::Button(titles[static_cast<std::size_t>(i)], ImVec2(last ? kToEdge : width, 0.0f)))
+      clicked = i;
     if (on) ImGui::PopStyleColor(3);
   }
   ImGui::PopID();
   return clicked;
+}
+
+void rule() {
+  ImGui::Spacing();
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  ImGui::GetWindowDrawList()->AddLine(from, {from.x + ImGui::GetContentRegionAvail().x, from.y},
+                                      ImGui::GetColorU32(ImGuiCol_Separator));
+  ImGui::Dummy({0.0f, 1.0f});
+  ImGui::Spacing();
 }
 
 bool main_button(const char* text, const Palette& colours) {
@@ -59,7 +70,7 @@ void form_row(const char* label) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
   ImGui::SameLine(kFormEm * ImGui::GetFontSize());
-  ImGui::SetNextItemWidth(-1.0f);
+  ImGui::SetNextItemWidth(kToEdge);
 }
 
 bool form_slider(const char* label, float& value, float low, float high, const std::string& text,
@@ -111,7 +122,7 @@ void slider_label(const char* label, const std::string& value) {
   ImGui::SameLine();
   ImGui::SetCursorPosX(right - ImGui::CalcTextSize(value.c_str()).x);
   ImGui::TextUnformatted(value.c_str());
-  ImGui::SetNextItemWidth(-1.0f);
+  ImGui::SetNextItemWidth(kToEdge);
 }
 
 namespace {
@@ -127,6 +138,12 @@ bool may_part(std::string_view before, std::string_view after) {
 }
 
 }  // namespace
+
+std::string sentence(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
 
 std::string wrapped(std::string_view text, float width_px) {
   std::string done, line, piece;  // a piece is never broken
@@ -180,7 +197,7 @@ void form_place(std::string& name, std::string& folder, Actions& actions) {
   ImGui::InputText("##name", &name);
   form_row("Folder");
   if (kInPage) return ImGui::TextDisabled("Downloads of the browser");
-  const float button = ImGui::CalcTextSize("Choose...").x + 3.0f * ImGui::GetStyle().FramePadding.x;
+  const float button = ImGui::CalcTextSize("Choose...").x + 2.0f * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemSpacing.x);
   ImGui::InputText("##folder", &folder);
   ImGui::SameLine();
@@ -202,6 +219,15 @@ void value_row(const Palette& colours, const char* name, const std::string& valu
   const float right = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x;
   ImGui::SameLine(right);
   ImGui::TextUnformatted(value.c_str());
+}
+
+void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImVec4& colour) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const float pad = 0.25f * ImGui::GetFontSize();
+  draw->AddRectFilled({at.x - pad, at.y - 0.5f * pad},
+                      {at.x + size.x + pad, at.y + size.y + 0.5f * pad},
+                      ImGui::GetColorU32(ImGuiCol_PopupBg, kOverView), pad);
+  draw->AddText(at, ImGui::GetColorU32(colour), text.c_str());
 }
 
 namespace {

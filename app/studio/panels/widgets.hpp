@@ -6,11 +6,15 @@
 #include "app/studio/units.hpp"
 #include "app/studio/view_model.hpp"
 
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace clay::studio {
+
+/// A width: up to the right edge of the window's content.
+inline constexpr float kToEdge = -std::numeric_limits<float>::min();
 
 /// A row of buttons of equal width, one of which is selected. Returns the index of a clicked
 /// button, or -1.
@@ -23,6 +27,9 @@ void slider_label(const char* label, const std::string& value);
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit);
 /// The next button or text, with this text, stands beside the last item if the window has room.
 void same_line_if_room(const char* text);
+
+/// A line across the content of a dialog.
+void rule();
 
 /// The default button of a dialog.
 bool main_button(const char* text, const Palette& colours);
@@ -55,6 +62,8 @@ void form_place(std::string& name, std::string& folder, Actions& actions);
 void draw_half_section(const render::PotView& pot, ImVec2 corner, float side,
                        const Palette& colours);
 
+/// The text with a capital letter at its beginning.
+[[nodiscard]] std::string sentence(std::string text);
 /// Lines of at most `width_px`, broken at blanks, but not between a number and its unit. A longer
 /// word stays whole.
 [[nodiscard]] std::string wrapped(std::string_view text, float width_px);
@@ -64,6 +73,11 @@ void wrapped_text(std::string_view text);
 void faint_text(const Palette& colours, const std::string& text);
 /// Name at the left, value at the right edge of the column.
 void value_row(const Palette& colours, const char* name, const std::string& value);
+
+/// Opacity of the ground of texts over the view.
+inline constexpr float kOverView = 0.82f;
+/// Text on a ground of its own, readable over the view.
+void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImVec4& colour);
 
 /// Begins a window in the middle of the dimmed view, as high as its content. Call ImGui::End() to
 /// end it.

@@ -47,8 +47,10 @@ TEST_F(ActionsTest, ADialogReplacesThePreviousOne) {
   EXPECT_TRUE(state.ui.shows<NoDialog>());
   apply(state, ShowDialog{DialogKind::settings});
   EXPECT_TRUE(state.ui.shows<SettingsDialog>());
+  apply(state, SetMaterial{*find_material("celadon")});
   apply(state, ShowDialog{DialogKind::export_files});
   EXPECT_TRUE(state.ui.shows<ExportDialog>());
+  EXPECT_EQ(state.ui.exporting.choices.material, "celadon") << "the glaze that the window shows";
   apply(state, ShowDialog{DialogKind::open_file});
   EXPECT_TRUE(state.ui.shows<OpenDialog>());
   apply(state, EditPath{"somewhere"});

@@ -46,7 +46,7 @@ class Exporting : public ::testing::Test {
   ScratchFolder folder;
   history::SharedPot pot = thrown();
   ExportChoices choices{.meshes = {solid::MeshFormat::stl_binary, solid::MeshFormat::obj,
-                                   solid::MeshFormat::three_mf},
+                                   solid::MeshFormat::three_mf, solid::MeshFormat::glb},
                         .step = true,
                         .section = true,
                         .dxf = true,
@@ -59,7 +59,8 @@ class Exporting : public ::testing::Test {
                         .smoothing = solid::Smoothing::fair,
                         .process = "porcelain",
                         .min_wall_mm = 0.0,
-                        .shrinkage_percent = 12.0};
+                        .shrinkage_percent = 12.0,
+                        .material = "celadon"};
   Exporter exporter;
 };
 
@@ -67,21 +68,23 @@ TEST_F(Exporting, WritesTheBytesOfTheCommand) {
   exporter.write(pot, choices);
   const auto done = outcome();
   ASSERT_TRUE(done.done) << done.done.error().message;
-  EXPECT_EQ(done.paths.size(), 9u);
+  EXPECT_EQ(done.paths.size(), 10u);
   std::filesystem::create_directory(folder.path() / "command");
   std::filesystem::create_directory(folder.path() / "given");
   const std::string pot_path = folder.file("given/two.pot.json");
   write_text(pot_path, write_pot(*pot, PotEncoding::json));
   const std::string base = folder.file("command/two");
-  const auto ran = claystack("export -q " + pot_path + " " + base + ".stl " + base + ".obj " +
-                             base + ".3mf " + base + ".step " + base + ".svg " + base + ".dxf " +
-                             base + ".pdf " + base + ".pot.json --report " + base +
-                             ".report.html --tolerance 0.05 --process porcelain --shrinkage 12%");
+  const auto ran = claystack(
+      "export -q " + pot_path + " " + base + ".stl " + base + ".obj " + base + ".3mf " + base +
+      ".step " + base + ".svg " + base + ".dxf " + base + ".pdf " + base + ".pot.json " + base +
+      ".glb --report " + base +
+      ".report.html --material celadon --tolerance 0.05 --process porcelain --shrinkage 12%");
   // Its wall is too thin for porcelain: the command writes the files and reports the fault.
   ASSERT_EQ(ran.status, 1) << ran.err;
   ASSERT_EQ(done.done->problems.size(), 2u) << "the wall, and a warning about the overhang";
   EXPECT_NE(ran.err.find(done.done->problems[0]), std::string::npos);
-  for (const char* ending : {".stl", ".obj", ".3mf", ".step", ".svg", ".dxf", ".pdf", ".pot.json"})
+  for (const char* ending :
+       {".stl", ".obj", ".3mf", ".step", ".svg", ".dxf", ".pdf", ".pot.json", ".glb"})
     EXPECT_EQ(read_text(folder.file("two") + ending), read_text(base + ending)) << ending;
   const auto page = [&](const std::string& path) {
     static const std::regex times(R"(\d+\.\d+ ms)");
@@ -105,10 +108,11 @@ TEST_F(Exporting, PreviewReportsTheFilesInAdvance) {
   exporter.write(pot, choices);
   ASSERT_TRUE(outcome().done);
   const auto& meshes = previewed.done->meshes;
-  ASSERT_EQ(meshes.size(), 3u);
+  ASSERT_EQ(meshes.size(), 4u);
   EXPECT_EQ(meshes[0].bytes, std::filesystem::file_size(folder.file("two.stl")));
   EXPECT_EQ(meshes[1].bytes, std::filesystem::file_size(folder.file("two.obj")));
   EXPECT_EQ(meshes[2].bytes, std::filesystem::file_size(folder.file("two.3mf")));
+  EXPECT_EQ(meshes[3].bytes, std::filesystem::file_size(folder.file("two.glb")));
 }
 
 TEST_F(Exporting, NewestPreviewWins) {

@@ -123,7 +123,8 @@ TEST(JobMessage, CarriesTheWholeExport) {
                    .smooth_length_mm = 7.5,
                    .process = "porcelain",
                    .min_wall_mm = 1.1,
-                   .shrinkage_percent = 12.5};
+                   .shrinkage_percent = 12.5,
+                   .material = "celadon"};
   const Question received = question_in(message_of(asked));
   ASSERT_TRUE(received.exporting);
   EXPECT_FALSE(received.check);
