@@ -203,8 +203,7 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   if (timeline > 0.0f)
     draw_timeline(model, actions, {left, top + tall - timeline}, {wide, timeline});
   const bool first = state_.scene.rect().size_px.x <= 1.0f;
-  // In a narrow window the card of the guide would lie over the pot: the pot stands above it.
-  state_.scene.place(view, timeline + (right > 0.0f ? 0.0f : std::min(guide_px_, 0.5f * tall)));
+  place_view(model, view, timeline, right == 0.0f);
   if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
   draw_target(model, view);
   const float verdict = draw_verdict(model, view);
@@ -214,18 +213,19 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   draw_pause(model, view);
   draw_export_marks(model, view, verdict);
   draw_hint(model, actions, free);
-  keep_above_guide(model, draw_guide(model, actions, free));
+  draw_guide(model, actions, free);
   draw_dialog(model, actions, view);
   draw_banner(model, actions, view, verdict);
 }
 
-/// The room for the card grows with it between strokes only: during a stroke the view stands still.
-void Studio::keep_above_guide(const ViewModel& model, float card_px) {
-  if (!model.guide.active()) guide_px_ = 0.0f;
-  if (card_px <= guide_px_ || model.stroke.throwing()) return;
-  const bool begins = guide_px_ == 0.0f;
-  guide_px_ = card_px;
-  if (begins) awake_frames_ = kFramesAfterInput;
+/// In a narrow window the card of the guide would lie over the pot: the pot stands above it. The
+/// room for the card grows between strokes only, because the view stands still during a stroke.
+void Studio::place_view(const ViewModel& model, const ViewRect& view, float timeline, bool narrow) {
+  const bool guided = narrow && model.guide.active();
+  const float before = std::exchange(guide_px_, guided ? guide_px_ : 0.0f);
+  if (guided && !model.stroke.throwing()) guide_px_ = std::max(before, guide_height());
+  state_.scene.place(view, timeline + std::min(guide_px_, 0.5f * view.size_px.y));
+  if (before == 0.0f && guide_px_ > 0.0f) state_.scene.look(model.stroke.view(), ViewFrom::lesson);
 }
 
 /// Compares the view and the panels with those on the screen, and chooses the resolution of the

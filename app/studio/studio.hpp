@@ -117,7 +117,7 @@ class Studio {
   void name_window();
   void turn_wheel(double elapsed_s);
   void lay_out(const ViewModel& model, Actions& actions);
-  void keep_above_guide(const ViewModel& model, float card_px);
+  void place_view(const ViewModel& model, const ViewRect& view, float timeline, bool narrow);
   [[nodiscard]] bool needs_paint();
   void paint();
   void draw_view(unsigned target);
@@ -147,7 +147,7 @@ class Studio {
   bool redraw_ = true;      // the canvas does not show picture_
   std::size_t panels_ = 0;  // hash of the painted panels
   int awake_frames_ = 0;    // ImGui needs some frames after an input
-  float guide_px_ = 0.0f;   // height of the guide's card, and the space below it; 0: none
+  float guide_px_ = 0.0f;   // kept free for the guide's card
 };
 
 }  // namespace clay::studio

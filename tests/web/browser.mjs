@@ -69,7 +69,8 @@ export async function openPage(browser, folder, url, size, before = null) {
   await page.setViewport(size);
   if (!(await page.browser().version()).startsWith('firefox')) {
     const downloads = await page.browser().target().createCDPSession();
-    await downloads.send('Browser.setDownloadBehavior', {behavior: 'allow', downloadPath: folder});
+    await downloads.send('Browser.setDownloadBehavior', {behavior: 'allow', downloadPath: folder,
+      browserContextId: page.browserContext().id});
   }
   await page.goto(url);
   if (before) return page;

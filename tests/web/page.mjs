@@ -9,6 +9,7 @@ import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import {inflateRawSync} from 'node:zlib';
 import {chord, downloaded as downloadedIn, launch as launchIn, openPage as openPageIn, pause} from './browser.mjs';
+import {gamepad, pen, spaceMouse} from './devices.mjs';
 import {serve} from './server.mjs';
 
 const [site, claystack, pictures] = process.argv.slice(2, 5).map(path => resolve(path));
@@ -376,7 +377,39 @@ async function looks(browser) {
   await page.close();
 }
 
-const kAll = {throwAndExport, files, drawn, words, phone, offline, looks};
+/// The guide plays its steps; plans are made beside the picture.
+async function lesson(browser) {
+  const context = await browser.createBrowserContext();
+  const page = await openPage(context, kDesktop);
+  await pause(1500);
+  await page.mouse.click(302, 300);  // the card of the bowl
+  await page.says('step: Open');
+  await pause(500);
+  await picture(page, 'lesson');
+  await page.keyboard.press('KeyG');
+  await page.says('stroke ended');
+  await page.says('step: Widen');
+  console.log(`  longest time without a frame while steps were planned: ` +
+    `${Math.max(...await page.evaluate(() => ['work started', 'stroke ended'].map(text =>
+      window.announced.findLast(line => line.text.startsWith(text)).gap))).toFixed(0)} ms`);
+  assert.deepEqual(page.problems, []);
+  await context.close();
+  console.log('the guide played a step and planned the next');
+}
+
+/// Devices work on what reaches the clay, see devices.mjs.
+async function devices(browser) {
+  const open = async before => {  // without the works of other tests
+    const context = await browser.createBrowserContext();
+    const page = await openPageIn(context, folder, server.address, kDesktop, before ?? (() => {}));
+    await page.says('window open');
+    return page;
+  };
+  for (const test of [pen, gamepad, spaceMouse]) await test({open, folder});
+  console.log('pen, gamepad and 3D mouse reach the clay');
+}
+
+const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, offline, looks};
 let failed = 0;
 const only = process.env.ONLY?.split(',');  // some tests, by name
 try {

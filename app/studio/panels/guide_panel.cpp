@@ -4,6 +4,7 @@
 #include "app/studio/panels/widgets.hpp"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,7 @@ constexpr ImGuiWindowFlags kCard =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr const char* kCardId = "##guide";
 constexpr float kCardEm = 30.0f, kDotEm = 0.9f;
 
 const char* name_of_tool(ToolMode mode) {
@@ -116,8 +118,14 @@ double distance_mm(const LessonPlan& plan, const glm::dvec3& tool_mm) {
 
 }  // namespace
 
-float draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect) {
-  if (!model.guide.active() || !model.ui.shows<NoDialog>()) return 0.0f;
+float guide_height() {
+  const ImGuiWindow* card = ImGui::FindWindowByName(kCardId);
+  const bool settled = card != nullptr && card->WasActive && card->AutoFitFramesY <= 0;
+  return settled ? card->Size.y + ImGui::GetFontSize() : 0.0f;
+}
+
+void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect) {
+  if (!model.guide.active() || !model.ui.shows<NoDialog>()) return;
   const float em = ImGui::GetFontSize();
   const float width = std::min(rect.size_px.x - 2.0f * em, kCardEm * em);
   ImGui::SetNextWindowPos(
@@ -126,7 +134,7 @@ float draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect)
   ImGui::SetNextWindowSize({width, 0.0f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.6f * em);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
-  ImGui::Begin("##guide", nullptr, kCard);
+  ImGui::Begin(kCardId, nullptr, kCard);
   const Guide& guide = model.guide;
   const std::string title = guide.finished() ? guide.title()
                                              : fmt::format("{}, step {} of {}", guide.title(),
@@ -141,11 +149,9 @@ float draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect)
     draw_finish(model, actions);
   else
     draw_present_step(model, actions);
-  const float height = ImGui::GetWindowHeight() + em;
   ImGui::End();
   ImGui::PopStyleColor();
   ImGui::PopStyleVar();
-  return height;
 }
 
 void draw_path(const ViewModel& model, const ViewRect& rect) {

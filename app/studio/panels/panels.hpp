@@ -46,9 +46,10 @@ void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw_at_tool(const ViewModel& model, const ViewRect& rect);
 /// A veil over the view while the wheel is paused.
 void draw_pause(const ViewModel& model, const ViewRect& rect);
-/// The step of the lesson, and what to do in it. Returns the height that it takes at the foot of
-/// the view, 0 if it is not shown.
-float draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect);
+/// The step of the lesson, and what to do in it.
+void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect);
+/// Of its card in the last frame, with the space below it [px]; 0: it was not shown.
+[[nodiscard]] float guide_height();
 /// Draws over the view: the path to follow in the present step.
 void draw_path(const ViewModel& model, const ViewRect& rect);
 /// Whether the pot is ready to print, or why not, at the top of the view. Returns its lower edge.
