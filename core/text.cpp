@@ -14,7 +14,7 @@ struct Beginning {
 };
 constexpr Beginning kBeginnings[] = {
     {"DRACO", "a Draco mesh"},        {"PK\x03\x04", "a zip archive, as 3MF is"},
-    {"glTF", "a binary glTF model"},  {"ply\n", "a PLY mesh"},
+    {"glTF", "a GLB model"},          {"ply\n", "a PLY mesh"},
     {"ply\r", "a PLY mesh"},          {"<svg", "an SVG drawing"},
     {"<?xml", "an XML document"},     {"solid ", "an STL mesh in text"},
     {"OFF", "an OFF mesh"},           {"%PDF", "a PDF document"},

@@ -61,6 +61,8 @@ std::string_view ending_of(std::string_view bytes) {
 Result<Verdict> check_stream(const CheckCommand& command, const Console& console) {
   auto bytes = read_file(command.file);
   if (!bytes) return tl::make_unexpected(bytes.error());
+  if (bytes->empty())
+    return failure(ErrorKind::bad_input, "-: expected a mesh or a pot, found no input");
   const std::string_view ending = ending_of(*bytes);
   if (ending == ".json") return check_pot(*bytes, command, console);
   const auto format = solid::mesh_format_of(std::string("stream").append(ending));

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <utility>
@@ -85,15 +86,25 @@ Result<TriangleMesh> written(const TriangleMesh& mesh, const CheckCommand& comma
   return reread;
 }
 
-/// Sum of width, depth and height.
-double size_sum_mm(const TriangleMesh& mesh) {
+/// Width, depth and height.
+glm::dvec3 size_mm(const TriangleMesh& mesh) {
   glm::dvec3 low = mesh.points.front(), high = low;
   for (const glm::dvec3& p : mesh.points) {
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
-  const glm::dvec3 size = high - low;
-  return size.x + size.y + size.z;
+  return high - low;
+}
+
+/// Only 3MF and GLB state their unit.
+void check_unit(const glm::dvec3& size, MeshFormat format, Verdict& verdict) {
+  constexpr double kLeastMm = 1.0;
+  if (format == MeshFormat::three_mf || format == MeshFormat::glb) return;
+  if (std::max({size.x, size.y, size.z}) < kLeastMm)
+    verdict.add("geometry", Grade::warn,
+                fmt::format("only {:.3g} x {:.3g} x {:.3g} mm: meshes are read in millimetres, "
+                            "this one may be in metres",
+                            size.x, size.y, size.z));
 }
 
 Result<void> measure_wall(const TriangleMesh& mesh, const solid::WallLimit& limit,
@@ -221,6 +232,24 @@ void check_cavities(const CheckCommand& command, Verdict& verdict) {
                           verdict.mesh.cavities, verdict.mesh.trapped_mm3 / 1000.0));
 }
 
+/// What the mesh encloses, and what the file holds besides the mesh.
+void check_contents(std::string_view bytes, const TriangleMesh& mesh, MeshFormat format,
+                    const CheckCommand& command, Verdict& verdict) {
+  check_cavities(command, verdict);
+  if (command.changes_mesh()) return;
+  if (format == MeshFormat::drc) check_claims(bytes, mesh, verdict);
+  if (format == MeshFormat::three_mf) check_packed(bytes, command.file, verdict);
+}
+
+/// A file that cannot be read no longer matches its certificate.
+Verdict unread_with_certificate(std::string_view bytes, MeshFormat format,
+                                const CheckCommand& command, Verdict verdict) {
+  verify(bytes, format, command, verdict);
+  verdict.examined = false;
+  verdict.state = MeshState::unreadable;
+  return verdict;
+}
+
 }  // namespace
 
 Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
@@ -240,13 +269,8 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   auto mesh = file->read(
       {"checking", solid::check_memory(1)},
       {.repair = command.repair, .notes = &verdict.notes, .slicer_reads_less = &slicer_reads_less});
-  if (!mesh && mesh.error().kind == ErrorKind::bad_input && verdict.certificate) {
-    // The file no longer matches its certificate.
-    verify(bytes, format, command, verdict);
-    verdict.examined = false;
-    verdict.state = MeshState::unreadable;
-    return verdict;
-  }
+  if (!mesh && mesh.error().kind == ErrorKind::bad_input && verdict.certificate)
+    return unread_with_certificate(bytes, format, command, std::move(verdict));
   if (!mesh) return tl::make_unexpected(mesh.error());
   progress.stage("checking");
   if (command.changes_mesh()) {
@@ -260,12 +284,11 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   if (!report) return failure(report.error().kind, command.file + ": " + report.error().message);
   verdict.mesh = std::move(*report);
   verdict.state = as_sliced(state_of(*mesh, verdict.mesh), slicer_reads_less);
-  check_cavities(command, verdict);
-  if (format == MeshFormat::drc && !command.changes_mesh()) check_claims(bytes, *mesh, verdict);
-  if (format == MeshFormat::three_mf && !command.changes_mesh())
-    check_packed(bytes, command.file, verdict);
+  check_contents(bytes, *mesh, format, command, verdict);
   progress.clear();
-  if (const auto limit = command.walls.demand().for_size(size_sum_mm(*mesh)))
+  const glm::dvec3 size = size_mm(*mesh);
+  check_unit(size, format, verdict);
+  if (const auto limit = command.walls.demand().for_size(size.x + size.y + size.z))
     if (auto done = measure_wall(*mesh, *limit, command, console, verdict); !done)
       return tl::make_unexpected(done.error());
   if (verdict.certificate) progress.stage("verifying the certificate");

@@ -99,30 +99,19 @@ void print_summary(const Console& console, const ImportOptions& options, const H
 }
 
 #ifdef CLAYSTACK_EXPORT
-/// Refuses options that only a drawing has.
-Result<void> check_mesh_options(const ImportOptions& options) {
+Result<void> import_from_mesh(const ImportOptions& options, const Console& console) {
   for (const auto& [option, given] : {std::pair("--axis", !options.axis.empty()),
                                       {"--layer", !options.layer.empty()},
                                       {"--wall", options.pot_settings.wall_mm.has_value()}})
     if (given)
       return failure(ErrorKind::bad_input, fmt::format("{}: expected a drawing, found the mesh {}",
                                                        option, options.drawing));
-  return {};
+  return import_mesh(options.drawing, options.pot,
+                     {options.section.height_mm, options.pot_settings}, console);
 }
 #endif
 
-Result<void> import_drawing(ImportOptions options, Console console) {
-  if (options.pot == "-") console.quiet = true;
-  if (auto named = check_pot_name(options.pot); !named) return named;
-  if (auto axis = set_axis(options); !axis) return axis;
-  if (auto free = check_outputs({{options.pot}}, {options.drawing}, console); !free) return free;
-#ifdef CLAYSTACK_EXPORT
-  if (solid::mesh_format_of(options.drawing)) {
-    if (auto fit = check_mesh_options(options); !fit) return fit;
-    return import_mesh(options.drawing, options.pot,
-                       {options.section.height_mm, options.pot_settings}, console);
-  }
-#endif
+Result<void> import_drawing(const ImportOptions& options, const Console& console) {
   Progress progress(console, "importing", 0);
   progress.stage("reading");
   const auto bytes = read_file(options.drawing);
@@ -148,30 +137,44 @@ Result<void> import_drawing(ImportOptions options, Console console) {
   return {};
 }
 
-void add_shape_options(CLI::App& command, ImportOptions& options) {
-  command.add_option(
+Result<void> import_file(ImportOptions options, Console console) {
+  if (options.pot == "-") console.quiet = true;
+  if (auto named = check_pot_name(options.pot); !named) return named;
+  if (auto axis = set_axis(options); !axis) return axis;
+  if (auto free = check_outputs({{options.pot}}, {options.drawing}, console); !free) return free;
+#ifdef CLAYSTACK_EXPORT
+  if (solid::mesh_format_of(options.drawing)) return import_from_mesh(options, console);
+#endif
+  return import_drawing(options, console);
+}
+
+/// What the drawing shows, and at what size.
+void add_drawing_options(CLI::App* command, ImportOptions& options) {
+  command->add_option(
       "--axis", options.axis,
       "Axis of the pot in the drawing: left, middle, or its x position [mm]; default: "
       "a separate vertical line, the middle of a symmetric drawing, or its left end");
-  command.add_option("--layer", options.layer,
-                     "The only layer of an SVG or DXF drawing to read, by its name (default: all "
-                     "that are shown)");
+  command->add_option("--layer", options.layer,
+                      "The only layer of an SVG or DXF drawing to read, by its name (default: all "
+                      "that are shown)");
   command
-      .add_option("--height", options.section.height_mm,
-                  "Height of the pot: scales the drawing or mesh [mm] (default: as it is)")
+      ->add_option("--height", options.section.height_mm,
+                   "Height of the pot: scales the drawing or mesh [mm] (default: as it is)")
       ->check(in_range(0.01, 1e5));
+}
+
+void add_pot_options(CLI::App* command, DrawnPotSettings& settings) {
   command
-      .add_option("--wall", options.pot_settings.wall_mm,
-                  "Thickness of wall and floor, for a drawing that shows only the outside [mm] "
-                  "(default: solid)")
+      ->add_option("--wall", settings.wall_mm,
+                   "Thickness of wall and floor, for a drawing that shows only the outside [mm] "
+                   "(default: solid)")
       ->check(in_range(0.01, 1000.0));
   command
-      .add_option("--ring-height", options.pot_settings.ring_height_mm,
-                  "Maximum ring height [mm] (default: 0.75, or less where the rings would deviate "
-                  "by more than 0.02 mm from the drawing)")
+      ->add_option("--ring-height", settings.ring_height_mm,
+                   "Maximum ring height [mm] (default: 0.75, or less where the rings would deviate "
+                   "by more than 0.02 mm from the drawing)")
       ->check(in_range(1e-3, 1e3));
-  command
-      .add_option("--density", options.pot_settings.density_g_cm3, "Density of the clay [g/cm3]")
+  command->add_option("--density", settings.density_g_cm3, "Density of the clay [g/cm3]")
       ->check(in_range(0.1, 20.0))
       ->capture_default_str();
 }
@@ -184,13 +187,17 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
       "import",
       "Make a pot from a drawing of its section, or from a mesh, to throw on or to print");
   command
-      ->add_option(
-          "drawing", options->drawing,
-          "NAME.svg, NAME.dxf or NAME.csv; or a mesh of a pot: .stl, .obj, .drc, .ply, .off, .glb "
-          "or .3mf")
+      ->add_option("drawing", options->drawing,
+                   "NAME.svg, NAME.dxf or NAME.csv; or a mesh of a pot"
+#ifdef CLAYSTACK_EXPORT
+                   ": " +
+                       solid::format_endings(solid::FormatUse::read)
+#endif
+                       )
       ->required();
   command->add_option("-o,--output", options->pot, "NAME.pot.json or NAME.pot.cbor")->required();
-  add_shape_options(*command, *options);
+  add_drawing_options(command, *options);
+  add_pot_options(command, options->pot_settings);
   command->footer(
       "\nExamples:\n"
       "  claystack import samples/drawings/jug.svg -o jug.pot.json --height 180\n"
@@ -200,7 +207,7 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
       "  claystack export jug.pot.json jug.stl\n"
       "  claystack import jug.stl -o scan.pot.json");
   command->callback([options, &console, &exit] {
-    const auto done = import_drawing(*options, console);
+    const auto done = import_file(*options, console);
     exit = done ? kDone : report(done.error());
   });
 }

@@ -93,6 +93,12 @@ Result<void> import_mesh(const std::string& path, const std::string& pot,
   const double mesh_mm3 = solid::signed_volume(*mesh);
   if (console.json) print_json(summary(path, *mesh, mesh_mm3, *made));
   print_summary(console, *made, mesh_mm3);
+  constexpr double kLeastPotMm = 10.0;
+  if (const double height = made->pot.stack.height_mm(); height < kLeastPotMm)
+    console.warn(
+        fmt::format("{}: the pot is only {:.3g} mm high: meshes are read in millimetres; "
+                    "--height MM scales it",
+                    path, height));
   console.print("pot: " + pot);
   return {};
 }

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 namespace clay::importing {
@@ -53,10 +55,14 @@ std::string PointLimits::problem_with(std::span<const glm::dvec2> points_mm) {
 
 Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,
                              const std::string& layer) {
-  const bool svg = name.ends_with(".svg"), dxf = name.ends_with(".dxf");
-  if (!svg && !dxf && !name.ends_with(".csv"))
-    return failure(ErrorKind::bad_input,
-                   name + ": expected a drawing (.svg, .dxf, .csv), found " + kind_of_file(bytes));
+  std::string ending = std::filesystem::path(name).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const bool svg = ending == ".svg", dxf = ending == ".dxf";
+  if (!svg && !dxf && ending != ".csv")
+    return failure(
+        ErrorKind::bad_input,
+        name + ": expected a drawing (.svg, .dxf, .csv) or a mesh, found " +
+            kind_of_file(bytes));
   if (bytes.empty())
     return failure(ErrorKind::bad_input, name + ": expected a drawing, found an empty file");
   if (bytes.size() > kMostBytes)
@@ -70,6 +76,9 @@ Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,
   auto read = svg   ? read_svg(bytes, name, layer)
               : dxf ? read_dxf(bytes, name, layer)
                     : read_csv(bytes, name);
+  if (!read && !(svg && bytes.starts_with('<')))
+    return tl::make_unexpected(
+        kind_error(std::move(read.error()), bytes, name, "a drawing (" + ending + ")"));
   return std::move(read).and_then(
       [&](Drawing&& drawing) { return checked(std::move(drawing), name); });
 }

@@ -100,6 +100,10 @@ double largest_radius(const HalfSection& section) {
   return largest;
 }
 
+double part_limit_mm(double largest_radius_mm) {
+  return std::min(std::max(kPartMm, 0.01 * largest_radius_mm), 0.1 * largest_radius_mm);
+}
+
 Result<void> check_size(const solid::TriangleMesh& mesh, const std::string& name) {
   if (mesh.triangles.size() >= 4) return {};
   return failure(
@@ -126,7 +130,7 @@ Result<MeshPot> mesh_pot(solid::TriangleMesh mesh, const MeshPotSettings& settin
     pot = revolved(mesh, result.axis, name);
   }
   if (!pot) return tl::make_unexpected(pot.error());
-  const double limit = std::max(kPartMm, 0.01 * largest_radius(pot->section));
+  const double limit = part_limit_mm(largest_radius(pot->section));
   const std::vector<CutOff> cuts = offsets(*pot, limit);
   const auto off =
       std::count_if(cuts.begin(), cuts.end(), [&](const CutOff& cut) { return cut.mm > limit; });

@@ -26,8 +26,8 @@ struct MeshPot {
   std::vector<MeshPart> parts;
 };
 
-/// Points farther than this from the revolved section, or a hundredth of the largest radius, are
-/// not of revolution.
+/// Points farther than this from the revolved section, or a hundredth of the largest radius if that
+/// is more, are not of revolution; in small pots, points farther than a tenth of it.
 inline constexpr double kPartMm = 0.5;
 
 struct MeshPotSettings {

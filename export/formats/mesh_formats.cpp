@@ -1,6 +1,8 @@
 #include "claystack/export/formats.hpp"
 
+#include "core/text.hpp"
 #include "export/formats/file_floats.hpp"
+#include "export/formats/stl_layout.hpp"
 #include "export/formats/text_scanner.hpp"
 
 #include <algorithm>
@@ -70,8 +72,36 @@ Result<std::string> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
                  std::string("cannot write ").append(facts_of(format).ending));
 }
 
-Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
-                                 const ReadOptions& options) {
+namespace {
+
+/// Enough for known_kind.
+constexpr std::size_t kHeadBytes = 4096;
+
+std::string_view kind_of(std::string_view head, std::uint64_t file_bytes) {
+  if (file_bytes == 0) return "an empty file";
+  if (const auto kind = known_kind(head); !kind.empty()) return kind;
+  const bool stl = head.size() >= stl::kPrologueBytes &&
+                   file_bytes == stl::file_bytes(load_u32(head.data() + stl::kHeaderBytes));
+  return stl ? "an STL mesh" : "";
+}
+
+/// The error of a reader; of a file that is empty or of another kind, one that states so.
+Error kind_stated(Error error, std::string_view head, std::uint64_t file_bytes, MeshFormat format,
+                  std::string_view name) {
+  const FormatFacts& facts = facts_of(format);
+  if (error.kind != ErrorKind::bad_input || facts.ending.empty()) return error;
+  const std::string_view kind = kind_of(head, file_bytes);
+  if (kind.empty() || kind.find(facts.title) != std::string_view::npos) return error;
+  const bool vowel = facts.title[0] == 'S' || facts.title[0] == 'O';  // as it is spoken
+  return {error.kind, std::string(name)
+                          .append(vowel ? ": expected an " : ": expected a ")
+                          .append(facts.title)
+                          .append(" file, found ")
+                          .append(kind)};
+}
+
+Result<TriangleMesh> decode_as(MeshFormat format, std::string_view bytes, std::string_view name,
+                               const ReadOptions& options) {
   switch (format) {
     case MeshFormat::stl_binary:
     case MeshFormat::stl_ascii:
@@ -94,10 +124,30 @@ Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std:
   return failure(ErrorKind::bad_input, std::string(name).append(": unknown mesh format"));
 }
 
+}  // namespace
+
+Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
+                                 const ReadOptions& options) {
+  return decode_as(format, bytes, name, options).map_error([&](Error error) {
+    return kind_stated(std::move(error), bytes, bytes.size(), format, name);
+  });
+}
+
 Result<TriangleMesh> read_mesh(const ByteSource& source, MeshFormat streamed, std::string_view name,
                                const ReadOptions& options) {
-  return streamed == MeshFormat::obj ? read_obj(source, name, options)
-                                     : read_stl(source, name, options);
+  std::string head;
+  ByteSource watched = source;
+  watched.read = [&](std::span<char> part) {
+    auto count = source.read(part);
+    if (count && head.size() < kHeadBytes)
+      head.append(part.data(), std::min(*count, kHeadBytes - head.size()));
+    return count;
+  };
+  auto mesh = streamed == MeshFormat::obj ? read_obj(watched, name, options)
+                                          : read_stl(watched, name, options);
+  return std::move(mesh).map_error([&](Error error) {
+    return kind_stated(std::move(error), head, source.size, streamed, name);
+  });
 }
 
 TriangleMesh rounded_to_float(const TriangleMesh& mesh) {

@@ -228,47 +228,49 @@ class Refinement {
   void cut(const Sheet& sheet, PointRegister& known) {
     const std::uint32_t first = sheet.triangles.front();
     const Projection projection(corner(first, 0), corner(first, 1), corner(first, 2));
-    std::vector<std::uint32_t> vertices;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> lines;
-    const auto add_line = [&](std::uint32_t a, std::uint32_t b) {
-      vertices.insert(vertices.end(), {a, b});
-      if (a != b) lines.push_back(std::minmax(a, b));
-    };
-    for (const std::uint32_t t : sheet.triangles)
-      for (std::size_t c = 0; c < 3; ++c) {
-        const Side side = side_of(t, c);
-        vertices.push_back(mesh_.triangles[t].at(c));
-        if (!inner_.contains({side.low, side.high})) lines.emplace_back(side.low, side.high);
-      }
-    for (const std::size_t i : sheet.cuts) {
-      stop_if_cancelled();
-      if (common_[i].points == 0) continue;
-      const std::uint32_t from = number_of(common_[i].ends[0], known);
-      add_line(from, common_[i].points == 1 ? from : number_of(common_[i].ends[1], known));
-    }
-    sort_and_drop_equal(vertices);
-    sort_and_drop_equal(lines);
+    const SheetLines drawn = lines_on(sheet, known);
     std::vector<std::pair<Point2, Number32>> points;
-    for (const std::uint32_t v : vertices)
+    for (const std::uint32_t v : drawn.vertices)
       points.emplace_back(projection.flat(result_.point(v)), Number32{v});
     Planar plane;
     plane.insert(points.begin(), points.end());
     std::unordered_map<std::uint32_t, PlanarVertex> at;
     for (const auto v : plane.finite_vertex_handles()) at.emplace(v->info().is, v);
-    for (const auto& [a, b] : lines) {
+    for (const auto& [a, b] : drawn.lines) {
       stop_if_cancelled();
       plane.insert_constraint(at.at(a), at.at(b));
     }
     for (const auto v : plane.finite_vertex_handles())
       if (v->info().is == UINT32_MAX) v->info().is = known.number_of(projection.lifted(v->point()));
-    for (const std::uint32_t t : sheet.triangles)
-      for (std::size_t c = 0; c < 3; ++c) {
-        const Side side = side_of(t, c);
-        if (!inner_.contains({side.low, side.high}))
-          note_side(plane, at.at(side.low), at.at(side.high), side.sheets);
-      }
+    for (const Side& side : outer_sides(sheet))
+      note_side(plane, at.at(side.low), at.at(side.high), side.sheets);
     cover_faces(plane);
     take_faces(plane);
+  }
+
+  struct SheetLines {
+    std::vector<std::uint32_t> vertices;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> lines;  ///< low vertex first
+  };
+
+  /// The border of a sheet, and where other triangles cross it.
+  SheetLines lines_on(const Sheet& sheet, PointRegister& known) {
+    SheetLines drawn;
+    for (const std::uint32_t t : sheet.triangles)
+      drawn.vertices.insert(drawn.vertices.end(), mesh_.triangles[t].begin(),
+                            mesh_.triangles[t].end());
+    for (const Side& side : outer_sides(sheet)) drawn.lines.emplace_back(side.low, side.high);
+    for (const std::size_t i : sheet.cuts) {
+      stop_if_cancelled();
+      if (common_[i].points == 0) continue;
+      const std::uint32_t from = number_of(common_[i].ends[0], known);
+      const std::uint32_t to = common_[i].points == 1 ? from : number_of(common_[i].ends[1], known);
+      drawn.vertices.insert(drawn.vertices.end(), {from, to});
+      if (from != to) drawn.lines.push_back(std::minmax(from, to));
+    }
+    sort_and_drop_equal(drawn.vertices);
+    sort_and_drop_equal(drawn.lines);
+    return drawn;
   }
 
   template <class Item>
@@ -284,6 +286,15 @@ class Refinement {
   [[nodiscard]] Side side_of(std::uint32_t t, std::size_t c) const {
     const std::uint32_t a = mesh_.triangles[t].at(c), b = mesh_.triangles[t].at((c + 1) % 3);
     return a < b ? Side{a, b, sheets_[t]} : Side{b, a, -sheets_[t]};
+  }
+
+  [[nodiscard]] std::vector<Side> outer_sides(const Sheet& sheet) const {
+    std::vector<Side> sides;
+    for (const std::uint32_t t : sheet.triangles)
+      for (std::size_t c = 0; c < 3; ++c)
+        if (const Side side = side_of(t, c); !inner_.contains({side.low, side.high}))
+          sides.push_back(side);
+    return sides;
   }
 
   /// Sides between triangles of one sheet that cancel bound nothing. Without them, the many

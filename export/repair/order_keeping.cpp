@@ -6,7 +6,9 @@
 #include <array>
 #include <cstring>
 #include <glm/vec3.hpp>
+#include <numeric>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace clay::solid::inline repair {
@@ -58,26 +60,26 @@ std::vector<std::uint32_t> ranks(const TriangleMesh& before, const TriangleMesh&
   return rank;
 }
 
-}  // namespace
+using Numbers = std::vector<std::uint32_t>;
 
-TriangleMesh in_order_of(const TriangleMesh& before, TriangleMesh result) {
-  std::vector<std::uint32_t> rank_of_input;
-  const std::vector<std::uint32_t> rank = ranks(before, result, rank_of_input);
+Triangle numbered(const Triangle& t, const Numbers& number) {
+  return {number[t[0]], number[t[1]], number[t[2]]};
+}
+
+/// The triangles of the result in the order of the input, with its first corners; then new ones.
+std::vector<Triangle> ordered_triangles(const TriangleMesh& before, const TriangleMesh& result,
+                                        const Numbers& rank_of_input, const Numbers& rank) {
   std::unordered_map<Triangle, std::uint32_t, CornersHash> number;
   number.reserve(before.triangles.size());
-  const auto ranked = [](const Triangle& t, const std::vector<std::uint32_t>& of) {
-    return Triangle{of[t[0]], of[t[1]], of[t[2]]};
-  };
   for (std::uint32_t t = 0; t < before.triangles.size(); ++t) {
     step_of_loop();
-    number.try_emplace(turned_to_least(ranked(before.triangles[t], rank_of_input)), t);
+    number.try_emplace(turned_to_least(numbered(before.triangles[t], rank_of_input)), t);
   }
   std::vector<std::pair<std::uint32_t, Triangle>> ordered;
   ordered.reserve(result.triangles.size());
-  for (const Triangle& t : result.triangles) {
+  for (Triangle corners : result.triangles) {
     step_of_loop();
-    const auto known = number.find(turned_to_least(ranked(t, rank)));
-    Triangle corners = t;
+    const auto known = number.find(turned_to_least(numbered(corners, rank)));
     if (known != number.end()) {
       const std::uint32_t start = rank_of_input[before.triangles[known->second][0]];
       while (rank[corners[0]] != start)
@@ -87,18 +89,29 @@ TriangleMesh in_order_of(const TriangleMesh& before, TriangleMesh result) {
   }
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::uint32_t> order(result.points.size()), place(result.points.size());
-  for (std::uint32_t v = 0; v < order.size(); ++v) order[v] = v;
+  std::vector<Triangle> triangles;
+  triangles.reserve(ordered.size());
+  for (const auto& entry : ordered) triangles.push_back(entry.second);
+  return triangles;
+}
+
+}  // namespace
+
+TriangleMesh in_order_of(const TriangleMesh& before, TriangleMesh result) {
+  Numbers rank_of_input;
+  const Numbers rank = ranks(before, result, rank_of_input);
+  TriangleMesh sorted;
+  sorted.triangles = ordered_triangles(before, result, rank_of_input, rank);
+  Numbers order(result.points.size()), place(result.points.size());
+  std::iota(order.begin(), order.end(), std::uint32_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return rank[a] < rank[b]; });
-  TriangleMesh sorted;
   sorted.points.reserve(order.size());
   for (const std::uint32_t v : order) {
     place[v] = static_cast<std::uint32_t>(sorted.points.size());
     sorted.points.push_back(result.points[v]);
   }
-  sorted.triangles.reserve(ordered.size());
-  for (const auto& [at, t] : ordered) sorted.triangles.push_back(ranked(t, place));
+  for (Triangle& t : sorted.triangles) t = numbered(t, place);
   return sorted;
 }
 

@@ -1,6 +1,5 @@
 #include "export/repair/shell_turning.hpp"
 
-#include "export/repair/intersecting_pairs.hpp"
 #include "export/repair/surface_making.hpp"
 #include "export/repair/winding_ray.hpp"
 
@@ -14,10 +13,12 @@ namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
 
-/// Shells that intersect others or themselves: only their volumes show their orientation.
-class TangledShells {
+/// Shells that may intersect others or themselves: their volumes show their orientation. A negative
+/// shell inside clay is a cavity, and any other one is turned. A positive shell stays, also inside
+/// another one: slicers fill it.
+class OrientedShells {
  public:
-  TangledShells(TriangleMesh mesh, const Shells& shells)
+  OrientedShells(TriangleMesh mesh, const Shells& shells)
       : mesh_(std::move(mesh)), shells_(shells), volumes_(shells.count, 0.0) {
     const glm::dvec3 origin = mesh_.points[mesh_.triangles.front()[0]];
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -76,46 +77,18 @@ class TangledShells {
   std::vector<double> volumes_;  ///< six times
 };
 
-std::size_t turn_tangled(Surface& surface, TriangleMesh mesh) {
-  const Shells shells(surface);
-  const std::vector<bool> turn = TangledShells(std::move(mesh), shells).to_turn();
-  std::vector<Surface::Face_index> faces;
-  for (const auto face : surface.faces())
-    if (turn[shells.of_face[face]]) faces.push_back(face);
-  pmp::reverse_face_orientations(faces, surface);
-  return static_cast<std::size_t>(std::count(turn.begin(), turn.end(), true));
-}
-
-std::size_t turn_nested(Surface& surface) {
-  const Shells shells(surface);
-  std::vector<Surface::Face_index> first(shells.count, Surface::null_face());
-  for (const auto face : surface.faces())
-    if (auto& of_shell = first[shells.of_face[face]]; of_shell == Surface::null_face())
-      of_shell = face;
-  const auto target_of = [&](Surface::Face_index face, Surface::Vertex_index from) {
-    for (const auto h : surface.halfedges_around_face(surface.halfedge(face)))
-      if (surface.source(h) == from) return surface.target(h);
-    return Surface::null_vertex();
-  };
-  std::vector<std::pair<Surface::Vertex_index, Surface::Vertex_index>> before;
-  for (const auto face : first) {
-    const auto h = surface.halfedge(face);
-    before.emplace_back(surface.source(h), surface.target(h));
-  }
-  pmp::orient_to_bound_a_volume(surface);
-  std::size_t turned = 0;
-  for (std::size_t shell = 0; shell < shells.count; ++shell)
-    turned += target_of(first[shell], before[shell].first) == before[shell].second ? 0 : 1;
-  return turned;
-}
-
 }  // namespace
 
 std::size_t turn_shells(Surface& surface) {
   if (surface.is_empty() || !CGAL::is_closed(surface)) return 0;
   TriangleMesh mesh = mesh_of(surface);
-  if (intersecting_pairs(mesh, 1).empty()) return turn_nested(surface);
-  return turn_tangled(surface, std::move(mesh));
+  const Shells shells(surface);
+  const std::vector<bool> turn = OrientedShells(std::move(mesh), shells).to_turn();
+  std::vector<Surface::Face_index> faces;
+  for (const auto face : surface.faces())
+    if (turn[shells.of_face[face]]) faces.push_back(face);
+  pmp::reverse_face_orientations(faces, surface);
+  return static_cast<std::size_t>(std::count(turn.begin(), turn.end(), true));
 }
 
 }  // namespace clay::solid::inline repair

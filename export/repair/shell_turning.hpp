@@ -5,8 +5,8 @@
 
 namespace clay::solid::inline repair {
 
-/// Reverses shells of a closed surface so that it bounds a volume. If shells intersect, all are
-/// reversed if their volume is negative, then those of negative volume that lie in no other one.
+/// Reverses all shells of a closed surface if their volume is negative, then those of negative
+/// volume that lie in no clay. A positive shell inside another one stays as it is.
 /// Returns the number of reversed shells; 0 for a surface that is not closed.
 std::size_t turn_shells(Surface& surface);
 

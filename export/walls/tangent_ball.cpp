@@ -249,6 +249,25 @@ class BallSearch {
   bool found_ = false, swapped_ = false;
 };
 
+/// Places on a face whose balls on the axis end just where a stretch of clay does, or have just
+/// enough boundary in a run.
+template <class Stretches, class Run, class Offer>
+void each_axis_limit(const Line& line, double slant, double rise, const Stretches& stretches,
+                     const Run& run, const Offer& offer) {
+  const double begin = line.origin.y + line.origin.x * rise;
+  const double per = line.along.y + line.along.x * rise;
+  const auto [low, high] = std::minmax({begin, begin + per});
+  auto clay = std::partition_point(stretches.begin(), stretches.end(),
+                                   [y = low](const auto& s) { return s.high < y; });
+  for (; per != 0.0 && clay != stretches.end() && clay->low <= high; ++clay)
+    for (const double y : {clay->low, clay->high}) offer((y - begin) / per);
+  const double radius = kSpan * line.origin.x / slant, per_radius = kSpan * line.along.x / slant;
+  if (const double slope = line.arc_along - per_radius; slope != 0.0)
+    offer((radius - (line.arc - run.begin)) / slope);
+  if (const double slope = line.arc_along + per_radius; slope != 0.0)
+    offer((run.end - line.arc - radius) / slope);
+}
+
 }  // namespace
 
 LeafFaces::LeafFaces(const EdgeTree& tree, const EdgeNode& leaf) {
@@ -347,24 +366,12 @@ Ball AxisClay::least_ball(const Face& face, double from, double to) const {
   const Vec2& normal = face.edge.inward;
   const double slant = -normal.x, rise = normal.y / slant;
   if (!opposite(normal, mirrored(normal)) || !(slant > 0.0)) return best;
-  // Places whose balls end just where a stretch does, or with just enough boundary.
-  const auto centre = [&](double u) { return line.at(u).y + line.at(u).x * rise; };
   const auto offer = [&](double u) {
-    if (u >= from && u <= to && has_clay(centre(u))) touch(u, slant);
+    if (u >= from && u <= to && has_clay(line.at(u).y + line.at(u).x * rise)) touch(u, slant);
   };
   offer(from);
   offer(to);
-  const double begin = centre(0.0), per = centre(1.0) - begin;
-  const auto [low, high] = std::minmax({begin, begin + per});
-  auto clay = std::partition_point(stretches_.begin(), stretches_.end(),
-                                   [y = low](const Stretch& s) { return s.high < y; });
-  for (; per != 0.0 && clay != stretches_.end() && clay->low <= high; ++clay)
-    for (const double y : {clay->low, clay->high}) offer((y - begin) / per);
-  const double radius = kSpan * line.origin.x / slant, per_radius = kSpan * line.along.x / slant;
-  if (const double slope = line.arc_along - per_radius; slope != 0.0)
-    offer((radius - (line.arc - run->begin)) / slope);
-  if (const double slope = line.arc_along + per_radius; slope != 0.0)
-    offer((run->end - line.arc - radius) / slope);
+  each_axis_limit(line, slant, rise, stretches_, *run, offer);
   return best;
 }
 

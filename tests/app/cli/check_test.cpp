@@ -55,6 +55,23 @@ class CheckMesh : public testing::Test {
   ScratchFolder folder;
 };
 
+TEST_F(CheckMesh, WarnsOfAMeshThatMayBeInMetres) {
+  std::string stl = good_stl;
+  for (std::size_t k = 0; 84 + 50 * k < stl.size(); ++k)
+    for (std::size_t i = 3; i < 12; ++i) {
+      float coordinate = 0.0F;
+      std::memcpy(&coordinate, facet(stl, k) + 4 * i, 4);
+      coordinate *= 0x1p-10F;  // exact, so the mesh stays sound
+      std::memcpy(facet(stl, k) + 4 * i, &coordinate, 4);
+    }
+  for (const auto& [bytes, warned] : {std::pair(good_stl, false), {stl, true}}) {
+    write_text(folder.file("m.stl"), bytes);
+    const Ran run = claystack("check " + folder.file("m.stl"));
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_EQ(run.out.find("this one may be in metres") != std::string::npos, warned) << run.out;
+  }
+}
+
 TEST_F(CheckMesh, ReportsAHoleWithItsPlace) {
   std::string stl = good_stl;
   stl.erase(84 + 50 * 100, 50);

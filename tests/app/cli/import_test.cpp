@@ -52,6 +52,14 @@ TEST(Import, SampleDrawingsAreTrueAndPassStoneware) {
   }
 }
 
+TEST(Import, ReadsEndingsInCapitalLetters) {
+  const ScratchFolder folder;
+  const std::string drawing = folder.file("JUG.SVG"), pot = folder.file("jug.pot.json");
+  write_text(drawing, read_text(sample("drawings/jug.svg")));
+  const Ran run = claystack("import -q " + drawing + " -o " + pot);
+  EXPECT_EQ(run.status, 0) << run.err;
+}
+
 TEST(Import, ReportsErrorsAndLeavesNoFile) {
   const ScratchFolder folder;
   const std::string pot = folder.file("x.pot.json"), drawing = folder.file("x.csv");

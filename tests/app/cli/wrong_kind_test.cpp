@@ -34,12 +34,60 @@ TEST(WrongKind, IsNamedInTheMessage) {
       {"plan " + sample("strokes/cylinder.strokes.json"),
        ": expected a scene (.scene.json), found a stroke script"},
       {"import " + pot + " -o " + folder.file("y.pot.json"),
-       pot + ": expected a drawing (.svg, .dxf, .csv), found a pot"},
+       pot + ": expected a drawing (.svg, .dxf, .csv) or a mesh, found a pot"},
       {"check " + session, "the file is a session"}};
   for (const Case& c : cases) {
     const Ran run = claystack(c.arguments);
     EXPECT_EQ(run.status, 2) << c.arguments;
     EXPECT_NE(run.err.find(c.message), std::string::npos) << c.arguments << "\n" << run.err;
+  }
+}
+
+TEST(WrongKind, OfAMeshOrDrawingIsNamedWhateverItsNameEndsIn) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("v.pot.json"), stl = folder.file("v.stl"),
+                    obj = folder.file("v.obj");
+  ASSERT_EQ(claystack("throw -q " + sample("cylinder.scene.json") + " -o " + pot).status, 0);
+  ASSERT_EQ(claystack("export -q " + pot + " " + stl + " " + obj).status, 0);
+  const std::string svg = read_text(sample("drawings/jug.svg"));
+  const std::string cube =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n"
+      "f 2 3 4\nf 3 1 4\n# the name is that of another format\n";
+  struct Case {
+    std::string name, bytes, message;
+  };
+  const std::vector<Case> cases = {
+      {"stl.obj", read_text(stl), "expected an OBJ file, found an STL mesh"},
+      {"stl.ply", read_text(stl), "expected a PLY file, found an STL mesh"},
+      {"obj.stl", cube, "expected an STL file, found text that begins with 'v 0 0 0'"},
+      {"svg.stl", svg, "expected an STL file, found an "},
+      {"empty.stl", "", "expected an STL file, found an empty file"},
+      {"empty.obj", "", "expected an OBJ file, found an empty file"},
+      {"empty.3mf", "", "expected a 3MF file, found an empty file"},
+      {"empty.glb", "", "expected a GLB file, found an empty file"},
+      {"empty.off", "", "expected an OFF file, found an empty file"},
+      {"empty.ply", "", "expected a PLY file, found an empty file"},
+      {"empty.drc", "", "expected a Draco file, which begins with DRACO"}};
+  for (const auto& [name, bytes, message] : cases) {
+    const std::string path = folder.file(name), out = folder.file("out.stl");
+    write_text(path, bytes);
+    for (const std::string& options : {std::string(), " --repair -o " + out}) {
+      const Ran run = claystack("check " + path + options);
+      EXPECT_EQ(run.status, 2) << name;
+      EXPECT_NE(run.err.find(path + ": " + message), std::string::npos) << name << run.err;
+    }
+  }
+  const Ran nothing = claystack("check - </dev/null");
+  EXPECT_EQ(nothing.status, 2);
+  EXPECT_NE(nothing.err.find("expected a mesh or a pot, found no input"), std::string::npos);
+  for (const auto& ending : std::vector<std::string>{".svg", ".dxf", ".csv"}) {
+    const std::string drawing = folder.file("stl" + ending);
+    write_text(drawing, read_text(stl));
+    const Ran run = claystack("import " + drawing + " -o " + folder.file("i.pot.json"));
+    EXPECT_EQ(run.status, 2) << ending;
+    EXPECT_NE(run.err.find("expected a drawing (" + ending + "), found an STL mesh"),
+              std::string::npos)
+        << run.err;
   }
 }
 

@@ -141,6 +141,12 @@ TEST(MeshPot, RefusesWhatIsNotOfRevolution) {
   ASSERT_FALSE(found);
   EXPECT_THAT(found.error().message,
               HasSubstr("box.stl: expected a pot that is nearly of revolution"));
+  // Smaller than half a millimetre, as of a file in metres: still no pot.
+  solid::TriangleMesh small = box;
+  for (glm::dvec3& p : small.points) p *= 1e-3;
+  const auto small_found = mesh_pot(small, {}, "small.stl");
+  ASSERT_FALSE(small_found);
+  EXPECT_THAT(small_found.error().message, HasSubstr("nearly of revolution"));
   const auto none = mesh_pot({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, {}, "face.stl");
   ASSERT_FALSE(none);
   EXPECT_THAT(none.error().message, HasSubstr("expected a mesh of a pot"));
@@ -155,6 +161,9 @@ TEST(MeshPot, CommandReportsAxisAndDeviationAndRefusesOptionsOfDrawings) {
   EXPECT_LE(run.json().at("deviation_mm").get<double>(), kToleranceMm + 0.01);
   EXPECT_EQ(run.json().at("not_of_revolution").size(), 0u);
   EXPECT_EQ(test::claystack("export -q " + pot + " " + sample.folder.file("b.stl")).status, 0);
+  const auto small = test::claystack("import --height 0.1 " + sample.stl + " -o " + pot);
+  EXPECT_EQ(small.status, 0) << small.err;
+  EXPECT_THAT(small.err, HasSubstr("only 0.1 mm high: meshes are read in millimetres"));
   for (const char* option : {"--wall 5", "--axis left", "--layer a"}) {
     const auto refused = test::claystack("import " + sample.stl + " -o " + pot + " " + option);
     EXPECT_EQ(refused.status, 2) << option;

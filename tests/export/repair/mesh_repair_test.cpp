@@ -180,10 +180,31 @@ TEST(Repair, ReorientsAFlippedFace) {
 TEST(Repair, ReorientsShells) {
   expect_repaired(inverted(cube(2.0)), 8.0, {{"shell turned", 1}});
   const double outer = signed_volume(ball(10.0)), inner = signed_volume(ball(5.0));
-  expect_repaired(together(ball(10.0), ball(5.0)), outer - inner, {{"shell turned", 1}});
   expect_repaired(inverted(together(ball(10.0), inverted(ball(5.0)))), outer - inner,
                   {{"shell turned", 2}});
   expect_repaired(together(cube(2.0), moved(inverted(cube(3.0)), {9, 0, 0})), 35.0,
+                  {{"shell turned", 1}});
+}
+
+// Slicers fill it, so the verdict on the input is that it prints as one solid body.
+TEST(Repair, UnitesANestedShellOfTheSameOrientation) {
+  const TriangleMesh outer = ball(10.0), inner = ball(5.0), innermost = inverted(ball(2.0));
+  const std::size_t triangles = inner.triangles.size();
+  const double volume = signed_volume(outer);
+  expect_repaired(together(outer, inner), volume,
+                  {{"triangle inside the solid removed", triangles}});
+  expect_repaired(inverted(together(outer, inner)), volume,
+                  {{"shell turned", 2}, {"triangle inside the solid removed", triangles}});
+  // Two sheets of clay around a cavity of one are clay.
+  expect_repaired(together(outer, together(inner, innermost)), volume,
+                  {{"triangle inside the solid removed", 2 * triangles}});
+}
+
+TEST(Repair, KeepsAnIslandInACavity) {
+  const TriangleMesh cavity = inverted(ball(8.0));
+  const double expected =
+      signed_volume(ball(10.0)) - signed_volume(ball(8.0)) + signed_volume(ball(5.0));
+  expect_repaired(together(ball(10.0), together(cavity, inverted(ball(5.0)))), expected,
                   {{"shell turned", 1}});
 }
 
