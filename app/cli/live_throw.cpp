@@ -254,7 +254,7 @@ Result<void> outcome_of(Stage& stage, Ending ending, const Kept& kept, const Con
 
 void print_result(const LiveJob& job, const LiveOptions& options, const Console& console,
                   const Json& json, const Kept& kept) {
-  std::string ended = json["ended"];
+  auto ended = json["ended"].get<std::string>();
   std::ranges::replace(ended, '_', ' ');
   console.print(fmt::format("{:.1f} s on the wheel, {} poses, ended: {}",
                             json["seconds"].get<double>(), json["poses"].get<std::uint64_t>(),
