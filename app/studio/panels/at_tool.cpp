@@ -122,7 +122,6 @@ void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   draw->PushClipRect({rect.corner_px.x, rect.corner_px.y},
                      {rect.corner_px.x + rect.size_px.x, rect.corner_px.y + rect.size_px.y});
-  const float em = ImGui::GetFontSize();
   const render::Row* row = row_at(model.stroke.view(), tool->place_mm.y);
   const double widest = row != nullptr ? static_cast<double>(row->outer_mm) : 0.0;
   const bool near = model.stroke.throwing() || rho < widest + 40.0;
