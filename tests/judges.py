@@ -46,9 +46,13 @@ def ruled(good, text, judge, file):
         failed.append((judge, file))
 
 
-def run(*words, timeout=200, environment={}):
-    done = subprocess.run([str(w) for w in words], capture_output=True, text=True, timeout=timeout,
-                          env={**os.environ, **environment})
+def run(*words, timeout=400, environment={}):
+    """Status and output; a program that takes longer than the timeout [s] has failed."""
+    try:
+        done = subprocess.run([str(w) for w in words], capture_output=True, text=True,
+                              timeout=timeout, env={**os.environ, **environment})
+    except subprocess.TimeoutExpired:
+        return 124, f"no answer within {timeout} s"
     return done.returncode, done.stdout + done.stderr
 
 

@@ -129,56 +129,46 @@ Result<void> check_names(const ExportCommand& command, const Console& console) {
   return check_outputs(outputs, {command.pot, command.walls.process()}, console);
 }
 
+bool is_pot(const FileRequest& file) { return file.kind == FileKind::given; }
+bool is_step(const FileRequest& file) { return file.kind == FileKind::step; }
+bool is_mesh(const FileRequest& file) { return file.kind == FileKind::mesh; }
+bool is_solid(const FileRequest& file) { return is_mesh(file) || is_step(file); }
+bool is_made(const FileRequest& file) { return !is_pot(file); }
+template <MeshFormat... Formats>
+bool is_format(const FileRequest& file) {
+  return is_mesh(file) && ((file.format == Formats) || ...);
+}
+
+/// An option and the files on which it has an effect.
+struct FileOption {
+  bool given;
+  std::string_view name, kind;
+  bool (*fits)(const FileRequest&);
+};
+
 /// Refuses options that have no effect on any of the requested files.
 Result<void> check_options(const ExportCommand& command) {
-  const auto need = [&](bool option, std::string_view name, std::string_view kind,
-                        auto is) -> Result<void> {
-    if (!option || std::ranges::any_of(command.request.files, is)) return {};
-    return failure(ErrorKind::bad_input, std::string(name)
-                                             .append(": expected ")
-                                             .append(kind)
-                                             .append(" among the files to write, found none"));
-  };
-  const auto pot = [](const FileRequest& file) { return file.kind == FileKind::given; };
-  const auto step = [](const FileRequest& file) { return file.kind == FileKind::step; };
-  const auto mesh = [](const FileRequest& file) { return file.kind == FileKind::mesh; };
-  const auto solid = [&](const FileRequest& file) { return mesh(file) || step(file); };
-  const auto format = [](MeshFormat wanted) {
-    return [wanted](const FileRequest& file) {
-      return file.kind == FileKind::mesh && file.format == wanted;
-    };
-  };
-  return need(command.precision_mm.has_value(), "--precision", "a pot", pot)
-      .and_then([&] { return need(command.request.certificates, "--certificate", "a mesh", mesh); })
-      .and_then([&] {
-        return need(command.request.options.shrinkage > 0.0, "--shrinkage", "a mesh or its section",
-                    [](const FileRequest& file) { return file.kind != FileKind::given; });
-      })
-      .and_then([&] {
-        return need(command.request.options.finish.asked(),
-                    "--foot, --floor-fillet and --glaze-allowance", "a mesh or its section",
-                    [](const FileRequest& file) { return file.kind != FileKind::given; });
-      })
-      .and_then(
-          [&] { return need(command.walls.asked(), "--min-wall and --process", "a solid", solid); })
-      .and_then([&] { return need(command.step.has_value(), "--step", "a .step", step); })
-      .and_then(
-          [&] { return need(command.glb.has_value(), "--glb", "a .glb", format(MeshFormat::glb)); })
-      .and_then([&] {
-        return need(command.request.options.wall_map, "--wall-map", "a .glb or a .3mf",
-                    [&](const FileRequest& file) {
-                      return format(MeshFormat::glb)(file) || format(MeshFormat::three_mf)(file);
-                    });
-      })
-      .and_then([&] {
-        return need(command.material.has_value(), "--material", "a .glb", format(MeshFormat::glb));
-      })
-      .and_then(
-          [&] { return need(command.ascii, "--ascii", "an .stl", format(MeshFormat::stl_ascii)); })
-      .and_then([&] {
-        return need(command.request.options.normals, "--normals", "an .obj",
-                    format(MeshFormat::obj));
-      });
+  const solid::ExportOptions& options = command.request.options;
+  constexpr std::string_view kFinish = "--foot, --floor-fillet and --glaze-allowance";
+  const std::array known{
+      FileOption{command.precision_mm.has_value(), "--precision", "a pot", is_pot},
+      FileOption{command.request.certificates, "--certificate", "a mesh", is_mesh},
+      FileOption{options.shrinkage > 0.0, "--shrinkage", "a mesh or its section", is_made},
+      FileOption{options.finish.asked(), kFinish, "a mesh or its section", is_made},
+      FileOption{command.walls.asked(), "--min-wall and --process", "a solid", is_solid},
+      FileOption{command.step.has_value(), "--step", "a .step", is_step},
+      FileOption{command.glb.has_value(), "--glb", "a .glb", is_format<MeshFormat::glb>},
+      FileOption{options.wall_map, "--wall-map", "a .glb or a .3mf",
+                 is_format<MeshFormat::glb, MeshFormat::three_mf>},
+      FileOption{command.material.has_value(), "--material", "a .glb", is_format<MeshFormat::glb>},
+      FileOption{command.ascii, "--ascii", "an .stl", is_format<MeshFormat::stl_ascii>},
+      FileOption{options.normals, "--normals", "an .obj", is_format<MeshFormat::obj>}};
+  for (const FileOption& option : known)
+    if (option.given && std::ranges::none_of(command.request.files, option.fits))
+      return failure(ErrorKind::bad_input,
+                     fmt::format("{}: expected {} among the files to write, found none",
+                                 option.name, option.kind));
+  return {};
 }
 
 Result<FileRequest> file_of(const std::string& path, bool ascii) {
@@ -277,7 +267,6 @@ Result<int> export_pot(ExportCommand& command, const Console& console) {
   if (!pot) return tl::make_unexpected(pot.error());
   const auto copies = add_copies(*pot, command);
   if (!copies) return tl::make_unexpected(copies.error());
-  progress.stage("drawing");
   std::optional<std::string> thumbnail;
   pack_pot(*pot, command.request, thumbnail);
   set_report(*pot, command.request, *copies);
@@ -366,13 +355,8 @@ void add_goal_options(CLI::App* sub, const SharedCommand& command) {
                 "The goal is of the fired pot, after --shrinkage; else of the pot as thrown");
 }
 
-/// What the solid is like.
-void add_solid_options(CLI::App* sub, const SharedCommand& command) {
-  sub->add_option(
-         "--tolerance", command->request.options.tolerance_mm,
-         "Maximum chordal error, vertex error in .drc and distance of curves in .step [mm]")
-      ->check(in_range(1e-5, 10.0))
-      ->capture_default_str();
+/// How the steps of the rings become walls.
+void add_smoothing_options(CLI::App* sub, const SharedCommand& command) {
   sub->add_option("--smooth", command->smooth,
                   "fair: smooth walls; exact: smooth walls, every ring keeps its volume; none: the "
                   "steps of the rings remain")
@@ -391,6 +375,16 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
         const auto length = smooth_length_of(text);
         return length ? std::string() : length.error().message;
       });
+}
+
+/// What the solid is like.
+void add_solid_options(CLI::App* sub, const SharedCommand& command) {
+  sub->add_option(
+         "--tolerance", command->request.options.tolerance_mm,
+         "Maximum chordal error, vertex error in .drc and distance of curves in .step [mm]")
+      ->check(in_range(1e-5, 10.0))
+      ->capture_default_str();
+  add_smoothing_options(sub, command);
   add_finish_options(*sub, command->request.options, command->glaze_mm);
   sub->add_option("--segments", command->request.options.segments,
                   "Facets around the axis (default: chosen from the tolerance)")

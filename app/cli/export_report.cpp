@@ -247,13 +247,26 @@ Json cavities_json(const std::vector<solid::PieceShape>& shapes) {
   return json;
 }
 
+void add_smoothing(Json& json, const solid::ProvedSection& section) {
+  const solid::SmoothedProfile& smoothed = section.smoothed;
+  json["smoothing"] = solid::name_of(section.smoothing);
+  json["overshoot_mm"] = smoothed.overshoot_mm;
+  json["extrapolated_mm"] = smoothed.extrapolated_mm;
+  json["kept_steps"] = Json::array();
+  for (const auto& kept : smoothed.guard) json["kept_steps"].push_back(kept_json(kept));
+  if (section.smoothing == solid::Smoothing::exact)
+    json["max_ring_error_relative"] = smoothed.max_ring_error_relative;
+  if (smoothed.fairing.length_mm > 0.0) json["fairing"] = fairing_json(smoothed.fairing);
+  if (smoothed.lip_fillet_mm > 0.0) json["lip_fillet_mm"] = smoothed.lip_fillet_mm;
+  if (smoothed.taken_mm > 0.0) json["taken_mm"] = smoothed.taken_mm;
+}
+
 /// The solid and its proof.
 Json solid_json(const ExportReport& report) {
   Json json = {
       {"triangles", report.size.triangles},
       {"shells", report.size.shells},
       {"segments", report.size.segments},
-      {"smoothing", solid::name_of(report.section.smoothing)},
       {"tolerance_mm", report.size.tolerance_mm},
       {"chordal_error_mm", report.size.chordal_error_mm},
       {"volume_mm3", report.volume.solid_mm3},
@@ -270,25 +283,14 @@ Json solid_json(const ExportReport& report) {
         {"polygons", report.section.planar.polygons},
         {"vertices", report.section.planar.vertices},
         {"axis_segments", report.section.planar.axis_segments}}},
-      {"overshoot_mm", report.section.smoothed.overshoot_mm},
-      {"extrapolated_mm", report.section.smoothed.extrapolated_mm},
-      {"kept_steps", Json::array()},
       {"cavities", cavities_json(report.section.shapes())},
   };
-  for (const auto& kept : report.section.smoothed.guard)
-    json["kept_steps"].push_back(kept_json(kept));
+  add_smoothing(json, report.section);
   if (report.prepared.shrinkage > 0.0) json["shrinkage"] = shrinkage_json(report);
   if (report.collapsed) json["collapsed"] = collapsed_json(*report.collapsed);
   if (report.prepared.drilled_mm3 > 0.0) json["drilled_mm3"] = report.prepared.drilled_mm3;
   if (report.section.finish.any()) json["finish"] = finish_json(report);
-  if (report.section.smoothing == solid::Smoothing::exact)
-    json["max_ring_error_relative"] = report.section.smoothed.max_ring_error_relative;
-  if (report.section.smoothed.fairing.length_mm > 0.0)
-    json["fairing"] = fairing_json(report.section.smoothed.fairing);
   if (report.walls.as_steps_mm) json["wall_as_steps_mm"] = *report.walls.as_steps_mm;
-  if (report.section.smoothed.lip_fillet_mm > 0.0)
-    json["lip_fillet_mm"] = report.section.smoothed.lip_fillet_mm;
-  if (report.section.smoothed.taken_mm > 0.0) json["taken_mm"] = report.section.smoothed.taken_mm;
   return json;
 }
 

@@ -55,10 +55,12 @@ class WallMapFigure {
     thin_ = walls.front();
     thick_ = walls[static_cast<std::size_t>(kMostWalls * static_cast<double>(walls.size() - 1))];
     cut_off_ = thick_ < walls.back();
+    // 2.5 mm on a page of which the figure takes half; the marks of a plate stay apart.
+    text_ = std::min(0.05 * (2.0 * widest_ + 8.0), 0.15 * top_);
   }
 
   std::string svg() {
-    const double width = 2.0 * widest_ + 8.0 + 0.6 * top_, height = top_ + 8.0;
+    const double width = 2.0 * widest_ + 8.0 + 11.0 * text_, height = top_ + 8.0;
     writer_.open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                          {"viewBox", fmt::format("{:.2f} {:.2f} {:.2f} {:.2f}", -widest_ - 4.0,
                                                  -top_ - 4.0, width, height)}});
@@ -92,19 +94,19 @@ class WallMapFigure {
 
   void legend() {
     constexpr int kSteps = 40, kMarks = 4;
-    const double x = widest_ + 0.12 * top_, step = 0.9 * top_ / kSteps, size = 0.05 * top_;
+    const double x = widest_ + 4.0 + text_, step = 0.9 * top_ / kSteps;
     for (int i = 0; i < kSteps; ++i)
       writer_.element("rect", {{"x", fixed(x, 2)},
                                {"y", fixed(-0.05 * top_ - (i + 1) * step, 3)},
-                               {"width", fixed(size, 2)},
+                               {"width", fixed(text_, 2)},
                                {"height", fixed(1.05 * step, 3)},
                                {"fill", colour_at((i + 0.5) / kSteps)}});
     for (int i = 0; i <= kMarks; ++i) {
       const double share = static_cast<double>(i) / kMarks;
       writer_.element("text",
-                      {{"x", fixed(x + 1.3 * size, 2)},
-                       {"y", fixed(-0.05 * top_ - share * 0.9 * top_ + 0.3 * size, 2)},
-                       {"font-size", fixed(0.8 * size, 2)}},
+                      {{"x", fixed(x + 1.4 * text_, 2)},
+                       {"y", fixed(-0.05 * top_ - share * 0.9 * top_ + 0.35 * text_, 2)},
+                       {"font-size", fixed(text_, 2)}},
                       fmt::format("{:.1f} mm{}", thin_ + share * (thick_ - thin_),
                                   i == kMarks && cut_off_ ? " or more" : ""));
     }
@@ -113,6 +115,7 @@ class WallMapFigure {
   const std::vector<solid::WallSample>& field_;
   bool cut_off_ = false;  ///< some places are thicker than the scale
   double thin_ = 0.0, thick_ = 0.0, widest_ = 0.0, top_ = 0.0;
+  double text_ = 0.0;  ///< height of the letters
   SvgWriter writer_;
 };
 
@@ -160,15 +163,24 @@ class Page {
     if (problems.empty())
       html_.element("p", {{"class", "good"}},
                     "Closed and without self-intersections; all limits met.");
-    for (const solid::Problem& problem : problems)
-      html_.element("p", {{"class", problem.fails ? "bad" : ""}}, problem.text);
+    for (const solid::Problem& problem : problems) {
+      std::string sentence = problem.text;
+      if (sentence.front() >= 'a' && sentence.front() <= 'z')
+        sentence.front() = static_cast<char>(sentence.front() - 'a' + 'A');
+      html_.element("p", {{"class", problem.fails ? "bad" : ""}}, sentence);
+    }
   }
 
   void pictures(const std::string& picture) {
     html_.open("div", {{"class", "pictures"}});
-    if (!picture.empty())
+    if (!picture.empty()) {
+      html_.open("figure", {});
       html_.element("img", {{"alt", "picture of the pot"},
                             {"src", "data:image/png;base64," + to_base64(picture)}});
+      if (report_.section.finish.any())
+        html_.element("figcaption", {}, "The pot as thrown, before it is finished");
+      html_.close("figure");
+    }
     if (!report_.walls.field.empty()) {
       html_.open("figure", {});
       html_.raw(WallMapFigure(report_.walls.field).svg());

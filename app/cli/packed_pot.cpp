@@ -48,8 +48,10 @@ void pack_pot(const Pot& pot, solid::ExportRequest& request,
   request.options.pot_file = write_pot(pot, PotEncoding::cbor);
 #ifdef CLAYSTACK_THUMBNAIL
   constexpr int kPixels = 256;
-  if (!thumbnail) thumbnail = render::png_of(render::thumbnail(render::view_of(pot), kPixels));
-  request.options.thumbnail_png = *thumbnail;
+  request.options.draw_thumbnail = [&] {
+    if (!thumbnail) thumbnail = render::png_of(render::thumbnail(render::view_of(pot), kPixels));
+    return *thumbnail;
+  };
 #endif
 }
 

@@ -12,8 +12,9 @@ namespace clay::cli {
 /// A picture of the pot for a page, as PNG; empty without a renderer.
 [[nodiscard]] std::string picture_of(const Pot& pot);
 
-/// If a 3MF is among the files, sets the pot file, exact, and the thumbnail, which a build without
-/// the window lacks. `thumbnail` keeps the picture of this pot for the next call.
+/// If a 3MF is among the files, sets the pot file, exact, and how to draw the thumbnail, which a
+/// build without the window lacks. `thumbnail` keeps the picture of this pot for the next call; it
+/// and the pot outlive the request.
 void pack_pot(const Pot& pot, solid::ExportRequest& request, std::optional<std::string>& thumbnail);
 
 }  // namespace clay::cli

@@ -131,6 +131,7 @@ std::shared_ptr<Pot> stacked(double ring_height_mm, const std::vector<double>& o
 struct ExportSettings {
   double tolerance_mm;
   std::string smoothing;
+  std::optional<double> smooth_length_mm;
   std::optional<double> min_wall_mm;
   std::optional<std::string> process;
   double shrinkage;
@@ -147,6 +148,7 @@ solid::ExportOptions options_of(const ExportSettings& settings) {
   if (!known)
     throw Failed{{ErrorKind::bad_input,
                   "smoothing: expected fair, exact or none, found " + settings.smoothing}};
+  options.smooth_length_mm = settings.smooth_length_mm;
   options.walls.min_wall_mm = settings.min_wall_mm;
   if (settings.process) options.walls.process = value_of(solid::read_process(*settings.process));
   options.shrinkage = settings.shrinkage;
@@ -283,8 +285,8 @@ void add_types(py::module_& module) {
       .def_property_readonly("density_g_cm3", [](const Pot& pot) { return pot.density_g_cm3; })
       .def_property_readonly("collapsed", [](const Pot& pot) { return pot.collapse.has_value(); });
   py::class_<ExportSettings>(module, "ExportSettings")
-      .def(py::init<double, std::string, std::optional<double>, std::optional<std::string>, double,
-                    bool>());
+      .def(py::init<double, std::string, std::optional<double>, std::optional<double>,
+                    std::optional<std::string>, double, bool>());
 }
 
 void add_functions(py::module_& module) {

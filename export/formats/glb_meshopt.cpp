@@ -180,6 +180,23 @@ Bounds stored_bounds(const std::vector<Cell>& cells) {
   return bounds_of(points);
 }
 
+OrderedJson corner_accessor(Views& views, const Streams& streams, std::size_t points,
+                            std::size_t corners) {
+  const bool small = points < 65535;  // which restarts a strip
+  return {{"bufferView", views.add(streams.indices, "TRIANGLES", corners, small ? 2 : 4)},
+          {"componentType", small ? kUint16 : kUint32},
+          {"count", corners},
+          {"type", "SCALAR"}};
+}
+
+OrderedJson colour_accessor(Views& views, const Streams& streams, std::size_t points) {
+  return {{"bufferView", views.add(streams.vertices[1], "ATTRIBUTES", points, sizeof(Colour16))},
+          {"componentType", kUint16},
+          {"normalized", true},
+          {"count", points},
+          {"type", "VEC4"}};
+}
+
 OrderedJson whole_numbers(const glm::vec3& v) {
   return {static_cast<int>(v.x), static_cast<int>(v.y), static_cast<int>(v.z)};
 }
@@ -209,7 +226,7 @@ Result<Packed> packed_by_meshopt(const TriangleMesh& metres, std::span<const Col
                    {"scale", {grid->step, grid->step, grid->step}}};
   }
   Views views(packed);
-  const std::size_t count = points.size(), corners = 3 * metres.triangles.size();
+  const std::size_t count = points.size();
   const Bounds bounds = grid ? stored_bounds(cells) : bounds_of(points);
   packed.accessors.push_back(
       {{"bufferView", views.add(streams.vertices[0], "ATTRIBUTES", count, vertices[0].stride)},
@@ -218,20 +235,8 @@ Result<Packed> packed_by_meshopt(const TriangleMesh& metres, std::span<const Col
        {"type", "VEC3"},
        {"min", grid ? whole_numbers(bounds.low) : numbers(bounds.low)},
        {"max", grid ? whole_numbers(bounds.high) : numbers(bounds.high)}});
-  // 65535 restarts a strip.
-  const bool small = count < 65535;
-  packed.accessors.push_back(
-      {{"bufferView", views.add(streams.indices, "TRIANGLES", corners, small ? 2 : 4)},
-       {"componentType", small ? kUint16 : kUint32},
-       {"count", corners},
-       {"type", "SCALAR"}});
-  if (!colours.empty())
-    packed.accessors.push_back(
-        {{"bufferView", views.add(streams.vertices[1], "ATTRIBUTES", count, sizeof(Colour16))},
-         {"componentType", kUint16},
-         {"normalized", true},
-         {"count", count},
-         {"type", "VEC4"}});
+  packed.accessors.push_back(corner_accessor(views, streams, count, 3 * metres.triangles.size()));
+  if (!colours.empty()) packed.accessors.push_back(colour_accessor(views, streams, count));
   return packed;
 }
 

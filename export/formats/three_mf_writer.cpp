@@ -3,6 +3,7 @@
 #include "core/base64.hpp"
 #include "core/cancel.hpp"
 #include "core/colour_scale.hpp"
+#include "core/parallel_parts.hpp"
 #include "export/formats/file_floats.hpp"
 #include "export/formats/three_mf.hpp"
 #include "export/formats/zip_package.hpp"
@@ -10,9 +11,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace clay::solid::inline formats {
@@ -21,6 +24,7 @@ namespace {
 using namespace three_mf;
 
 constexpr std::size_t kColourSteps = 64;
+constexpr std::uint32_t kUnused = 0xFFFFFFFF;  ///< a point that no triangle of the object uses
 constexpr std::string_view kDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 
 /// For attributes and text.
@@ -44,6 +48,23 @@ std::string escaped(std::string_view text) {
     }
   return xml;
 }
+
+/// One short element, joined here because a long string checks its room at every append.
+class ElementText {
+ public:
+  void add(std::string_view words) { end_ = std::ranges::copy(words, end_).out; }
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void add(Number value) { end_ = std::to_chars(end_, text_.data() + text_.size(), value).ptr; }
+  void move_to(std::string& text) {
+    text.append(text_.data(), end_);
+    end_ = text_.data();
+  }
+
+ private:
+  std::array<char, 256> text_;  // nine numbers of at most 16 bytes, and 80 bytes of names
+  char* end_ = text_.data();
+};
 
 class ModelWriter {
  public:
@@ -139,57 +160,87 @@ class ModelWriter {
     text_ += ">\n";
   }
 
+  /// The triangles are written on another core beside the vertices.
   void add_object(std::size_t id, const std::string& name,
                   const std::vector<std::uint32_t>& triangles) {
     begin_object(id, name, coloured());
     sizes_.push_back(triangles.size());
-    text_ += "<mesh>\n<vertices>\n";
-    const std::vector<std::uint32_t> number = add_vertices(triangles);
-    text_ += "</vertices>\n<triangles>\n";
-    for (const std::uint32_t t : triangles) {
-      step_of_loop();
-      text_ += "<triangle";
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        text_.append(" v").append(1, static_cast<char>('1' + corner)).append("=\"");
-        append_number(text_, number[mesh_.triangles[t][corner]]);
-        text_ += '"';
-      }
-      if (coloured()) add_corner_colours(mesh_.triangles[t]);
-      text_ += "/>\n";
-    }
-    text_ += "</triangles>\n</mesh>\n</object>\n";
+    const std::vector<std::uint32_t> number = numbers_of(triangles);
+    std::string list;
+    for_each_part(2, [&](std::size_t part) {
+      if (part == 0)
+        list = triangle_list(triangles, number);
+      else
+        add_vertices(number);
+    });
+    text_.append(list).append("</mesh>\n</object>\n");
   }
 
-  void add_corner_colours(const std::array<std::uint32_t, 3>& triangle) {
-    text_.append(" pid=\"").append(colour_id_).append("\"");
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      text_.append(" p").append(1, static_cast<char>('1' + corner)).append("=\"");
-      append_number(text_, colour_of(triangle[corner]));
-      text_ += '"';
-    }
-  }
-
-  /// Returns the number in the object of each point that the triangles use.
-  std::vector<std::uint32_t> add_vertices(const std::vector<std::uint32_t>& triangles) {
-    std::vector<bool> used(mesh_.points.size(), false);
+  /// The number in the object of each point that the triangles use.
+  [[nodiscard]] std::vector<std::uint32_t> numbers_of(
+      const std::vector<std::uint32_t>& triangles) const {
+    std::vector<std::uint32_t> number(mesh_.points.size(), kUnused);
     for (const std::uint32_t t : triangles)
-      for (const std::uint32_t point : mesh_.triangles[t]) used[point] = true;
-    std::vector<std::uint32_t> number(mesh_.points.size(), 0);
+      for (const std::uint32_t point : mesh_.triangles[t]) number[point] = 0;
     std::uint32_t next = 0;
+    for (std::uint32_t& n : number)
+      if (n != kUnused) n = next++;
+    return number;
+  }
+
+  void add_vertices(const std::vector<std::uint32_t>& number) {
+    text_ += "<mesh>\n<vertices>\n";
+    ElementText element;
     for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
       step_of_loop();
-      if (!used[i]) continue;
-      number[i] = next++;
+      if (number[i] == kUnused) continue;
       const glm::vec3 point = file_point(mesh_.points[i]);
-      text_ += "<vertex";
-      for (int axis = 0; axis < 3; ++axis) {
-        text_.append(" ").append(1, static_cast<char>('x' + axis)).append("=\"");
-        append_number(text_, point[axis]);
-        text_ += '"';
-      }
-      text_ += "/>\n";
+      element.add("<vertex x=\"");
+      element.add(point.x);
+      element.add("\" y=\"");
+      element.add(point.y);
+      element.add("\" z=\"");
+      element.add(point.z);
+      element.add("\"/>\n");
+      element.move_to(text_);
     }
-    return number;
+    text_ += "</vertices>\n";
+  }
+
+  [[nodiscard]] std::string triangle_list(const std::vector<std::uint32_t>& triangles,
+                                          const std::vector<std::uint32_t>& number) const {
+    constexpr std::size_t kPlainBytes = 44, kColourBytes = 30;
+    std::string list;
+    list.reserve((kPlainBytes + (coloured() ? kColourBytes : 0)) * triangles.size() + 64);
+    list += "<triangles>\n";
+    ElementText element;
+    for (const std::uint32_t t : triangles) {
+      step_of_loop();
+      const auto& [a, b, c] = mesh_.triangles[t];
+      element.add("<triangle v1=\"");
+      element.add(number[a]);
+      element.add("\" v2=\"");
+      element.add(number[b]);
+      element.add("\" v3=\"");
+      element.add(number[c]);
+      if (coloured()) add_corner_colours(element, mesh_.triangles[t]);
+      element.add("\"/>\n");
+      element.move_to(list);
+    }
+    list += "</triangles>\n";
+    return list;
+  }
+
+  void add_corner_colours(ElementText& element,
+                          const std::array<std::uint32_t, 3>& triangle) const {
+    element.add("\" pid=\"");
+    element.add(colour_id_);
+    element.add("\" p1=\"");
+    element.add(colour_of(triangle[0]));
+    element.add("\" p2=\"");
+    element.add(colour_of(triangle[1]));
+    element.add("\" p3=\"");
+    element.add(colour_of(triangle[2]));
   }
 
   const TriangleMesh& mesh_;

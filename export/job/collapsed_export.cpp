@@ -173,7 +173,12 @@ class CollapsedExport {
   Result<FileReport> write_exact(MeshFormat format, FileStore& store) {
     return stages_
         .run(stage_name("encode", format),
-             [&] { return encode_mesh(mesh_, format, solid_contents(options_)); })
+             [&] {
+               const std::string thumbnail = thumbnail_for(format, options_);
+               FileContents contents = solid_contents(options_);
+               contents.thumbnail_png = thumbnail;
+               return encode_mesh(mesh_, format, contents);
+             })
         .and_then([&](const std::string& bytes) {
           // A GLB is in metres: rounded in mm, in metres, and in mm again by a reader.
           const double roundings = roundings_of(format);

@@ -219,22 +219,25 @@ Result<FileReport> RevolveFiles::write_3mf(FileStore& store) {
   });
 }
 
-/// The model part is read and matched with the solid while it is packed; the package is unpacked
-/// again and compared with that part.
-Result<std::string> RevolveFiles::proved_package(const ModelPart& model,
-                                                 const FileContents& contents, double rounding_mm) {
+/// The model part is read and matched with the solid while the picture is drawn and both are
+/// packed; the package is unpacked again and compared with that part.
+Result<std::string> RevolveFiles::proved_package(const ModelPart& model, FileContents contents,
+                                                 double rounding_mm) {
   const std::string name = as_written(MeshFormat::three_mf);
   Result<double> matched;
   Result<std::string> package;
   for_each_part(2, [&](std::size_t part) {
-    if (part == 0)
+    if (part == 0) {
       matched = decode_3mf_model(model.xml, name).and_then([&](const TriangleMesh& decoded) {
         return match_revolve(decoded, rule_, rounding_mm, MeshFormat::three_mf, name);
       });
-    else
-      package = pack_3mf(model, contents).and_then([&](std::string bytes) {
-        return check_model_in_3mf(bytes, model.xml, name).map([&] { return std::move(bytes); });
-      });
+      return;
+    }
+    const std::string thumbnail = thumbnail_for(MeshFormat::three_mf, options_);
+    contents.thumbnail_png = thumbnail;
+    package = pack_3mf(model, contents).and_then([&](std::string bytes) {
+      return check_model_in_3mf(bytes, model.xml, name).map([&] { return std::move(bytes); });
+    });
   });
   return matched ? package : tl::make_unexpected(matched.error());
 }

@@ -41,7 +41,7 @@ class RevolveFiles {
   /// DRC and GLB.
   Result<FileReport> write_on_grid(MeshFormat format, FileStore& store);
   Result<FileReport> write_3mf(FileStore& store);
-  Result<std::string> proved_package(const ModelPart& model, const FileContents& contents,
+  Result<std::string> proved_package(const ModelPart& model, FileContents contents,
                                      double rounding_mm);
   Result<void> store_package(const std::string& bytes, FileStore& store);
   [[nodiscard]] DracoClaims draco_claims(double reach_mm) const;

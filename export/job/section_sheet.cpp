@@ -20,6 +20,7 @@ using Anchor = SheetText::Anchor;
 
 constexpr double kScaleBarMm = 100.0;
 constexpr double kArrowMm = 2.5;
+constexpr double kLetterMm = 1.9;  ///< width of a letter of 3 mm, at most
 
 Outline right_of(const Polygon& line) {
   Outline outline;
@@ -169,7 +170,11 @@ class SheetMaker {
       line(SheetLayer::dimensions, {side * r, at_height + way},
            {side * r, line_height + 1.5 * way});
     arrows({-r, line_height}, {r, line_height});
-    write(SheetLayer::dimensions, {2.0, line_height + 1.0}, "\u2300 " + size(diameter_mm),
+    // Beside the axis, or outside if the words would reach the right arrow.
+    const std::string words = "\u2300 " + size(diameter_mm);
+    const bool fits = 2.0 + kLetterMm * static_cast<double>(words.size()) < r - kArrowMm;
+    write(SheetLayer::dimensions,
+          fits ? glm::dvec2{2.0, line_height + 1.0} : glm::dvec2{r + 3.0, line_height - 1.0}, words,
           Anchor::start);
   }
 

@@ -14,8 +14,12 @@ FileContents solid_contents(const ExportOptions& options) {
   if (options.shrinkage > 0.0)
     contents.notes.emplace_back("shrinkage", number_text(options.shrinkage));
   contents.pot = options.pot_file;
-  contents.thumbnail_png = options.thumbnail_png;
   return contents;
+}
+
+std::string thumbnail_for(MeshFormat format, const ExportOptions& options) {
+  return format == MeshFormat::three_mf && options.draw_thumbnail ? options.draw_thumbnail()
+                                                                  : std::string();
 }
 
 }  // namespace clay::solid::inline job

@@ -4,8 +4,11 @@
 
 namespace clay::solid::inline job {
 
-/// What files say about a pot beside its surface: name, process, shrinkage, pot, picture. Views of
+/// What files say about a pot beside its surface: name, process, shrinkage, pot. Views of
 /// `options`, which outlive it.
 [[nodiscard]] FileContents solid_contents(const ExportOptions& options);
+
+/// The picture that a 3MF carries; empty for other formats.
+[[nodiscard]] std::string thumbnail_for(MeshFormat format, const ExportOptions& options);
 
 }  // namespace clay::solid::inline job

@@ -277,7 +277,7 @@ class PieceSmoother {
   const PieceWalls& piece_;
   const SmoothingOptions& options_;
   double limit_;
-  StepWalls own_walls_;
+  OwnWalls own_walls_;
   SmoothingPlan plan_;
   FlangeGuard flange_guard_;
   WallLines lines_;

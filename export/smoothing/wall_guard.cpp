@@ -180,7 +180,7 @@ std::vector<double> WallGauge::by_ring_mm(double cap_mm, const RingFlags& rings)
   return walls;
 }
 
-const std::vector<double>& StepWalls::by_ring_mm(const RingFlags& rings) {
+const std::vector<double>& OwnWalls::by_ring_mm(const RingFlags& rings) {
   if (!gauge_) {
     gauge_.emplace(piece_, stepped_lines(piece_));
     measured_.assign(piece_.size(), 0);

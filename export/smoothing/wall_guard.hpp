@@ -61,9 +61,9 @@ class WallGauge {
 };
 
 /// The walls of the steps by ring, each measured once, when it is needed. The piece outlives it.
-class StepWalls {
+class OwnWalls {
  public:
-  StepWalls(const PieceWalls& piece, double cap_mm) : piece_(piece), cap_mm_(cap_mm) {}
+  OwnWalls(const PieceWalls& piece, double cap_mm) : piece_(piece), cap_mm_(cap_mm) {}
 
   /// As `WallGauge::by_ring_mm` of the steps for the flagged rings. Others are any value.
   const std::vector<double>& by_ring_mm(const RingFlags& rings);

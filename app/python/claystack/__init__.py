@@ -147,9 +147,10 @@ def _mesh(native) -> Mesh:
     return Mesh(native.points, native.triangles, native)
 
 
-def _settings(tolerance_mm, smoothing, min_wall_mm, process, shrinkage, certificates=False):
-    return _native.ExportSettings(tolerance_mm, smoothing, min_wall_mm, process, shrinkage,
-                                  certificates)
+def _settings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm=None, process=None,
+              shrinkage=0.0, certificates=False):
+    return _native.ExportSettings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm, process,
+                                  shrinkage, certificates)
 
 
 def throw(scene: Union[str, os.PathLike], session: Union[str, os.PathLike, None] = None) -> Pot:
@@ -179,21 +180,26 @@ def import_pot(path: Union[str, os.PathLike]) -> Pot:
 
 
 def export(pot: Pot, files: Sequence[Union[str, os.PathLike]], *, tolerance_mm: float = 0.02,
-           smoothing: str = "fair", min_wall_mm: Optional[float] = None,
-           process: Optional[str] = None, shrinkage: float = 0.0,
-           certificates: bool = False) -> Export:
-    """Proves the pot and writes all files, or none. The solids are those of `claystack export`."""
-    settings = _settings(tolerance_mm, smoothing, min_wall_mm, process, shrinkage, certificates)
+           smoothing: str = "fair", smooth_length_mm: Optional[float] = 0.0,
+           min_wall_mm: Optional[float] = None, process: Optional[str] = None,
+           shrinkage: float = 0.0, certificates: bool = False) -> Export:
+    """Proves the pot and writes all files, or none. The solids are those of `claystack export`.
+
+    `smooth_length_mm`, for smoothing "fair": walls of continuous curvature; marks shorter than this
+    are smoothed away. None: the radius of the pot's tool, or 0 if the pot remembers none."""
+    settings = _settings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm, process, shrinkage,
+                         certificates)
     report = _call(_native.export_pot, pot._native, [os.fspath(path) for path in files], settings)
     report["files"] = tuple(File(**one) for one in report["files"])
     report["problems"] = tuple(Problem(**one) for one in report["problems"])
     return Export(**report)
 
 
-def mesh(pot: Pot, *, tolerance_mm: float = 0.02, smoothing: str = "fair") -> Mesh:
-    """The solid of a pot, as a binary STL holds it."""
+def mesh(pot: Pot, *, tolerance_mm: float = 0.02, smoothing: str = "fair",
+         smooth_length_mm: Optional[float] = 0.0) -> Mesh:
+    """The solid of a pot, as a binary STL holds it. `smooth_length_mm` as for `export`."""
     return _mesh(_call(_native.mesh_of, pot._native,
-                       _settings(tolerance_mm, smoothing, None, None, 0.0)))
+                       _settings(tolerance_mm, smoothing, smooth_length_mm)))
 
 
 def read_mesh(path: Union[str, os.PathLike]) -> Mesh:

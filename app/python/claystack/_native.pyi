@@ -32,6 +32,7 @@ class ExportSettings:
         self,
         tolerance_mm: float,
         smoothing: str,
+        smooth_length_mm: Optional[float],
         min_wall_mm: Optional[float],
         process: Optional[str],
         shrinkage: float,

@@ -44,6 +44,29 @@ class Package(unittest.TestCase):
         self.assertEqual(self.bytes_of("py.stl"), self.bytes_of("cli.stl"))
         self.assertEqual(report.files[0].bytes, len(self.bytes_of("py.stl")))
         self.assertTrue(report.sound)
+        claystack.export(pot, [self.file("tool.stl")], smooth_length_mm=None)
+        self.run_program("export", self.file("cli.pot.json"), self.file("cli_tool.stl"),
+                         "--smooth-length", "tool")
+        self.assertEqual(self.bytes_of("tool.stl"), self.bytes_of("cli_tool.stl"))
+        self.assertNotEqual(self.bytes_of("tool.stl"), self.bytes_of("py.stl"))
+
+    def test_a_length_spreads_a_step_of_the_wall(self):
+        step_mm, length_mm = 1.0, 9.0
+        pot = claystack.stack(1.0, [40.0] * 50 + [40.0 + step_mm] * 50, [20.0] * 100)
+        def steepest(smooth_length_mm):
+            points = claystack.mesh(pot, tolerance_mm=1e-4,
+                                    smooth_length_mm=smooth_length_mm).points
+            radius, height = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+            places = sorted({(round(z, 3), round(r, 3)) for z, r in zip(height, radius) if r > 30.0})
+            return max(abs(b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(places, places[1:])
+                       if b[0] - a[0] > 0.05)
+        # The filter of a step d has the slope d 2 pi / (3 l) in its middle (docs/smoothing.md).
+        expected = step_mm * 2.0 * math.pi / (3.0 * length_mm)
+        self.assertAlmostEqual(steepest(length_mm) / expected, 1.0, delta=0.05)
+        self.assertAlmostEqual(steepest(0.0) / step_mm, 1.0, delta=0.05)
+        with self.assertRaises(claystack.Error) as refused:
+            claystack.mesh(pot, smoothing="exact", smooth_length_mm=length_mm)
+        self.assertEqual(refused.exception.code, 2)
 
     def test_shows_rings_and_meshes_without_a_copy(self):
         pot = claystack.stack(2.0, [40.0, 41.0, 42.0], [0.0, 30.0, 30.0])

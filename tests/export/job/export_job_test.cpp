@@ -1,6 +1,7 @@
 #include "claystack/export/job.hpp"
 
 #include "claystack/engine/tick.hpp"
+#include "export/formats/zip_package.hpp"
 #include "tests/export/formats/refused.hpp"
 #include "tests/export/job/exported.hpp"
 #include "tests/export/solid/shapes.hpp"
@@ -52,6 +53,23 @@ TEST(RunExport, VaseInEveryFormat) {
     EXPECT_LE(file.max_error_mm, draco ? 0.0201 : 4e-5);
     EXPECT_GT(file.max_error_mm, 0.0);
   }
+}
+
+TEST(RunExport, DrawsThePictureOfA3mfAlone) {
+  int drawn = 0;
+  ExportOptions options;
+  options.draw_thumbnail = [&] {
+    ++drawn;
+    return std::string("png");
+  };
+  const Pot pot = pot_of(shapes::vase(100));
+  const auto others = exported(pot, {MeshFormat::stl_binary, MeshFormat::ply}, options);
+  ASSERT_TRUE(others) << others.error().message;
+  EXPECT_EQ(drawn, 0);
+  const auto made = exported(pot, {MeshFormat::three_mf}, options);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(drawn, 1);
+  EXPECT_EQ(ZipPackage::open(made->files[0], "x")->read("Metadata/thumb.png", 10).value(), "png");
 }
 
 TEST(RunExport, ReportsItsStagesInOrder) {

@@ -61,6 +61,20 @@ TEST(SectionSheet, StatesFiredSizesBesideThoseDrawn) {
   EXPECT_EQ(words[4], "floor 12.5 (fired 10.0)");
 }
 
+TEST(SectionSheet, WordsOfASmallFootStandBesideItsArrow) {
+  ExportOptions options;
+  options.shrinkage = 0.2;
+  const auto foot = [&](double radius_mm) {
+    const Pot pot = pot_of(stack_of(10.0, {{radius_mm, 0}, {40, 0}, {40, 35}, {40, 35}}));
+    return sheet_of(pot, options).texts.at(2);
+  };
+  const SheetText small = foot(15), large = foot(38);
+  EXPECT_EQ(small.words, "\u2300 37.5 (fired 30.0)");
+  EXPECT_GT(small.at.x, 0.5 * 37.5);
+  EXPECT_EQ(large.words, "\u2300 95.0 (fired 76.0)");
+  EXPECT_LT(large.at.x, 0.5 * 95.0 - 40.0);
+}
+
 TEST(SectionSheet, DimensionLinesAreAsLongAsTheySay) {
   // Every line between two arrows, by the length in its text, which is the next on the layer.
   const Sheet sheet = sheet_of(cup());

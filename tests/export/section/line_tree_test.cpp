@@ -41,10 +41,16 @@ RC_GTEST_PROP(LineTree, FindsTheNearestEdges, ()) {
           nearest, oracles::distance(real(line[i], line[i + 1]), real(other[k], other[k + 1])));
     const double found = std::sqrt(tree.nearest2({other[k], other[k + 1]}, kFar));
     RC_ASSERT(std::abs(found - nearest) < 1e-9L);
+    const auto near2 = static_cast<double>(nearest * nearest);
+    RC_ASSERT(tree.any_nearer2({other[k], other[k + 1]}, near2 + 1e-6));
+    RC_ASSERT(!tree.any_nearer2({other[k], other[k + 1]}, near2 - 1e-6));
     least = std::min(least, nearest);
   }
   RC_ASSERT(std::abs(std::sqrt(tree.nearest2(LineTree(other), kFar)) - least) < 1e-9L);
   RC_ASSERT(std::abs(std::sqrt(LineTree(other).nearest2(tree, kFar)) - least) < 1e-9L);
+  const auto least2 = static_cast<double>(least * least);
+  RC_ASSERT(tree.any_nearer2(LineTree(other), least2 + 1e-6));
+  RC_ASSERT(!tree.any_nearer2(LineTree(other), least2 - 1e-6));
 }
 
 TEST(LineTree, IgnoresTheAxisAndRespectsItsBound) {

@@ -102,9 +102,11 @@ struct ExportOptions {
   bool measure_left_out = false;   ///< run the skipped stages as well, and report the time saved
   bool full_verification = false;  ///< also check every file like a foreign mesh
   std::string name = "pot";        ///< solid or object name inside the file
-  std::string pot_file;       ///< the pot as a file (CBOR), which a 3MF carries; empty: it does not
-  std::string thumbnail_png;  ///< a picture of the pot for a 3MF; empty: none
-  std::string source;         ///< name of the pot in messages; empty: none
+  std::string pot_file;  ///< the pot as a file (CBOR), which a 3MF carries; empty: it does not
+  /// Draws a picture of the pot for a 3MF, as PNG, while another thread reads the model back; an
+  /// empty function or picture: none.
+  std::function<std::string()> draw_thumbnail;
+  std::string source;  ///< name of the pot in messages; empty: none
   /// Called before each stage and every few milliseconds, also by several threads at once. If it
   /// returns true, the job ends with an error (io). Only a running Draco encoder finishes first.
   std::function<bool()> cancelled;
