@@ -17,6 +17,7 @@
 #include <chrono>
 #include <exception>
 #include <memory>
+#include <new>
 #include <span>
 #include <string>
 #include <utility>
@@ -51,6 +52,8 @@ auto guarded(const ExportOptions& options, Work work) -> decltype(work()) {
     return work();
   } catch (const Cancelled&) {
     return stopped("cancelled");
+  } catch (const std::bad_alloc&) {
+    return stopped("not enough memory");
   } catch (const std::exception& e) {
     return stopped(e.what());
   }

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <map>
 #include <mutex>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,15 @@ TEST(Cancel, CancelsAStandingPotAtEveryCheck) {
     options.smoothing = smoothing;
     expect_cancelled_or_whole({pot_of(shapes::vase(150)), options, built_formats()});
   }
+}
+
+TEST(Cancel, ExportNamesMissingMemory) {
+  Job job{pot_of(shapes::vase(60)), {}, {MeshFormat::stl_binary}};
+  job.options.cancelled = []() -> bool { throw std::bad_alloc(); };
+  const auto result = run(job);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::io);
+  EXPECT_EQ(result.error().message, "export stopped: not enough memory");
 }
 
 TEST(Cancel, CancelsAFallenPotAtEveryCheck) {
