@@ -61,8 +61,7 @@ Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,
   if (!svg && !dxf && ending != ".csv")
     return failure(
         ErrorKind::bad_input,
-        name + ": expected a drawing (.svg, .dxf, .csv) or a mesh, found " +
-            kind_of_file(bytes));
+        name + ": expected a drawing (.svg, .dxf, .csv) or a mesh, found " + kind_of_file(bytes));
   if (bytes.empty())
     return failure(ErrorKind::bad_input, name + ": expected a drawing, found an empty file");
   if (bytes.size() > kMostBytes)
