@@ -69,8 +69,6 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
     if constexpr (rules & kHeave) {
       if (work.cones[k][0].meets) widen(band.low_mm - kReliefMm, band.high_mm);
       if (work.cones[k][1].meets) widen(band.low_mm, band.high_mm + kReliefMm);
-    }
-    if constexpr (rules & kHeave) {
       if (!lifts) {
         const double reach = work.reach_mm[k] = heave_reach(press.plan.tool, stack, band);
         widen(band.low_mm - 2.0 * reach, band.high_mm + 2.0 * reach);
