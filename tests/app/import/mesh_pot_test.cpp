@@ -163,7 +163,7 @@ TEST(MeshPot, CommandReportsAxisAndDeviationAndRefusesOptionsOfDrawings) {
   EXPECT_EQ(test::claystack("export -q " + pot + " " + sample.folder.file("b.stl")).status, 0);
   const auto small = test::claystack("import --height 0.1 " + sample.stl + " -o " + pot);
   EXPECT_EQ(small.status, 0) << small.err;
-  EXPECT_THAT(small.err, HasSubstr("only 0.1 mm high: meshes are read in millimetres"));
+  EXPECT_THAT(small.err, HasSubstr("mm high: meshes are read in millimetres; --height MM scales"));
   for (const char* option : {"--wall 5", "--axis left", "--layer a"}) {
     const auto refused = test::claystack("import " + sample.stl + " -o " + pot + " " + option);
     EXPECT_EQ(refused.status, 2) << option;
