@@ -67,6 +67,22 @@ bool writes_files(std::string_view command) {
   return std::ranges::find(kCommands, command) != kCommands.end();
 }
 
+/// The options that several commands share; the window passes all its arguments to another program.
+void add_shared_options(CLI::App& app, Console& console) {
+  for (CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == "studio") continue;
+    command->add_flag("--json", console.json, "Print data as JSON on standard output");
+    command->add_flag("-q,--quiet", console.quiet, "Print errors only");
+    add_memory_option(*command);
+    if (writes_files(command->get_name()))
+      command->add_flag("--no-overwrite", console.no_overwrite,
+                        "Refuse output files that exist (default: replace them; an input is never "
+                        "replaced)");
+    if (command->get_name() == "throw" || command->get_name() == "export")
+      command->add_flag("-v,--verbose", console.verbose, "Also print volumes, proofs and timings");
+  }
+}
+
 void add_commands(CLI::App& app, Console& console, int& exit) {
   add_throw_command(app, console, exit);
 #ifdef CLAYSTACK_EXPORT
@@ -94,18 +110,7 @@ void add_commands(CLI::App& app, Console& console, int& exit) {
   add_batch_command(app, console, exit);
 #endif
   add_doctor_command(app, console, exit);
-  for (CLI::App* command : app.get_subcommands({})) {
-    if (command->get_name() == "studio") continue;  // passes all its arguments to another program
-    command->add_flag("--json", console.json, "Print data as JSON on standard output");
-    command->add_flag("-q,--quiet", console.quiet, "Print errors only");
-    add_memory_option(*command);
-    if (writes_files(command->get_name()))
-      command->add_flag("--no-overwrite", console.no_overwrite,
-                        "Refuse output files that exist (default: replace them; an input is never "
-                        "replaced)");
-    if (command->get_name() == "throw" || command->get_name() == "export")
-      command->add_flag("-v,--verbose", console.verbose, "Also print volumes, proofs and timings");
-  }
+  add_shared_options(app, console);
   add_manual_command(app, exit);
 }
 
