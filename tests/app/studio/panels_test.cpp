@@ -88,7 +88,7 @@ TEST_F(Panels, DrawingEmitsNoAction) {
     draw_column(model, actions, Column::context, {760.0f, 20.0f}, {240.0f, 660.0f});
     draw_hint(model, actions, kView);
     draw_dialog(model, actions, kView);
-    draw_banner(model, actions, kView);
+    draw_banner(model, actions, kView, 40.0f);
   };
   const Dialog dialogs[] = {NoDialog{},       GalleryDialog{}, ShortcutsDialog{}, UnsavedDialog{},
                             OpenDialog{},     SaveDialog{},    ExportDialog{},    ImportDialog{},
