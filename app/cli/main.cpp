@@ -53,12 +53,18 @@ void handle_signals() {
 
 using namespace clay::cli;
 
+/// Replaces "512MiB" by its bytes. Returns false for text that is not a size.
+bool to_bytes(std::string& text) try {
+  return CLI::AsSizeValue(false)(text).empty();
+} catch (const CLI::Error&) {  // an unknown unit
+  return false;
+}
+
 /// Turns "512MiB" into bytes; below this, no command starts.
 std::string parse_size(std::string& text) {
   constexpr std::uint64_t kLeast = std::uint64_t{8} << 20;
   const std::string found = text;
-  const bool size = CLI::AsSizeValue(false)(text).empty();
-  if (size && in_range(kLeast, 1e18)(text).empty()) return {};
+  if (to_bytes(text) && in_range(kLeast, 1e18)(text).empty()) return {};
   return fmt::format("expected at least 8MiB, as bytes or with a unit (512MiB, 2GiB), found {}",
                      found);
 }

@@ -37,7 +37,7 @@ class ProgressLine : public testing::Test {
          {"strokes: playing"}},
         {"plan " + bowl_, {"measuring: "}},
         {"export " + pot_ + " --holds 350ml --report " + out + ".html " + out + ".stl",
-         {"exporting: reading", "exporting: scaling", "exporting: drawing", "exporting: smooth",
+         {"exporting: reading", "exporting: scaling", "exporting: smooth",
           "exporting: encode_stl"}},
         {"check " + pot_, {"check: reading", "check: smooth", "check: checking"}},
         {"check " + mesh_ + " --min-wall 1 --certificate " + mesh_ + ".certificate.json",

@@ -84,9 +84,10 @@ TEST(CsvDrawing, RefusesTooManyLines) {
 }
 
 TEST(CsvDrawing, RefusesAnEmptyDrawing) {
-  EXPECT_THAT(refusal_of(read_drawing("", "cup.csv")), HasSubstr("no line in it"));
+  EXPECT_THAT(refusal_of(read_drawing("", "cup.csv")), HasSubstr("found an empty file"));
   EXPECT_THAT(refusal_of(read_drawing("radius,height\n", "cup.csv")), HasSubstr("no line in it"));
-  EXPECT_THAT(refusal_of(read_drawing("1,2\n", "cup.png")), HasSubstr("NAME.svg"));
+  EXPECT_THAT(refusal_of(read_drawing("1,2\n", "cup.png")),
+              HasSubstr("expected a drawing (.svg, .dxf, .csv)"));
 }
 
 }  // namespace

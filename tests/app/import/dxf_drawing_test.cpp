@@ -132,7 +132,7 @@ TEST(DxfDrawing, RefusesBrokenSplinesAndOtherFiles) {
   EXPECT_THAT(refusal_of(read_drawing(file(spline), "pot.dxf")), HasSubstr("expected splines"));
   EXPECT_THAT(refusal_of(read_drawing("no drawing\n", "pot.dxf")),
               HasSubstr("pot.dxf:1: expected a DXF group code, found \"no drawing\""));
-  EXPECT_THAT(refusal_of(read_drawing("", "pot.dxf")), HasSubstr("found the end of the file"));
+  EXPECT_THAT(refusal_of(read_drawing("", "pot.dxf")), HasSubstr("found an empty file"));
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ TEST(SolidCertificate, ReportsEveryFalseClaim) {
   expect([](auto& c) { c.counted_volume_mm3 *= 1.00001; }, "counted volume");
   expect([](auto& c) { c.margins.clearance_mm *= 2.0; }, "clearance");
   expect([](auto& c) { c.margins.chord_mm *= 2.0; }, "chord");
-  expect([](auto& c) { c.format = "ply"; }, "ply");
+  expect([](auto& c) { c.format = "ply"; }, "expected a PLY file, found an STL mesh");
   expect([](auto& c) { c.segments = 2; }, "segments");
 }
 
