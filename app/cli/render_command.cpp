@@ -47,6 +47,36 @@ void add_material(CLI::App& sub, render::PictureChoices& choices) {
       ->default_str(std::string(choices.material.id));
 }
 
+void add_look(CLI::App& sub, render::PictureChoices& choices) {
+  sub.add_option_function<std::string>(
+         "--theme",
+         [&choices](const std::string& name) {
+           choices.theme = name == "dark" ? render::Theme::dark : render::Theme::light;
+         },
+         "Theme of the picture: light or dark")
+      ->check(one_of({"light", "dark"}))
+      ->default_str("light");
+  sub.add_option_function<std::string>(
+         "--style",
+         [&choices](const std::string& name) {
+           choices.style = name == "clay" ? render::Style::clay : render::Style::geometry;
+         },
+         "geometry: the pot as its rings are; clay: with throwing lines, specks, a rounded rim and "
+         "a bare foot below a glaze, which are not in the pot")
+      ->check(one_of({"geometry", "clay"}))
+      ->default_str("geometry");
+  add_material(sub, choices);
+  sub.add_flag("--transparent", choices.alone,
+               "Draw the pot alone, without wheel, on a transparent background (not in a GIF)");
+}
+
+void add_camera(CLI::App& sub, render::PictureChoices& choices) {
+  sub.add_option("--azimuth", choices.azimuth_deg, "Camera azimuth [deg] (default: about 34)")
+      ->check(in_range(-3600.0, 3600.0));
+  sub.add_option("--elevation", choices.elevation_deg, "Camera elevation [deg] (default: about 24)")
+      ->check(in_range(-89.0, 89.0));
+}
+
 void print_picture(const Console& console, const RenderCommand& command, const Rendered& done) {
   const std::string size =
       fmt::format("{} x {} px", command.choices.size.width_px, command.choices.size.height_px);
@@ -127,32 +157,8 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
                 "Show wall thickness as colours; walls below --min-wall or --process are hatched");
   command->walls.add_to(*sub);
 #endif
-  sub->add_option_function<std::string>(
-         "--theme",
-         [command](const std::string& name) {
-           command->choices.theme = name == "dark" ? render::Theme::dark : render::Theme::light;
-         },
-         "Theme of the picture: light or dark")
-      ->check(one_of({"light", "dark"}))
-      ->default_str("light");
-  sub->add_option_function<std::string>(
-         "--style",
-         [command](const std::string& name) {
-           command->choices.style = name == "clay" ? render::Style::clay : render::Style::geometry;
-         },
-         "geometry: the pot as its rings are; clay: with throwing lines, specks, a rounded rim and "
-         "a bare foot below a glaze, which are not in the pot")
-      ->check(one_of({"geometry", "clay"}))
-      ->default_str("geometry");
-  add_material(*sub, command->choices);
-  sub->add_flag("--transparent", command->choices.alone,
-                "Draw the pot alone, without wheel, on a transparent background (not in a GIF)");
-  sub->add_option("--azimuth", command->choices.azimuth_deg,
-                  "Camera azimuth [deg] (default: about 34)")
-      ->check(in_range(-3600.0, 3600.0));
-  sub->add_option("--elevation", command->choices.elevation_deg,
-                  "Camera elevation [deg] (default: about 24)")
-      ->check(in_range(-89.0, 89.0));
+  add_look(*sub, command->choices);
+  add_camera(*sub, command->choices);
   sub->add_flag("--time", command->time, "Print the median time of a frame [ms]");
   sub->footer(
       "\nExamples:\n"

@@ -333,40 +333,49 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
   return replay_pot(options, console);
 }
 
+void add_replay_options(CLI::App& command, ThrowOptions& options) {
+  command.add_option(
+      "scene", options.scene,
+      "NAME.scene.json, or - for standard input; or NAME.work. Not needed with --from: "
+      "the pot remembers its tool and clay");
+  command.add_option("-s,--session", options.session,
+                     "Poses to play (default: NAME.session beside the scene)");
+  command.add_option("-o,--output", options.pot, "Pot to write: .pot.json, or .pot.cbor (compact)");
+  command.add_option("--from", options.from,
+                     "Pot to start from, instead of the scene's lump: " + std::string(kPotInputs));
+  command.add_option("--at", options.at, "Node of the work (default: the current one)");
+  command.add_flag("--list", options.list, "List the strokes of a work, including undone ones");
+  command
+      .add_option("--model", options.model,
+                  "Model to use instead of the scene's: conserving or paper")
+      ->check(one_of({"conserving", "paper"}));
+  command.add_option(
+      "--trace", options.trace,
+      "CSV file with one row per tick: time [s], volume error [%], height [mm], force [N]");
+  command.add_option("--error-plot", options.error_plot,
+                     "SVG plot of the volume error over time, for both models");
+}
+
+#ifdef CLAYSTACK_FALCON
+/// Notes which options have no effect without --device.
+void add_device_options(CLI::App& command, ThrowOptions& options) {
+  const auto others = static_cast<std::ptrdiff_t>(command.get_options().size());
+  add_live_options(command, options.live);
+  const auto all = command.get_options();
+  options.live_only.assign(all.begin() + others, all.end());
+  std::erase(options.live_only, command.get_option("--device"));
+}
+#endif
+
 }  // namespace
 
 void add_throw_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<ThrowOptions>();
   CLI::App* command = app.add_subcommand(
       "throw", "Replay a session on a scene, or throw by hand, and write the pot");
-  command->add_option(
-      "scene", options->scene,
-      "NAME.scene.json, or - for standard input; or NAME.work. Not needed with --from: "
-      "the pot remembers its tool and clay");
-  command->add_option("-s,--session", options->session,
-                      "Poses to play (default: NAME.session beside the scene)");
-  command->add_option("-o,--output", options->pot,
-                      "Pot to write: .pot.json, or .pot.cbor (compact)");
-  command->add_option("--from", options->from,
-                      "Pot to start from, instead of the scene's lump: " + std::string(kPotInputs));
-  command->add_option("--at", options->at, "Node of the work (default: the current one)");
-  command->add_flag("--list", options->list, "List the strokes of a work, including undone ones");
-  command
-      ->add_option("--model", options->model,
-                   "Model to use instead of the scene's: conserving or paper")
-      ->check(one_of({"conserving", "paper"}));
-  command->add_option(
-      "--trace", options->trace,
-      "CSV file with one row per tick: time [s], volume error [%], height [mm], force [N]");
-  command->add_option("--error-plot", options->error_plot,
-                      "SVG plot of the volume error over time, for both models");
+  add_replay_options(*command, *options);
 #ifdef CLAYSTACK_FALCON
-  const std::size_t others = command->get_options().size();
-  add_live_options(*command, options->live);
-  for (const CLI::Option* option : command->get_options()) options->live_only.push_back(option);
-  options->live_only.erase(options->live_only.begin(),
-                           options->live_only.begin() + static_cast<std::ptrdiff_t>(others));
-  std::erase(options->live_only, command->get_option("--device"));
+  add_device_options(*command, *options);
 #endif
   command->footer(
       "\nExamples:\n"
