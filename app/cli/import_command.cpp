@@ -2,10 +2,10 @@
 #include "app/cli/json_output.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/cli/pot_copy.hpp"
+#include "app/cli/usage.hpp"
 #include "app/import/drawn_pot.hpp"
 #ifdef CLAYSTACK_EXPORT
 #include "app/cli/import_mesh.hpp"
-#include "app/cli/usage.hpp"
 #include "claystack/export/formats.hpp"
 #endif
 

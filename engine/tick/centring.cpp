@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kRows = 32;
 
-/// Depths of both tools: that of a ring that is touched, else how far the tool is clear, below 0.
+/// The depth of each tool in each ring; negative where the tool is clear of the ring.
 struct Depths {
   alignas(kPackBytes) double radii[kRows];  ///< of the tool; below 0 beyond its ends
   alignas(kPackBytes) double of[2][kRows];
@@ -40,7 +40,7 @@ struct Depths {
   }
 };
 
-/// The ring that one of two tools would have to push over most, its band in both contacts.
+/// Finds the ring that one tool would push farthest towards the other, and the band around it.
 bool find_push(const ClayStack& stack, std::span<const ToolRemoval> removals, const PushOver& over,
                Band& band, bool& outward) noexcept {
   band.give_mm = 0.0;
@@ -127,7 +127,7 @@ void centre(const StepPlan& plan, const ClayStack& stack, const ToolState& tool,
   bool outward = false;
   if (!find_push(stack, removals, over, band, outward)) return;
   const double min_wall = plan.removal.min_wall_mm;
-  // Where two tools hold the wall, it is not their way that bends it.
+  // Two tools hold the wall, so their motion does not bend it: both speeds are 0.
   const Shell shell = shell_at(stack, band, min_wall, 0.0, 0.0);
   if (!(shell.share > 0.0)) return;
   const bool hoop = (plan.clay.rules & kHoop) != 0;

@@ -60,7 +60,7 @@ Stiffness stiffness_of(const Ring* rings, std::size_t count) noexcept {
 bool all_pliant(const Ring* rings, std::size_t count) noexcept {
   bool pliant = false;
   in_packs([=, to = &pliant](auto n) CLAYSTACK_INLINE {
-    Quantas<n> spare{};  // the sign of the least
+    Quantas<n> spare{};  // negative if one of them is
     for (std::size_t k = 0; k < count; k += n) {
       const RingPack<n> pack = load_rings<n>(rings + k, count - k);
       spare |= spare_bore(pack.outer2, pack.inner2);
@@ -80,8 +80,8 @@ CLAYSTACK_INLINE inline void stops_of(const Ring* rings, std::size_t count, doub
   }
 }
 
-/// Whether surely none of these rings stops the wall; with a foot to seek: nor is solid. `nearest`
-/// of them to the band is the first to be stiff, as a rule.
+/// True only if none of these rings stops the wall and, with a foot to seek, none is solid.
+/// `nearest`: the ring beside the band, which is usually the first stiff one, so it is asked first.
 bool bends_freely(std::span<const Ring> rings, const Ring& nearest, double per_stop,
                   bool seeks_foot) noexcept {
   if (spare_bore(nearest.outer2, nearest.inner2) >= 0 && all_pliant(rings.data(), rings.size()))

@@ -50,7 +50,7 @@ template <class Number>
   return pliancy(static_cast<double>(ring.outer2), static_cast<double>(ring.inner2));
 }
 
-/// Not below 0: `pliancy` is 1, without the division. [quanta]
+/// If it is not negative, `pliancy` is 1; needs no division. [quanta]
 template <class Quantum>
 [[nodiscard]] CLAYSTACK_INLINE inline Quantum spare_bore(Quantum outer2, Quantum inner2) noexcept {
   return inner2 - ((outer2 >> 3) + (outer2 >> 5) + (outer2 >> 9));  // of kThin and a little more

@@ -31,7 +31,7 @@ struct Rows {
 template <std::size_t n>
 CLAYSTACK_INLINE inline void load_rows(Rows& rows, const Ring* rings, double* by,
                                        std::size_t count) noexcept {
-  Quantas<n> spare{};  // the sign of the least
+  Quantas<n> spare{};  // negative if one of them is
   for (std::size_t k = 0; k < count; k += n) {
     const RingPack<n> pack = load_rings<n>(rings + k, count - k);
     const auto outer2 = doubles_of(pack.outer2), inner2 = doubles_of(pack.inner2);

@@ -192,7 +192,10 @@ const std::vector<double>& OwnWalls::by_ring_mm(const RingFlags& rings) {
   if (std::ranges::find(missing, 1) == missing.end()) return walls_mm_;
   const std::vector<double> found = gauge_->by_ring_mm(cap_mm_, missing);
   for (std::size_t i = 0; i < missing.size(); ++i)
-    if (missing[i] != 0) walls_mm_[i] = found[i], measured_[i] = 1;
+    if (missing[i] != 0) {
+      walls_mm_[i] = found[i];
+      measured_[i] = 1;
+    }
   return walls_mm_;
 }
 
