@@ -1,5 +1,5 @@
 #pragma once
-// Formats numbers and kinds of files for messages.
+// Formats numbers, words and kinds of files for messages.
 #include "claystack/core/result.hpp"
 
 #include <cstddef>
@@ -17,6 +17,11 @@ namespace clay {
 [[nodiscard]] std::string in_mm(double mm);
 /// "1 warning", "2 warnings": for nouns with a plural in s.
 [[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
+
+/// The text with a capital letter at its beginning.
+[[nodiscard]] std::string sentence(std::string text);
+/// A name for scripts as words: "needs homing" of "needs_homing".
+[[nodiscard]] std::string words_of_name(std::string_view name);
 
 /// The kind of a file by its first bytes, such as "a Draco mesh" or "a pot"; empty if unknown.
 [[nodiscard]] std::string_view known_kind(std::string_view bytes);

@@ -6,6 +6,7 @@
 #include "app/cli/usage.hpp"
 #include "app/servo/words.hpp"
 #include "claystack/falcon/usb.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -58,24 +59,9 @@ Json entry_json(const Entry& entry) {
   return json;
 }
 
-const char* words_of(falcon::DeviceState state) {
-  switch (state) {
-    case falcon::DeviceState::ready:
-      return "ready";
-    case falcon::DeviceState::needs_homing:
-      return "needs homing";
-    case falcon::DeviceState::needs_firmware:
-      return "needs firmware";
-    case falcon::DeviceState::fault:
-      return "fault";
-    default:
-      return "closed";
-  }
-}
-
 void print_entry(const Entry& entry, const Console& console) {
   const falcon::ListedDevice& device = entry.listed;
-  const char* state = device.usable ? words_of(entry.state) : "cannot be used";
+  const std::string state = device.usable ? words_of_name(name_of(entry.state)) : "cannot be used";
   console.print(
       fmt::format("{:<11}{:<16}{}: {}", name_of(device.kind), device.place, device.name, state));
   if (device.problem) console.print("  " + device.problem->message);
@@ -114,7 +100,7 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
   open.write({});
   const falcon::DeviceState state = open.read(100'000).state;
   const falcon::DeviceInfo& info = open.info();
-  console.print(fmt::format("{} at {}: {}", info.name, info.place, words_of(state)));
+  console.print(fmt::format("{} at {}: {}", info.name, info.place, words_of_name(name_of(state))));
   if (state == falcon::DeviceState::needs_homing) console.print(servo::kHomingAdvice);
   if (console.json)
     print_json({{"name", info.name},

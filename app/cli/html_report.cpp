@@ -4,6 +4,7 @@
 #include "core/base64.hpp"
 #include "core/colour_scale.hpp"
 #include "core/svg_writer.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -163,12 +164,8 @@ class Page {
     if (problems.empty())
       html_.element("p", {{"class", "good"}},
                     "Closed and without self-intersections; all limits met.");
-    for (const solid::Problem& problem : problems) {
-      std::string sentence = problem.text;
-      if (sentence.front() >= 'a' && sentence.front() <= 'z')
-        sentence.front() = static_cast<char>(sentence.front() - 'a' + 'A');
-      html_.element("p", {{"class", problem.fails ? "bad" : ""}}, sentence);
-    }
+    for (const solid::Problem& problem : problems)
+      html_.element("p", {{"class", problem.fails ? "bad" : ""}}, sentence(problem.text));
   }
 
   void pictures(const std::string& picture) {

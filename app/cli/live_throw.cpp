@@ -12,6 +12,7 @@
 #include "app/servo/signals.hpp"
 #include "app/servo/tick_trace.hpp"
 #include "app/servo/words.hpp"
+#include "core/text.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -254,11 +255,9 @@ Result<void> outcome_of(Stage& stage, Ending ending, const Kept& kept, const Con
 
 void print_result(const LiveJob& job, const LiveOptions& options, const Console& console,
                   const Json& json, const Kept& kept) {
-  auto ended = json["ended"].get<std::string>();
-  std::ranges::replace(ended, '_', ' ');
   console.print(fmt::format("{:.1f} s on the wheel, {} poses, ended: {}",
                             json["seconds"].get<double>(), json["poses"].get<std::uint64_t>(),
-                            ended));
+                            words_of_name(json["ended"].get<std::string>())));
   print_clay(console, json);
   if (console.verbose) print_servo(console, json["servo"]);
   if (!job.pot_path.empty() && kept.pot) console.print("pot: " + job.pot_path);

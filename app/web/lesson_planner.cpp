@@ -3,49 +3,33 @@
 
 #include "app/studio/guide/lesson_planner.hpp"
 
-#include "app/web/job_message.hpp"
-#include "app/web/page_worker.hpp"
+#include "app/web/newest_question.hpp"
 
 #include <utility>
 
 namespace clay::studio {
 
 struct LessonPlanner::State {
-  web::PageWorker worker{web::PageWorker::Slot::lesson};
-  LessonQuestion running;
-  std::optional<LessonQuestion> next;
-
-  void post_next() {
-    if (worker.busy() || !next) return;
-    running = *std::exchange(next, std::nullopt);
-    worker.post(web::message_of(running));
-  }
+  web::NewestQuestion<LessonQuestion> questions{web::PageWorker::Slot::lesson};
 };
 
 LessonPlanner::LessonPlanner(bool) : state_(std::make_unique<State>()) {}
 LessonPlanner::~LessonPlanner() = default;
 
-void LessonPlanner::ask(LessonQuestion question) {
-  state_->next = std::move(question);
-  state_->post_next();
-}
+void LessonPlanner::ask(LessonQuestion question) { state_->questions.ask(std::move(question)); }
 
 std::optional<LessonPlan> LessonPlanner::take() {
-  const auto message = state_->worker.take();
-  if (!message) return std::nullopt;
-  const LessonQuestion answered = state_->running;
-  const bool outdated = state_->next.has_value();
-  state_->post_next();
-  if (outdated) return std::nullopt;
-  if (!message->empty())
-    if (auto plan = web::plan_in(*message)) return plan;
+  const auto answered = state_->questions.take();
+  if (!answered) return std::nullopt;
+  if (!answered->message.empty())
+    if (auto plan = web::plan_in(answered->message)) return plan;
   LessonPlan failed;
-  failed.node = answered.node;
-  failed.step = answered.step;
+  failed.node = answered->question.node;
+  failed.step = answered->question.step;
   failed.problem = "The plan stopped: the browser may have too little memory";
   return failed;
 }
 
-bool LessonPlanner::busy() const { return state_->worker.busy() || state_->next; }
+bool LessonPlanner::busy() const { return state_->questions.busy(); }
 
 }  // namespace clay::studio

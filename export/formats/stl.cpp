@@ -143,10 +143,13 @@ bool is_text(std::string_view head) {
   return head.substr(0, kPrologueBytes).find('\0') == std::string_view::npos;
 }
 
+/// Surely no binary STL.
+bool is_of_another_kind(std::string_view head) {
+  return (!head.empty() && is_text(head)) || !known_kind(head).empty();
+}
+
 tl::unexpected<Error> no_stl(std::string_view head, std::uint64_t bytes, std::string_view name) {
-  if (const auto kind = known_kind(head); !kind.empty())
-    return bad_file(name, std::string("expected an STL file, found ").append(kind));
-  if (!head.empty() && is_text(head))
+  if (is_of_another_kind(head))
     return bad_file(name, "expected an STL file, found " + kind_of_file(head));
   if (head.size() < kPrologueBytes)
     return bad_file(name, "expected an STL file: the word solid, or at least 84 bytes, found " +
@@ -176,8 +179,7 @@ Result<TriangleMesh> read_either(const ByteSource& source, std::string_view name
   if (head.size() >= kPrologueBytes && source.size == stl::file_bytes(facets))
     return read_binary(source, stream, facets, name);
   if (!begins_with_solid(head)) {
-    if (!options.repair || source.size < stl::file_bytes(1) || !known_kind(head).empty() ||
-        is_text(head))
+    if (!options.repair || source.size < stl::file_bytes(1) || is_of_another_kind(head))
       return no_stl(head, source.size, name);
     const std::size_t there = facets_there(source.size, facets);
     if (options.notes != nullptr)

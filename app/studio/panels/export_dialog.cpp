@@ -3,6 +3,7 @@
 #include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 

@@ -4,6 +4,7 @@
 #include "app/render/legend.hpp"
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 

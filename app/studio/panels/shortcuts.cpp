@@ -63,7 +63,7 @@ std::vector<Section> all_sections() {
 
 using Columns = std::vector<std::vector<Section>>;
 
-/// Splits the groups into columns of at most `most` lines, in their order.
+/// Splits the sections, in their order, into columns of at most `most_lines`.
 Columns columns_up_to(const std::vector<Section>& sections, std::size_t most_lines) {
   Columns columns;
   std::size_t lines = most_lines;

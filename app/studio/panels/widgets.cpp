@@ -139,12 +139,6 @@ bool may_part(std::string_view before, std::string_view after) {
 
 }  // namespace
 
-std::string sentence(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
-    text[0] = static_cast<char>(text[0] - 'a' + 'A');
-  return text;
-}
-
 std::string wrapped(std::string_view text, float width_px) {
   std::string done, line, piece;  // a piece is never broken
   const auto fits = [&](const std::string& part) {

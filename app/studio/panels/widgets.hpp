@@ -62,8 +62,6 @@ void form_place(std::string& name, std::string& folder, Actions& actions);
 void draw_half_section(const render::PotView& pot, ImVec2 corner, float side,
                        const Palette& colours);
 
-/// The text with a capital letter at its beginning.
-[[nodiscard]] std::string sentence(std::string text);
 /// Lines of at most `width_px`, broken at blanks, but not between a number and its unit. A longer
 /// word stays whole.
 [[nodiscard]] std::string wrapped(std::string_view text, float width_px);
