@@ -4,6 +4,7 @@
 #include "engine/tick/beside_tool.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace clay {
@@ -85,6 +86,7 @@ class Smear {
   /// Of the rings from..end-1, beside the tool but not touched.
   void find_room(std::size_t from, std::size_t end, std::size_t first, double* get) noexcept {
     if (!(from < end)) return;
+    assert(end - from <= kMostBeside);
     alignas(kPackBytes) double radii[kMostBeside], rooms[kMostBeside];
     radii_beside(tool_, stack_.ring_height_mm(), hip_y_, from, end - from, radii);
     in_packs([f = radii, to = rooms, d = contact_.axis_distance_mm, count = end - from,

@@ -67,10 +67,12 @@ class Soak {
     path_s_ = last_s_ = 0.0;
     ++counts.throws;
     for (int i = 0; i < frames; ++i) {
-      if (i < frames - kQuietFrames)
+      if (i < frames - kQuietFrames) {
         disturb(live);
-      else if (i == frames - kQuietFrames)
-        release(live), engaged_ = false;
+      } else if (i == frames - kQuietFrames) {
+        release(live);
+        engaged_ = false;
+      }
       if (!tick(live)) return false;
     }
     counts.poses += live.status().poses;
