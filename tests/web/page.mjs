@@ -78,8 +78,8 @@ async function throwAndExport(browser) {
   await page.says('checked: proved', 4);
   await chord(page, 'KeyE', 'Control');
   await page.says('export previewed');
-  await page.mouse.click(404, 115);  // STL
-  await page.mouse.click(616, 148);  // Pot
+  await page.mouse.click(404, 104);  // STL
+  await page.mouse.click(660, 137);  // Pot
   await pause(1500);
   await picture(page, 'export');
   await chord(page, 'Enter', 'Control');
