@@ -55,6 +55,12 @@ std::string short_number_text(double value) {
 }
 std::string in_mm(double mm) { return digits_of(mm, std::chars_format::general, 9); }
 
+std::string expected_number(std::string_view of_what, std::size_t first, std::size_t count) {
+  const std::string expected = "expected the number of " + std::string(of_what);
+  if (count == 0) return expected + ", but there is none";
+  return expected + ", from " + std::to_string(first) + " to " + std::to_string(first + count - 1);
+}
+
 std::string sentence(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
     text[0] = static_cast<char>(text[0] - 'a' + 'A');

@@ -18,6 +18,10 @@ namespace clay {
 /// "1 warning", "2 warnings": for nouns with a plural in s.
 [[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
 
+/// "expected the number of a vertex, from 1 to 8": of 8 vertices that are counted from 1.
+[[nodiscard]] std::string expected_number(std::string_view of_what, std::size_t first,
+                                          std::size_t count);
+
 /// The text with a capital letter at its beginning.
 [[nodiscard]] std::string sentence(std::string text);
 /// A name for scripts as words: "needs homing" of "needs_homing".

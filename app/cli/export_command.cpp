@@ -81,7 +81,8 @@ Result<double> part_of(const std::string& text, double most) {
   const std::string_view rest(stop, static_cast<std::size_t>(end - stop));
   if (problem != std::errc() || rest != "%" || !(percent >= 0.0 && percent <= 100.0 * most))
     return failure(ErrorKind::bad_input,
-                   fmt::format("expected 0% to {:g}%, found {}", 100.0 * most, text));
+                   fmt::format("expected a percentage from 0% to {:g}%, such as 12%, found {}",
+                               100.0 * most, text));
   return 0.01 * percent;
 }
 

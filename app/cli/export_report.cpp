@@ -94,8 +94,8 @@ Json collapsed_json(const solid::CollapsedSolid& collapsed) {
 void print_file(const Console& console, const FileReport& file) {
   console.print(fmt::format("{}: {} bytes, within {:.2g} mm{}", file.path, file.bytes,
                             file.max_error_mm, file.read_back ? ", read back" : ""));
-  console.detail(fmt::format("  {}; {}{}", solid::name_of(file.format), proof_of(file),
-                             file.full_verification ? "; fully checked" : ""));
+  console.detail(fmt::format("  {}; {}{}", words_of_name(solid::name_of(file.format)),
+                             proof_of(file), file.full_verification ? "; fully checked" : ""));
   if (const auto& c = file.certificate)
     console.detail(
         fmt::format("  minimum wall between {:.4f} and {:.4f} mm, volume within {:.2g} mm3",
@@ -196,7 +196,9 @@ void print_solid(const Console& console, const ExportReport& report) {
   if (report.collapsed) print_collapse(console, *report.collapsed);
   print_smoothing(console, report);
   for (const auto& [what, why, saved] : report.left_out)
-    if (saved) console.print(fmt::format("skipped: {} ({}), saved {:.2g} s", what, why, *saved));
+    if (saved)
+      console.print(
+          fmt::format("skipped: {} ({}), saved {:.2g} s", words_of_name(what), why, *saved));
 }
 
 /// The clay that finishing moved: "trimmed 12 g".

@@ -67,8 +67,8 @@ ServoLoop::ServoLoop(const Bench& bench, const LiveSettings& settings, const Map
 void ServoLoop::start() noexcept {
   started_ns_ = last_begun_ns_ = bench_.clock.now_ns();
   pacer_.start(last_begun_ns_);
-  guard_.rearm();
-  if (held_ || zeroed_) guard_.pause();
+  // Only the user ends a pause or the safe state of an unstable force, not a reopened device.
+  if (!falcon::needs_rearm(guarded_.cause)) guard_.rearm();
   hand_.reset();
   wanted_ = {};
   status_.ending = Ending::none;

@@ -67,8 +67,7 @@ std::string words_of(const LiveStatus& status, std::string_view rearm_key) {
 
 bool waits_for_rearm(const LiveStatus& status) noexcept {
   if (status.guard != GuardState::safe || status.paused || status.clutched) return false;
-  return status.cause == SafeCause::not_finite || status.cause == SafeCause::not_passive ||
-         status.cause == SafeCause::paused;
+  return falcon::needs_rearm(status.cause);
 }
 
 }  // namespace clay::servo

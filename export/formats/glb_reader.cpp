@@ -1,6 +1,7 @@
 #include "claystack/export/formats.hpp"
 #include "core/cancel.hpp"
 #include "core/little_endian.hpp"
+#include "core/text.hpp"
 #include "export/formats/file_floats.hpp"
 #include "export/formats/glb.hpp"
 #include "export/formats/mesh_limits.hpp"
@@ -90,8 +91,8 @@ const Json& object_at(const Json& json, const char* list, std::size_t index) {
   const auto found = json.find(list);
   const std::size_t count = found != json.end() && found->is_array() ? found->size() : 0;
   if (index >= count || !(*found)[index].is_object())
-    throw BadGlb(std::string(list) + ": expected the number of one of " + std::to_string(count) +
-                 ", found " + std::to_string(index));
+    throw BadGlb(std::string(list) + ": " + expected_number("an element", 0, count) + ", found " +
+                 std::to_string(index));
   return (*found)[index];
 }
 
@@ -402,8 +403,9 @@ class GlbReader {
       std::copy_n(found.at(i), size, bytes);
       corners[i] = load_u32(bytes);
       if (corners[i] >= points)
-        throw BadGlb("index " + std::to_string(i + 1) + ": expected the number of one of " +
-                     std::to_string(points) + " points, found " + std::to_string(corners[i]));
+        throw BadGlb("index " + std::to_string(i + 1) + ": " +
+                     expected_number("a point", 0, points) + ", found " +
+                     std::to_string(corners[i]));
     }
     return corners;
   }

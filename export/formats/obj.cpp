@@ -1,5 +1,6 @@
 #include "claystack/export/formats.hpp"
 #include "core/cancel.hpp"
+#include "core/text.hpp"
 #include "export/formats/byte_stream.hpp"
 #include "export/formats/file_floats.hpp"
 #include "export/formats/mesh_limits.hpp"
@@ -173,8 +174,8 @@ class ObjReader {
   }
 
   void refuse_number(long long number, std::size_t line) {
-    scanner_.fail_at(line, "expected the number of one of " + std::to_string(points_.count) +
-                               " v, found " + std::to_string(number));
+    scanner_.fail_at(
+        line, expected_number("a vertex", 1, points_.count) + ", found " + std::to_string(number));
   }
 
   void note_faults() {

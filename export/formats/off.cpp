@@ -1,5 +1,6 @@
 #include "claystack/export/formats.hpp"
 #include "core/cancel.hpp"
+#include "core/text.hpp"
 #include "export/formats/byte_stream.hpp"
 #include "export/formats/mesh_limits.hpp"
 #include "export/formats/text_scanner.hpp"
@@ -91,8 +92,8 @@ class OffReader {
     const long long number = scanner_.whole_number(found);
     if (number >= 0 && number < static_cast<long long>(mesh_.points.size()))
       return static_cast<std::uint32_t>(number);
-    scanner_.fail("expected the number of one of " + std::to_string(mesh_.points.size()) +
-                  " vertices from 0, found " + std::to_string(number));
+    scanner_.fail(expected_number("a vertex", 0, mesh_.points.size()) + ", found " +
+                  std::to_string(number));
     return 0;
   }
 

@@ -219,8 +219,8 @@ class BodyReader {
     for (long long i = 0; i < corners; ++i) {
       const long long index = numbers_.whole(property.type);
       if (index < 0 || index >= points_)
-        numbers_.fail("expected the number of one of " + std::to_string(points_) +
-                      " vertices from 0, found " + std::to_string(index));
+        numbers_.fail(expected_number("a vertex", 0, static_cast<std::size_t>(points_)) +
+                      ", found " + std::to_string(index));
       corners_.push_back(static_cast<std::uint32_t>(index));
     }
     if (numbers_.fault()) return;

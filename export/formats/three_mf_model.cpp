@@ -1,6 +1,7 @@
 #include "export/formats/three_mf_model.hpp"
 
 #include "core/cancel.hpp"
+#include "core/text.hpp"
 #include "export/formats/mesh_limits.hpp"
 #include "export/formats/text_scanner.hpp"
 #include "export/formats/three_mf.hpp"
@@ -291,8 +292,8 @@ void ModelReader::add_triangle(XmlReader& reader, const XmlElement& element) {
     const auto text = element.value_of(kNames[i]);
     const auto index = whole<std::uint32_t>(text, 0, last);
     if (!index)
-      return reader.fail(std::string(kNames[i]) + ": expected the number of one of " +
-                         std::to_string(object.points.size()) + " vertices from 0" + found(text));
+      return reader.fail(std::string(kNames[i]) + ": " +
+                         expected_number("a vertex", 0, object.points.size()) + found(text));
     corners[i] = *index;
   }
   if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])

@@ -74,12 +74,22 @@ std::optional<Problem> too_large(const ExportReport& report) {
       std::nullopt, true, ProblemKind::too_large};
 }
 
+/// Where no limit was asked for, a wall below that of each process is still worth a warning.
+std::optional<std::string> below_each_process(const ExportReport& report) {
+  const double smallest = smallest_allowed_wall_mm(), thinnest = report.thinnest_mm();
+  if (report.walls.limit || thinnest <= 0.0 || thinnest >= smallest) return std::nullopt;
+  return fmt::format("thin wall: {:.3f} mm; no process allows less than {:g} mm", thinnest,
+                     smallest);
+}
+
 std::vector<Problem> problems_with(const ExportReport& report, std::optional<std::string> thin) {
   std::vector<Problem> problems;
+  const bool fails = thin.has_value();
+  if (!fails) thin = below_each_process(report);
   if (thin) {
     const Wall& wall = report.walls.thinnest;
     const bool placed = !report.collapsed && wall.thickness_mm > 0.0;
-    problems.push_back({std::move(*thin), placed ? std::optional(wall.from) : std::nullopt, true,
+    problems.push_back({std::move(*thin), placed ? std::optional(wall.from) : std::nullopt, fails,
                         ProblemKind::thin_wall, report.thinnest_mm()});
   }
   if (auto size = too_large(report)) problems.push_back(std::move(*size));

@@ -129,6 +129,13 @@ Result<ProcessLimits> process_named(std::string_view name) {
                  "process: expected " + names + ", or a .json file, found " + std::string(name));
 }
 
+double smallest_allowed_wall_mm() {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const ProcessLimits& process : built_in())
+    for (const WallLimit& wall : process.walls) smallest = std::min(smallest, wall.min_wall_mm);
+  return smallest;
+}
+
 Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view file_name) {
   const std::string_view text = without_byte_order_mark(bytes);
   const std::size_t first = text.find_first_not_of(" \t\r\n");

@@ -37,6 +37,15 @@ std::vector<Stretch> thin_stretches(const Profile& profile, double min_wall_mm) 
   return stretches;
 }
 
+/// "rim at a height of 12.0 mm", "outer from 3.1 to 9.8 mm of height".
+std::string text_of(const Stretch& stretch) {
+  const std::string low = fmt::format("{:.1f}", stretch.low_mm);
+  const std::string high = fmt::format("{:.1f}", stretch.high_mm);
+  return low == high
+             ? fmt::format("{} at a height of {} mm", name_of(stretch.face), low)
+             : fmt::format("{} from {} to {} mm of height", name_of(stretch.face), low, high);
+}
+
 }  // namespace
 
 std::string wall_text(double thinnest_mm, const WallLimit& limit) {
@@ -48,8 +57,7 @@ std::string thin_wall_text(const Profile& profile, double thinnest_mm, const Wal
   std::string text = wall_text(thinnest_mm, limit);
   const std::vector<Stretch> stretches = thin_stretches(profile, limit.min_wall_mm);
   for (std::size_t i = 0; i < std::min(stretches.size(), kMostStretches); ++i)
-    text += fmt::format("{} {} from {:.1f} to {:.1f} mm of height", i == 0 ? "; thinner:" : ",",
-                        name_of(stretches[i].face), stretches[i].low_mm, stretches[i].high_mm);
+    text += (i == 0 ? "; thinner: " : ", ") + text_of(stretches[i]);
   if (stretches.size() > kMostStretches)
     text += fmt::format(", and {} more", stretches.size() - kMostStretches);
   return text;

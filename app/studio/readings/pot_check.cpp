@@ -213,10 +213,12 @@ std::string text_of(const solid::Problem& problem, const PotCheck& check, Length
   const double y_mm = problem.at ? problem.at->y : 0.0;
   switch (problem.kind) {
     case solid::ProblemKind::thin_wall:
-      return fmt::format("thin {} of {} at a height of {}; {} needs {}",
-                         y_mm > kLipShare * check.height_mm ? "lip" : "wall",
-                         length_text(problem.figure, unit), length_text(y_mm, unit), process,
-                         length_text(check.limit->min_wall_mm, unit));
+      return fmt::format(
+          "thin {} of {} at a height of {}; {} {}",
+          y_mm > kLipShare * check.height_mm ? "lip" : "wall", length_text(problem.figure, unit),
+          length_text(y_mm, unit), check.limit ? process + " needs" : "no process allows less than",
+          length_text(check.limit ? check.limit->min_wall_mm : solid::smallest_allowed_wall_mm(),
+                      unit));
     case solid::ProblemKind::too_large:
       return "too large for " + process;
     case solid::ProblemKind::cavity:

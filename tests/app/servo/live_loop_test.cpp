@@ -240,6 +240,20 @@ TEST(LiveLoop, ZeroesAndRestoresTheForceByCommand) {
   EXPECT_EQ(live.status().guard, GuardState::safe);
 }
 
+void unplug_and_reopen(VirtualThrow& live) {
+  live.fault(falcon::WireFault::unplugged);
+  ASSERT_EQ(live.run(1.0), Ending::device_lost);
+  live.model->replug();
+  ASSERT_TRUE(live.device.open());
+  live.loop->start();
+}
+
+/// Off the clay until the force could have ramped up, then in.
+Ending press_again(VirtualThrow& live) {
+  live.hand = [from_s = live.time_s](double t) { return press_to(4.0)(t - from_s); };
+  return live.run(3.2);
+}
+
 // The arm may be pulled out because something is wrong: only the user ends what the user began.
 TEST(LiveLoop, KeepsPauseAndZeroedForceWhenTheDeviceIsReopened) {
   for (const auto& [hold, release] :
@@ -250,23 +264,35 @@ TEST(LiveLoop, KeepsPauseAndZeroedForceWhenTheDeviceIsReopened) {
     ASSERT_GT(glm::length(live.status().force_n), 0.1);
     ASSERT_TRUE(live.commands.push(hold));
     live.tick();
-    live.fault(falcon::WireFault::unplugged);
-    ASSERT_EQ(live.run(1.0), Ending::device_lost);
-    live.model->replug();
-    ASSERT_TRUE(live.device.open());
-    live.loop->start();
-    // Off the clay until the force could have ramped up, then in again.
-    const auto again = [&] {
-      live.hand = [from_s = live.time_s](double t) { return press_to(4.0)(t - from_s); };
-      return live.run(3.2);
-    };
-    ASSERT_EQ(again(), Ending::none);
+    unplug_and_reopen(live);
+    ASSERT_EQ(press_again(live), Ending::none);
     EXPECT_EQ(live.status().guard, GuardState::safe);
     EXPECT_EQ(glm::length(live.status().force_n), 0.0);
     ASSERT_TRUE(live.commands.push(release));
-    ASSERT_EQ(again(), Ending::none);
+    ASSERT_EQ(press_again(live), Ending::none);
     EXPECT_GT(glm::length(live.status().force_n), 0.1);
   }
+}
+
+TEST(LiveLoop, KeepsAnUnstableForceOffWhenTheDeviceIsReopened) {
+  SceneSpec scene = rib_scene();
+  scene.force->stiffness_n_per_mm2 = 0.5;
+  // The hand rattles at 150 Hz in stiff clay.
+  const HandAt rattle = [press = press_to(1.0)](double t) {
+    return press(t) - glm::dvec3(t < 3.0 ? 0.0 : 0.5 * std::sin(300.0 * M_PI * t), 0.0, 0.0);
+  };
+  LiveSettings settings = one_to_one();
+  settings.arm.damping_ns_per_mm = 0.02;  // takes the stiffness
+  VirtualThrow live(scene, settings, rattle);
+  live.run(8.0);
+  ASSERT_EQ(live.status().cause, falcon::SafeCause::not_passive);
+  unplug_and_reopen(live);
+  ASSERT_EQ(press_again(live), Ending::none);
+  EXPECT_EQ(live.status().cause, falcon::SafeCause::not_passive);
+  EXPECT_EQ(glm::length(live.status().force_n), 0.0);
+  ASSERT_TRUE(live.commands.push({CommandKind::rearm, 0.0}));
+  ASSERT_EQ(press_again(live), Ending::none);
+  EXPECT_GT(glm::length(live.status().force_n), 0.1);
 }
 
 TEST(LiveLoop, StopsWaitingForHomingIfSecondsAreSet) {

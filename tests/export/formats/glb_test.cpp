@@ -287,11 +287,12 @@ TEST(Glb, RefusesBadFiles) {
   expect(changed("/buffers/0/uri", "https://example.org"), "the buffer of the file itself");
   expect(changed("/extensionsRequired", {"KHR_meshopt_compression"}), "no required extension but");
   expect(changed("/nodes/0/children", {0}), "expected a tree of nodes");
-  expect(changed("/nodes/0/mesh", 7), "meshes: expected the number of one of 1, found 7");
+  expect(changed("/nodes/0/mesh", 7),
+         "meshes: expected the number of an element, from 0 to 0, found 7");
   expect(changed("/scenes/0/nodes", Json::array()), "triangles, found 0");
   Plain wrong;
   wrong.binary[48] = 4;
-  expect(wrong.file(), "index 1: expected the number of one of 4 points, found 4");
+  expect(wrong.file(), "index 1: expected the number of a point, from 0 to 3, found 4");
   Plain huge;
   store_f32(huge.binary.data(), 1e9F);
   expect(huge.file(), "expected a coordinate within");

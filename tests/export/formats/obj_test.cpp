@@ -91,7 +91,7 @@ TEST(Obj, CommentsEndAtTheirLine) {
 TEST(Obj, BackslashContinuesALine) {
   EXPECT_EQ(triangles_of(kSquare + "f 1 2\\\n 3 \\\r\n4\n"), (Triangles{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(obj_message(kSquare + "f 1 \\\n2 \\\n0\n"),
-            "pot.obj:7: expected the number of one of 4 v, found 0");
+            "pot.obj:7: expected the number of a vertex, from 1 to 4, found 0");
 }
 
 TEST(Obj, KeepsPointsThatCoincide) {
@@ -110,17 +110,19 @@ TEST(Obj, ErrorsNameTheLine) {
   for (const BadObj& bad : std::vector<BadObj>{
            {"", "pot.obj: expected 1 to 20000000 triangles, found 0"},
            {kSquare, "pot.obj: expected 1 to 20000000 triangles, found 0"},
-           {kSquare + "f 1 2 0\n", "pot.obj:5: expected the number of one of 4 v, found 0"},
-           {kSquare + "f 1 2 5\n", "pot.obj:5: expected the number of one of 4 v, found 5"},
+           {kSquare + "f 1 2 0\n",
+            "pot.obj:5: expected the number of a vertex, from 1 to 4, found 0"},
+           {kSquare + "f 1 2 5\n",
+            "pot.obj:5: expected the number of a vertex, from 1 to 4, found 5"},
            {kSquare + "f 1 2 3\nf 1 2 -5\n",
-            "pot.obj:6: expected the number of one of 4 v, found -5"},
+            "pot.obj:6: expected the number of a vertex, from 1 to 4, found -5"},
            {"v 0 0 0\nf -1 -2 -3\nv 0 0 0\nv 0 0 0\n",
-            "pot.obj:2: expected the number of one of 1 v, found -2"},
+            "pot.obj:2: expected the number of a vertex, from 1 to 1, found -2"},
            {kSquare + "f 1 2 99999999999\n",
-            "pot.obj:5: expected the number of one of 4 v, found 99999999999"},
+            "pot.obj:5: expected the number of a vertex, from 1 to 4, found 99999999999"},
            {kSquare + "f 1 2 99999999999999999999\n", "pot.obj:5: expected a whole number"},
            {kSquare + "f 1 2 -9223372036854775808\n",
-            "pot.obj:5: expected the number of one of 4 v"},
+            "pot.obj:5: expected the number of a vertex, from 1 to 4"},
            {kSquare + "f 1 2\n", "pot.obj:5: expected a face of at least 3 corners, found 2"},
            {kSquare + "f\n", "pot.obj:5: expected a face of at least 3 corners, found 0"},
            {kSquare + "f /1 /2 /3\n", "pot.obj:5: expected a whole number"},

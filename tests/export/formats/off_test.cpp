@@ -39,7 +39,8 @@ TEST(Off, RefusesOtherKindsAndBadValues) {
   expect("4OFF\n3 1 0\n", "expected OFF, COFF, NOFF or STOFF, found '4OFF'");
   expect("OFF BINARY\n", "found binary OFF");
   expect("OFF\n3 0 0\n" + points, "triangles, found 0");
-  expect("OFF\n3 1 0\n" + points + "3 0 1 3\n", "p.off:6: expected the number of one of 3");
+  expect("OFF\n3 1 0\n" + points + "3 0 1 3\n",
+         "p.off:6: expected the number of a vertex, from 0 to 2, found 3");
   expect("OFF\n3 1 0\n" + points + "3 0 1 -1\n", "found -1");
   expect("OFF\n3 1 0\n" + points + "2 0 1\n", "a face of 3 to 4096 corners, found 2");
   expect("OFF\n3 1 0\n" + points, "the end of the line or file");

@@ -125,7 +125,8 @@ TEST(Ply, RefusesBadValues) {
   const auto expect = [](const std::string& file, const std::string& because) {
     EXPECT_TRUE(refused(decode_ply(file, "p.ply"), ErrorKind::bad_input, because)) << file;
   };
-  expect(with(ply_text(), "3 0 2 1", "3 0 2 4"), "p.ply:16: expected the number of one of 4");
+  expect(with(ply_text(), "3 0 2 1", "3 0 2 4"),
+         "p.ply:16: expected the number of a vertex, from 0 to 3, found 4");
   expect(with(ply_text(), "3 0 2 1", "3 0 2 -1"), "found -1");
   expect(with(ply_text(), "3 0 2 1", "2 0 2"), "a face of 3 to 4096 corners, found 2");
   expect(with(ply_text(), "10 0 0", "nan 0 0"), "p.ply:13: expected a coordinate");

@@ -199,7 +199,7 @@ TEST(ThreeMf, RefusesWhatTheSpecificationForbids) {
         << to;
   };
   expect("millimeter", "league", "unit: expected micron");
-  expect("v3=\"1\"", "v3=\"4\"", "v3: expected the number of one of 4 vertices");
+  expect("v3=\"1\"", "v3=\"4\"", "v3: expected the number of a vertex, from 0 to 3");
   expect("v3=\"1\"", "v3=\"-1\"", "found '-1'");
   expect("v3=\"1\"", "v3=\"2\"", "uses a vertex twice");
   expect(" v3=\"1\"", "", "v3: expected");

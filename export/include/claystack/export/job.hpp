@@ -301,7 +301,8 @@ struct Problem {
 };
 
 /// Fails: a wall below the limit, a size above it, a closed cavity in a fired process. Warnings:
-/// other closed cavities, overhangs above the limit, several bodies.
+/// without a limit a wall that no process allows, other closed cavities, overhangs above the
+/// limit, several bodies.
 [[nodiscard]] std::vector<Problem> problems_of(const ExportReport& report);
 /// The same for the solid, of which no mesh need be written.
 [[nodiscard]] std::vector<Problem> problems_of_solid(const ExportReport& report);

@@ -145,6 +145,9 @@ inline constexpr std::array<std::string_view, 5> kProcessNames{"fdm", "sla", "ea
 /// One of kProcessNames; any other name is an error that lists them.
 Result<ProcessLimits> process_named(std::string_view name);
 
+/// The smallest wall that any of kProcessNames allows [mm].
+[[nodiscard]] double smallest_allowed_wall_mm();
+
 /// JSON as in samples/schema/process.schema.json; errors name the file and the field.
 Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view file_name);
 

@@ -203,6 +203,12 @@ enum class SafeCause {
   stopped,      ///< by stop(), permanently
 };
 
+/// True for the causes that only the user ends, by rearm().
+[[nodiscard]] constexpr bool needs_rearm(SafeCause cause) noexcept {
+  return cause == SafeCause::not_finite || cause == SafeCause::not_passive ||
+         cause == SafeCause::paused;
+}
+
 /// Events of a tick.
 enum GuardFlag : std::uint32_t {
   kGuardNotReady = 1u << 0,
