@@ -111,7 +111,7 @@ Result<TriangleMesh> decode_as(MeshFormat format, std::string_view bytes, std::s
     case MeshFormat::drc:
       return decode_drc(bytes, name);
     case MeshFormat::ply:
-      return decode_ply(bytes, name);
+      return decode_ply(bytes, name, options);
     case MeshFormat::off:
       return decode_off(bytes, name);
     case MeshFormat::three_mf:

@@ -184,8 +184,7 @@ class ObjReader {
     const auto note = [this](std::size_t line, std::string what) {
       options_.notes->push_back("line " + std::to_string(line) + ": " + std::move(what));
     };
-    if (header_lines_ > 0)
-      note(header_line_, std::to_string(header_lines_) + " lines before the mesh were not read");
+    if (header_lines_ > 0) options_.notes->push_back(stray_lines_note(header_line_, header_lines_));
     for (const VertexList* list : {&textures_, &normals_}) {
       const bool beyond = list->highest_used > list->count;
       if (list->bad_line == 0 && !beyond) continue;

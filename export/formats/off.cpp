@@ -6,6 +6,7 @@
 #include "export/formats/text_scanner.hpp"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace clay::solid::inline formats {
@@ -37,13 +38,19 @@ class OffReader {
   }
 
  private:
-  /// The next word that is not in a comment.
+  /// The next word that is not in a comment. A comment may follow a number without a space.
   std::string_view word() {
     for (;;) {
-      const std::string_view found = scanner_.word();
-      if (!found.starts_with('#')) return found;
-      scanner_.skip_comment();
+      if (std::exchange(in_comment_, false)) scanner_.skip_comment();
+      const std::string_view found = before_comment(scanner_.word());
+      if (!found.empty() || !in_comment_) return found;
     }
+  }
+
+  std::string_view before_comment(std::string_view found) {
+    const std::size_t end = found.find('#');
+    in_comment_ = end != found.npos;
+    return found.substr(0, end);
   }
 
   /// [ST][C][N]OFF. A 4 or an n before it adds dimensions.
@@ -98,8 +105,9 @@ class OffReader {
   }
 
   void skip_numbers() {
-    for (auto found = scanner_.word_in_line(); !found.empty(); found = scanner_.word_in_line()) {
-      if (found.starts_with('#')) return scanner_.skip_comment();
+    while (!in_comment_) {
+      const std::string_view found = before_comment(scanner_.word_in_line());
+      if (found.empty()) return;
       (void)scanner_.finite_number(found);
     }
   }
@@ -109,6 +117,7 @@ class OffReader {
   std::uint64_t size_;
   TriangleMesh mesh_;
   std::vector<std::uint32_t> corners_;
+  bool in_comment_ = false;  // the rest of this line is one
 };
 
 }  // namespace

@@ -278,10 +278,13 @@ std::string encode_ply(const TriangleMesh& mesh, std::string_view object_name,
   return text;
 }
 
-Result<TriangleMesh> decode_ply(std::string_view bytes, std::string_view name) {
+Result<TriangleMesh> decode_ply(std::string_view bytes, std::string_view name,
+                                const ReadOptions& options) {
   return check_file_size(bytes, name).and_then([&] {
     return guarded(name, [&] {
       return ply::read_header(bytes, name).and_then([&](const ply::Header& header) {
+        if (header.stray_lines > 0 && options.notes != nullptr)
+          options.notes->push_back(stray_lines_note(header.stray_line, header.stray_lines));
         return ply::check_elements(header, name).and_then([&] {
           return ply::read_body(bytes, header, name);
         });

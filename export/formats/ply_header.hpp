@@ -38,6 +38,8 @@ struct Header {
   std::vector<Element> elements;
   std::size_t bytes = 0;  ///< the elements begin there
   std::size_t lines = 0;
+  std::size_t stray_lines = 0;  ///< before the first element, without a keyword of PLY
+  std::size_t stray_line = 0;   ///< the first of them
 };
 
 /// Also checks that the file has room for every element.

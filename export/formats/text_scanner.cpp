@@ -51,6 +51,11 @@ std::optional<float> parse_float(std::string_view word) noexcept {
   return std::nullopt;
 }
 
+std::string stray_lines_note(std::size_t first_line, std::size_t count) {
+  return "line " + std::to_string(first_line) + ": " + counted(count, "line") +
+         " before the mesh " + (count == 1 ? "was" : "were") + " not read";
+}
+
 bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept {
   return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
                     [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });

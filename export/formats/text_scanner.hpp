@@ -65,6 +65,9 @@ class TextScanner {
 /// float32 by the shortest way; values too small for it are 0. Empty: not a number, or too large.
 [[nodiscard]] std::optional<float> parse_float(std::string_view word) noexcept;
 
+/// "line 3: 2 lines before the mesh were not read".
+[[nodiscard]] std::string stray_lines_note(std::size_t first_line, std::size_t count);
+
 /// ASCII only, independent of the locale.
 [[nodiscard]] bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept;
 

@@ -17,6 +17,8 @@ TEST(Off, ReadsCommentsColoursAndNormals) {
         "3 0 1 3 0.5 0.5 0.5 1\n3 1 2 3 7\n3 0 3 2",
         "COFF\r\n4 4 0\r\n0 0 0 1 1 1 1\r\n10 0 0 1 1 1 1\r\n0 10 0 1 1 1 1\r\n0 0 10 1 1 1 1\r\n"
         "3 0 2 1\r\n3 0 1 3\r\n3 1 2 3\r\n3 0 3 2\r\n",
+        "COFF\n4 4 0#of each\n0 0 0#red\n10 0 0 1 0 0#red 2\n0 10 0# 3 4\n0 0 10\n3 0 2 1#\n"
+        "3 0 1 3 #\n3 1 2 3\n3 0 3 2#last",
         "STCNOFF\n4 4 0\n0 0 0 0 0 1 9 9 9 0 0\n10 0 0 0\n0 10 0 0\n0 0 10 0\n3 0 2 1\n3 0 1 3\n"
         "3 1 2 3\n3 0 3 2\n"})
     EXPECT_EQ(decode_off(file, "x").value(), tetrahedron()) << file;

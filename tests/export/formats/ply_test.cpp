@@ -102,6 +102,17 @@ TEST(Ply, PassesOverOtherPropertiesAndElements) {
   EXPECT_EQ(decode_ply(file, "x").value(), expected);
 }
 
+TEST(Ply, NotesStrayLinesBeforeTheElements) {
+  const std::string file =
+      with(ply_text(), "format ascii 1.0\n", "format ascii 1.0\nCreated by a program\nv2\n");
+  std::vector<std::string> notes;
+  EXPECT_EQ(decode_ply(file, "x", {.notes = &notes}).value(), tetrahedron());
+  EXPECT_EQ(notes, std::vector<std::string>{"line 3: 2 lines before the mesh were not read"});
+  // Among the elements it may be a property that was mistyped.
+  EXPECT_TRUE(refused(decode_ply(with(ply_text(), "property float z\n", "propert float z\n"), "p"),
+                      ErrorKind::bad_input, "found 'propert float z'"));
+}
+
 TEST(Ply, RefusesWhatIsNoMesh) {
   const auto expect = [](const std::string& file, const std::string& because) {
     EXPECT_TRUE(refused(decode_ply(file, "p.ply"), ErrorKind::bad_input, because)) << file;

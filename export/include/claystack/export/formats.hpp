@@ -209,9 +209,11 @@ Result<std::size_t> drc_triangles(std::string_view bytes, std::string_view name)
 
 /// PLY 1.0 as text or binary of either byte order. Vertices need the properties x, y and z of any
 /// number type; faces a list `vertex_indices` or `vertex_index`, of up to 4096 corners, which
-/// become fans. Other properties and elements are passed over. Every count is compared with the
-/// size of the file before memory is allocated.
-Result<TriangleMesh> decode_ply(std::string_view bytes, std::string_view name);
+/// become fans. Other properties and elements are passed over, and with a note lines before the
+/// first element that begin with no keyword of PLY. Every count is compared with the size of the
+/// file before memory is allocated.
+Result<TriangleMesh> decode_ply(std::string_view bytes, std::string_view name,
+                                const ReadOptions& options = {});
 
 /// OFF as text, also with colours, normals or texture coordinates (COFF, NOFF, STOFF and their
 /// combinations), which are passed over. Binary OFF, and points of 4 or n dimensions, are refused.
