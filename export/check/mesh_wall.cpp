@@ -236,6 +236,9 @@ class WallRay {
   std::optional<Hit> hit_;
 };
 
+/// A ray that meets a face at less than 45 degrees grazes it: the sine of the angle.
+constexpr double kGrazing = std::numbers::sqrt2 / 2.0;
+
 /// Farther from the end of the clay than this, in thicknesses, the boundary around it is three
 /// thicknesses long, as `min_wall` requires, even if the clay ends in a wedge: 1.5, seen at 22.5
 /// degrees.
@@ -256,7 +259,7 @@ class WallProbe {
     Found one;
     one.wall.rays = 1;
     one.wall.escaped = hit ? 0 : 1;
-    one.wall.oblique = hit && hit->facing < std::numbers::sqrt2 / 2.0 ? 1 : 0;
+    one.wall.oblique = hit && hit->facing < kGrazing ? 1 : 0;
     if (hit && one.wall.oblique == 0 && hit->mm) {
       const Shortest ray{*hit->mm, begin, triangle, sample};
       // The sides are worth looking at only where the wall would be the thinnest.
@@ -278,17 +281,22 @@ class WallProbe {
     const glm::dvec3 middle = begin + 0.5 * thickness_mm * inward;
     const glm::dvec3 aside = std::abs(inward.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(inward, aside)), v = glm::cross(inward, u);
+    struct Way {
+      double mm = std::numeric_limits<double>::infinity();
+      bool grazes = false;  // a leaning face, beside which the clay goes on
+    };
     const auto way = [&](const glm::dvec3& direction) {
       const auto hit = WallRay(mesh_, middle, direction).first_hit(tree_, steps);
-      return hit && hit->mm ? *hit->mm : std::numeric_limits<double>::infinity();
+      return hit && hit->mm ? Way{*hit->mm, hit->facing < kGrazing} : Way{};
     };
     constexpr int kLines = 4;
     for (int k = 0; k < kLines; ++k) {
       const double angle = std::numbers::pi * k / kLines;
       const glm::dvec3 direction = std::cos(angle) * u + std::sin(angle) * v;
-      const double one = way(direction), other = way(-direction);
-      if (std::min(one, other) < kEndThicknesses * thickness_mm &&
-          std::max(one, other) >= thickness_mm)
+      Way nearer = way(direction), farther = way(-direction);
+      if (nearer.mm > farther.mm) std::swap(nearer, farther);
+      if (nearer.mm < kEndThicknesses * thickness_mm &&
+          (farther.mm >= thickness_mm || farther.grazes))
         return true;
     }
     return false;

@@ -1,4 +1,5 @@
 #include "claystack/export/check.hpp"
+#include "claystack/export/walls.hpp"
 
 #include "tests/export/solid/shapes.hpp"
 
@@ -128,6 +129,24 @@ TEST(SampledWall, IgnoresTheEndOfALip) {
   // The middle of a facet is nearer to the axis than its sides.
   EXPECT_NEAR(lip(0.0).least_mm, 4.0, 4.0 * 0.02);
   EXPECT_NEAR(lip(8.0).least_mm, 2.0, 2.0 * 0.02);
+}
+
+TEST(SampledWall, IgnoresAFootBelowALeaningNeck) {
+  // Straight up from the middle of the foot, a line soon meets the neck; the clay goes on beside
+  // it.
+  const Profile pot{{{{40, 0},
+                      {44, 0},
+                      {44, 0.3},
+                      {42.2, 1.8},
+                      {41.6, 4},
+                      {46, 12},
+                      {46, 40},
+                      {34, 40},
+                      {34, 12},
+                      {36, 4},
+                      {40, 0.3}}}};
+  EXPECT_GT(wall_of(revolve(pot, kSegments)).least_mm, min_wall_mm(pot) * 0.98);
+  EXPECT_GT(min_wall_mm(pot), 5.0);
 }
 
 TEST(SampledWall, OfARodIsItsDiameter) {
