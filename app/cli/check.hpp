@@ -81,6 +81,7 @@ struct Verdict {
   std::optional<RepairSummary> repair_summary;
   std::optional<solid::SolidCertificate> certificate;  ///< the certificate that was checked
   bool certificate_holds = false;
+  std::optional<double> certified_wall_mm;  ///< of a certificate that holds, also one in a 3MF
 
   void add(std::string check, Grade grade, std::string text) {
     findings.push_back({std::move(check), grade, std::move(text)});

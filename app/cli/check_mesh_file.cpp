@@ -186,8 +186,9 @@ void check_packed(std::string_view bytes, const std::string& file, Verdict& verd
               return solid::verify_certificate(certificate, model, file);
             });
           });
-  if (report(verified, "the certificate inside does not hold"))
-    verdict.add("contents", Grade::pass, "the certificate inside holds");
+  if (!report(verified, "the certificate inside does not hold")) return;
+  verdict.add("contents", Grade::pass, "the certificate inside holds");
+  verdict.certified_wall_mm = solid::parse_certificate(parts->certificate, file)->wall_lower_mm;
 }
 
 /// Empty if no certificate is checked.
@@ -218,7 +219,9 @@ void verify(std::string_view bytes, MeshFormat format, const CheckCommand& comma
     return solid::verify_certificate(*verdict.certificate, bytes, command.file);
   });
   verdict.certificate_holds = verified.has_value();
-  if (!verified)
+  if (verified)
+    verdict.certified_wall_mm = verdict.certificate->wall_lower_mm;
+  else
     verdict.add("certificate", Grade::fail, "does not hold: " + verified.error().message);
 }
 
@@ -239,6 +242,19 @@ void check_contents(std::string_view bytes, const TriangleMesh& mesh, MeshFormat
   if (command.changes_mesh()) return;
   if (format == MeshFormat::drc) check_claims(bytes, mesh, verdict);
   if (format == MeshFormat::three_mf) check_packed(bytes, command.file, verdict);
+}
+
+/// Compares the walls with the limit: those that a certificate of these bytes proves, without one
+/// a sample.
+Result<void> check_walls(const TriangleMesh& mesh, const glm::dvec3& size,
+                         const CheckCommand& command, const Console& console, Verdict& verdict) {
+  const auto limit = command.walls.demand().for_size(size.x + size.y + size.z);
+  if (!limit) return {};
+  if (!verdict.certified_wall_mm) return measure_wall(mesh, *limit, command, console, verdict);
+  const double wall_mm = *verdict.certified_wall_mm;
+  verdict.add("walls", wall_mm >= limit->min_wall_mm ? Grade::pass : Grade::fail,
+              "certified: " + solid::wall_text(wall_mm, *limit));
+  return {};
 }
 
 /// A file that cannot be read no longer matches its certificate.
@@ -288,12 +304,14 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   progress.clear();
   const glm::dvec3 size = size_mm(*mesh);
   check_unit(size, format, verdict);
-  if (const auto limit = command.walls.demand().for_size(size.x + size.y + size.z))
-    if (auto done = measure_wall(*mesh, *limit, command, console, verdict); !done)
-      return tl::make_unexpected(done.error());
-  if (verdict.certificate) progress.stage("verifying the certificate");
-  if (verdict.certificate) verify(bytes, format, command, verdict);
-  return verdict;
+  if (verdict.certificate) {
+    progress.stage("verifying the certificate");
+    verify(bytes, format, command, verdict);
+    progress.clear();
+  }
+  return check_walls(*mesh, size, command, console, verdict).map([&] {
+    return std::move(verdict);
+  });
 }
 
 }  // namespace clay::cli

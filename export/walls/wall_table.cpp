@@ -49,8 +49,12 @@ std::string text_of(const Stretch& stretch) {
 }  // namespace
 
 std::string wall_text(double thinnest_mm, const WallLimit& limit) {
-  return fmt::format("{:.3f} mm, expected at least {:.3f} mm ({})", thinnest_mm, limit.min_wall_mm,
-                     limit.asked_by());
+  // As many digits as tell a wall that fails from its limit.
+  const bool fails = thinnest_mm < limit.min_wall_mm;
+  int digits = 3;
+  while (fails && digits < 9 && limit.min_wall_mm - thinnest_mm < std::pow(10.0, -digits)) ++digits;
+  return fmt::format("{:.{}f} mm, expected at least {:.{}f} mm ({})", thinnest_mm, digits,
+                     limit.min_wall_mm, digits, limit.asked_by());
 }
 
 std::string thin_wall_text(const Profile& profile, double thinnest_mm, const WallLimit& limit) {

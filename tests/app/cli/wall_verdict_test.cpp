@@ -103,5 +103,26 @@ TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
   EXPECT_GE(2 * failed, pots());
 }
 
+// A lip that tapers to 0.23 mm: rays see a little more than the certificate proves.
+TEST(WallVerdict, OfAMeshWithACertificateIsThatOfTheCertificate) {
+  const ScratchFolder folder;
+  const std::string svg = folder.file("p.svg"), pot = folder.file("p.pot.json"),
+                    stl = folder.file("p.stl"), package = folder.file("p.3mf");
+  write_text(svg,
+             "<svg xmlns='http://www.w3.org/2000/svg' width='80mm' height='90mm' "
+             "viewBox='0 0 80 90'><polygon points='0,90 36,90 36,0 35.77,0 30,15.85 30,84 0,84'/>"
+             "</svg>");
+  ASSERT_EQ(claystack("import " + svg + " --axis 0 -o " + pot).status, 0);
+  const Ran exported = claystack("export --json --certificate " + pot + " " + stl + " " + package);
+  const double wall = exported.json().at("min_wall_mm");
+  ASSERT_LT(wall, 0.45);
+  const std::string with = " --certificate " + stl + ".certificate.json ";
+  for (const auto& [limit, status] : {std::pair{"0.45", 1}, std::pair{"0.35", 0}})
+    for (const std::string& file : {pot, with + stl, package}) {
+      const Ran checked = claystack("check --json --min-wall " + std::string(limit) + " " + file);
+      EXPECT_EQ(checked.status, status) << file << checked.out;
+    }
+}
+
 }  // namespace
 }  // namespace clay::test
