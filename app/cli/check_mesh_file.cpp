@@ -1,6 +1,7 @@
 #include "app/cli/check.hpp"
 #include "app/cli/memory_room.hpp"
 #include "app/cli/mesh_input.hpp"
+#include "app/cli/pot_input.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -86,16 +87,6 @@ Result<TriangleMesh> written(const TriangleMesh& mesh, const CheckCommand& comma
   return reread;
 }
 
-/// Width, depth and height.
-glm::dvec3 size_mm(const TriangleMesh& mesh) {
-  glm::dvec3 low = mesh.points.front(), high = low;
-  for (const glm::dvec3& p : mesh.points) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  return high - low;
-}
-
 /// Only 3MF and GLB state their unit.
 void check_unit(const glm::dvec3& size, MeshFormat format, Verdict& verdict) {
   constexpr double kLeastMm = 1.0;
@@ -167,7 +158,8 @@ void check_claims(std::string_view bytes, const TriangleMesh& mesh, Verdict& ver
 
 /// The pot and the certificate that a 3MF by Claystack carries. The certificate is that of its
 /// model part.
-void check_packed(std::string_view bytes, const std::string& file, Verdict& verdict) {
+void check_packed(std::string_view bytes, const TriangleMesh& mesh, const std::string& file,
+                  Verdict& verdict) {
   const auto report = [&](const Result<void>& found, std::string_view what) {
     if (!found)
       verdict.add("contents", Grade::fail, std::string(what) + ": " + found.error().message);
@@ -175,9 +167,13 @@ void check_packed(std::string_view bytes, const std::string& file, Verdict& verd
   };
   const auto parts = solid::parts_in_3mf(bytes, file);
   if (!parts) return (void)report(failure(parts.error().kind, parts.error().message), "parts");
-  if (!parts->pot.empty() &&
-      report(parse_pot(parts->pot, file).map([](const Pot&) {}), "the pot inside"))
-    verdict.add("contents", Grade::pass, "carries the pot, to be thrown on with throw --from");
+  if (!parts->pot.empty()) {
+    const auto pot = parse_pot(parts->pot, file);
+    if (report(pot.map([](const Pot&) {}), "the pot inside"))
+      verdict.add("contents", Grade::pass, "carries the pot, to be thrown on with throw --from");
+    if (const auto difference = pot ? mesh_differs(mesh, *pot) : std::nullopt)
+      verdict.add("contents", Grade::warn, *difference);
+  }
   if (parts->certificate.empty()) return;
   const auto verified =
       solid::parse_certificate(parts->certificate, file)
@@ -241,7 +237,7 @@ void check_contents(std::string_view bytes, const TriangleMesh& mesh, MeshFormat
   check_cavities(command, verdict);
   if (command.changes_mesh()) return;
   if (format == MeshFormat::drc) check_claims(bytes, mesh, verdict);
-  if (format == MeshFormat::three_mf) check_packed(bytes, command.file, verdict);
+  if (format == MeshFormat::three_mf) check_packed(bytes, mesh, command.file, verdict);
 }
 
 /// Compares the walls with the limit: those that a certificate of these bytes proves, without one

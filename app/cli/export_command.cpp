@@ -257,7 +257,7 @@ Result<void> check_tool_length(const Pot& pot, const ExportCommand& command) {
 Result<int> export_pot(ExportCommand& command, const Console& console) {
   Progress progress(console, "exporting", 0);
   progress.stage("reading");
-  const auto given = read_pot(command.pot);
+  const auto given = read_pot(command.pot, console);
   if (!given) return tl::make_unexpected(given.error());
   if (auto complete = complete_request(command, console); !complete)
     return tl::make_unexpected(complete.error());

@@ -77,8 +77,9 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
       "Gap of a pinch [mm] (default: that of the scene); the keys + and - change it");
   command.add_option("--damping", settings.arm.damping_ns_per_mm, "Damping of the arm [N s/mm]")
       ->capture_default_str();
-  command.add_flag("--soften", options.soften,
-                   "Lower force.stiffness_n_per_mm2 to what the arm can render");
+  command.add_flag("--soften,!--no-soften", options.soften,
+                   "Lower force.stiffness_n_per_mm2 to what the arm can render (default); with "
+                   "--no-soften, refuse a stiffer scene");
   command.add_flag("--wait", options.wait, "Wait for a disconnected device to return");
   add_falcon_options(command, options.falcon);
   add_place_options(command, settings.mapping);

@@ -36,16 +36,20 @@ using servo::Ending;
 constexpr auto kLook = 20ms;  // polling period for the servo's end
 constexpr auto kReopen = 500ms;
 
-/// Refuses a scene that is too stiff for the arm, or softens it.
+/// Softens a scene that is too stiff for the arm, or refuses it.
 Result<void> fit_stiffness(SceneSpec& scene, const LiveOptions& options, const Console& console) {
   if (!options.soften) {
     const auto checked = servo::check_stiffness(scene, options.settings);
     if (checked) return {};
-    return failure(checked.error().kind, checked.error().message + "; or --soften");
+    return failure(checked.error().kind, checked.error().message + "; or no --no-soften");
   }
   const auto part = servo::soften(scene, options.settings);
   if (!part) return tl::make_unexpected(part.error());
-  if (*part < 1.0) console.print(fmt::format("stiffness lowered to {:.3g} of the scene's", *part));
+  if (*part < 1.0)
+    console.warn(fmt::format(
+        "force.stiffness_n_per_mm2 is lowered to {:.3g} for this throw, {:.0f}% of the scene's: "
+        "the arm cannot render more at {:g} Hz (--no-soften refuses such a scene)",
+        scene.force->stiffness_n_per_mm2, 100.0 * *part, options.settings.rate_hz));
   return {};
 }
 

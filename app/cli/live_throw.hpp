@@ -16,7 +16,7 @@ struct LiveOptions {
   std::string record;  ///< session to write; empty: none
   falcon::FalconSettings falcon;
   bool wait = false;    ///< wait for a disconnected device to return
-  bool soften = false;  ///< lower the scene's stiffness to the accepted limit
+  bool soften = true;  ///< lower the scene's stiffness to the accepted limit
   servo::LiveSettings settings;
 };
 

@@ -3,7 +3,13 @@
 #include "app/cli/memory_room.hpp"
 #include "claystack/core/atomic_file.hpp"
 #ifdef CLAYSTACK_EXPORT
+#include "claystack/engine/tick.hpp"
 #include "claystack/export/formats.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/common.hpp>
 #endif
 
 #include <algorithm>
@@ -64,6 +70,49 @@ Result<Pot> pot_from(std::string_view bytes, std::string_view name) {
 
 Result<Pot> read_pot(const std::string& path) {
   return read_file(path).and_then([&](const std::string& bytes) { return pot_from(bytes, path); });
+}
+
+#ifdef CLAYSTACK_EXPORT
+glm::dvec3 size_mm(const solid::TriangleMesh& mesh) {
+  glm::dvec3 low = mesh.points.front(), high = low;
+  for (const glm::dvec3& p : mesh.points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  return high - low;
+}
+
+std::optional<std::string> mesh_differs(const solid::TriangleMesh& mesh, const Pot& pot) {
+  // Smoothing, facets and finishing change the size by less; a shrinkage of 50 % doubles it.
+  constexpr double kTolerance = 0.03, kMostEnlarged = 2.0;
+  const glm::dvec3 size = size_mm(mesh);
+  const double width_mm = std::max(size.x, size.y);
+  const double pot_width_mm = 2.0 * largest_radius_mm(pot.stack);
+  const double pot_height_mm = pot.stack.height_mm();
+  const double across = width_mm / pot_width_mm, up = size.z / pot_height_mm;
+  const bool alike = std::abs(across - up) <= kTolerance * up;
+  if (pot.collapse || (alike && up >= 1.0 - kTolerance && up <= kMostEnlarged + kTolerance))
+    return std::nullopt;
+  return fmt::format(
+      "the mesh is {:.1f} mm wide and {:.1f} mm high, the pot inside {:.1f} mm and {:.1f} mm: "
+      "another program changed the mesh",
+      width_mm, size.z, pot_width_mm, pot_height_mm);
+}
+#endif
+
+Result<Pot> read_pot(const std::string& path, [[maybe_unused]] const Console& console) {
+#ifdef CLAYSTACK_EXPORT
+  if (is_3mf(path))
+    return read_file(path).and_then([&](const std::string& bytes) {
+      return pot_from(bytes, path).map([&](Pot pot) {
+        const auto mesh = solid::decode_3mf(bytes, path);
+        if (const auto difference = mesh ? mesh_differs(*mesh, pot) : std::nullopt)
+          console.warn(path + ": " + *difference + "; the pot is used");
+        return pot;
+      });
+    });
+#endif
+  return read_pot(path);
 }
 
 }  // namespace clay::cli

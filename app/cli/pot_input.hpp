@@ -1,8 +1,15 @@
 #pragma once
 // Pots as input files: the one way in which commands and window read them.
 
+#include "app/cli/console.hpp"
 #include "claystack/core/result.hpp"
 #include "claystack/engine/files.hpp"
+#ifdef CLAYSTACK_EXPORT
+#include "claystack/export/solid.hpp"
+
+#include <glm/vec3.hpp>
+#include <optional>
+#endif
 
 #include <string>
 #include <string_view>
@@ -18,5 +25,18 @@ inline constexpr std::string_view kPotInputs = ".pot.json, .pot.cbor, or a .3mf 
 /// A pot file, or the pot that a 3MF carries (by its first bytes).
 Result<Pot> pot_from(std::string_view bytes, std::string_view name);
 Result<Pot> read_pot(const std::string& path);
+/// The same, with a warning if the mesh of a 3MF is no longer that of its pot.
+Result<Pot> read_pot(const std::string& path, const Console& console);
+
+#ifdef CLAYSTACK_EXPORT
+/// Width, depth and height.
+[[nodiscard]] glm::dvec3 size_mm(const solid::TriangleMesh& mesh);
+
+/// The difference in words if the mesh beside a pot is not of that pot: another program may have
+/// scaled or cut it, or added other objects. Empty if it may be, in its size as thrown or enlarged
+/// by up to the largest shrinkage, 50 %; turns and moves do not count.
+[[nodiscard]] std::optional<std::string> mesh_differs(const solid::TriangleMesh& mesh,
+                                                      const Pot& pot);
+#endif
 
 }  // namespace clay::cli

@@ -93,7 +93,7 @@ Result<Start> load_start(const std::string& scene_path, const std::string& pot_p
                          const Console& console) {
   Start start{scene_path, pot_path, {}, {}};
   if (!pot_path.empty()) {
-    auto pot = read_pot(pot_path);
+    auto pot = read_pot(pot_path, console);
     if (!pot) return tl::make_unexpected(pot.error());
     start.pot = std::move(*pot);
   }

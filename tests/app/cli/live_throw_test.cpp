@@ -162,26 +162,29 @@ TEST(LiveThrow, KeepsThePotWhenStdoutCloses) {
   EXPECT_EQ(replayed(folder), read_text(folder.file("a.pot.json")));
 }
 
-TEST(LiveThrow, RefusesAStiffSceneUnlessSoftened) {
+TEST(LiveThrow, SoftensAStiffSceneOrRefusesIt) {
   const ScratchFolder folder;
   auto scene = nlohmann::json::parse(read_text(sample("paper/bowl.scene.json")));
   scene["force"]["stiffness_n_per_mm2"] = 0.2;
   const std::string path = folder.file("stiff.scene.json");
   write_text(path, scene.dump());
   const std::string live = "throw " + path + " --device simulated --seconds 0.2 --json";
-  const auto refused = claystack(live);
+  const auto softened = claystack(live);
+  EXPECT_EQ(softened.status, 0);
+  EXPECT_NE(softened.err.find("stiffness_n_per_mm2 is lowered to 0.033"), std::string::npos)
+      << softened.err;
+  const auto refused = claystack(live + " --no-soften");
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.err.find("force.stiffness_n_per_mm2: expected at most 0.033"),
             std::string::npos)
       << refused.err;
-  EXPECT_NE(refused.err.find("--soften"), std::string::npos);
+  EXPECT_NE(refused.err.find("--no-soften"), std::string::npos);
   // Twice the travel of the hand at the same force is half as stiff; at unit gain it is twice as
   // stiff.
-  EXPECT_EQ(claystack(live + " --soften").status, 0);
   scene["force"]["stiffness_n_per_mm2"] = 0.03;
   write_text(path, scene.dump());
-  EXPECT_EQ(claystack(live).status, 0);
-  EXPECT_EQ(claystack(live + " --scale 2 --force-gain 1").status, 2);
+  EXPECT_EQ(claystack(live + " --no-soften").status, 0);
+  EXPECT_EQ(claystack(live + " --no-soften --scale 2 --force-gain 1").status, 2);
 }
 
 TEST(LiveThrow, ReportsUnsupportedRequests) {

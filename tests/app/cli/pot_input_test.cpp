@@ -1,0 +1,29 @@
+#include "app/cli/pot_input.hpp"
+
+#include <gtest/gtest.h>
+
+namespace clay::cli {
+namespace {
+
+/// A box of this width and height [mm], somewhere on a plate.
+solid::TriangleMesh box(double width, double height) {
+  return {{{100, 50, 0}, {100 + width, 50 + 0.9 * width, height}, {100, 50, height}}, {{0, 1, 2}}};
+}
+
+TEST(MeshDiffers, FromThePotInAnotherSizeOrShape) {
+  Pot pot;
+  pot.stack = ClayStack::cylinder(50, 1.0, 40.0, 30.0, 50).value();  // 80 mm wide, 50 mm high
+  EXPECT_FALSE(mesh_differs(box(80, 50), pot));
+  EXPECT_FALSE(mesh_differs(box(79.5, 50), pot)) << "facets";
+  EXPECT_FALSE(mesh_differs(box(80 / 0.88, 50 / 0.88), pot)) << "enlarged for a shrinkage";
+  EXPECT_FALSE(mesh_differs(box(160, 100), pot)) << "the largest shrinkage";
+  EXPECT_TRUE(mesh_differs(box(40, 25), pot)) << "scaled";
+  EXPECT_TRUE(mesh_differs(box(80, 45), pot)) << "cut";
+  EXPECT_TRUE(mesh_differs(box(180, 50), pot)) << "two pots on a plate";
+  EXPECT_EQ(mesh_differs(box(40, 25), pot),
+            "the mesh is 40.0 mm wide and 25.0 mm high, the pot inside 80.0 mm and 50.0 mm: another "
+            "program changed the mesh");
+}
+
+}  // namespace
+}  // namespace clay::cli
