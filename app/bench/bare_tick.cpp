@@ -7,6 +7,7 @@
 #include "engine/tick/redistribution.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <glm/common.hpp>
 
 namespace clay::bench {
@@ -33,9 +34,11 @@ BareWheel::BareWheel(const SceneSpec& scene) : plan_(StepPlan::build(scene).valu
   removals_[0].removed.reserve(touches);
 }
 
-void BareWheel::step(const Pose& pose) noexcept {
+StepReport BareWheel::step(const Pose& pose) noexcept {
+  StepReport report;
   ToolState tool = tracker_.advance(pose);
-  if (!tool.valid) return;
+  report.flags = (tool.valid ? 0u : kRefused) | (tool.dt_clamped ? kLongStep : 0u);
+  if (!tool.valid) return report;
   ToolRemoval& removal = removals_[0];
   find_contact<Model::conserving>(plan_.tool, stack_, tool.hip_mm, removal.contact, tool.moved_mm);
   const bool touches = !removal.contact.rings.empty();
@@ -47,18 +50,23 @@ void BareWheel::step(const Pose& pose) noexcept {
     const glm::dvec3 hip = tool.hip_mm - static_cast<double>(parts - part) * tool.moved_mm;
     if (parts > 1)
       find_contact<Model::conserving>(plan_.tool, stack_, hip, removal.contact, tool.moved_mm);
-    if (!removal.contact.rings.empty()) press(tool);
+    if (!removal.contact.rings.empty()) press(tool, report);
   }
+  return report;
 }
 
-void BareWheel::press(const ToolState& tool) noexcept {
+void BareWheel::press(const ToolState& tool, StepReport& report) noexcept {
   ToolRemoval& removal = removals_[0];
+  report.flags |= kContact;
+  report.rings_touched = static_cast<std::uint32_t>(removal.contact.rings.touched());
   const double half_rise = 0.5 * tool.moved_mm.y / stack_.ring_height_mm();
   removal.contact.up_offset += std::max(half_rise, 0.0);
   removal.contact.down_offset += std::max(-half_rise, 0.0);
   compute_removal<Model::conserving>(plan_.removal, stack_, tool.dt_s, removal.contact,
                                      removal.removed);
-  press_clay<Model::conserving>(plan_, removals_, tool.upward, stack_, ledger_, &rim_);
+  const Flow flow =
+      press_clay<Model::conserving>(plan_, removals_, tool.upward, stack_, ledger_, &rim_);
+  report.flags |= (flow.grown > 0 ? kGrew : 0u) | (flow.ring_limit ? kRingLimit : 0u);
 }
 
 double bare_stroke_s(const SceneSpec& scene, double depth_mm) {

@@ -4,6 +4,7 @@
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tick.hpp"
+#include "claystack/engine/wheel.hpp"
 #include "engine/tick/redistribution.hpp"
 #include "engine/tick/removal.hpp"
 #include "engine/tool/tool_state.hpp"
@@ -16,11 +17,11 @@ class BareWheel {
  public:
   /// For a scene that Wheel::build accepts; ignores its settings for the four stages.
   explicit BareWheel(const SceneSpec& scene);
-  void step(const Pose& pose) noexcept;
+  StepReport step(const Pose& pose) noexcept;  ///< the engine's report: it is not a stage
   [[nodiscard]] const ClayStack& stack() const noexcept { return stack_; }
 
  private:
-  void press(const ToolState& tool) noexcept;
+  void press(const ToolState& tool, StepReport& report) noexcept;
   StepPlan plan_;
   ClayStack stack_;
   Ledger ledger_;

@@ -5,6 +5,31 @@
 namespace clay {
 namespace {
 
+// A wall is bent by what gives way over such a height. Clay that the end of a rib has just entered
+// gives way fastest, over a height that goes to zero with that of the rings.
+constexpr double kBendingMm = 4.0;
+
+/// How far the surface gives way in the mean over `kBendingMm` about the peak, or over the contact
+/// where that is lower. The outermost rings reach to the ends of the band.
+double mean_give(const TouchedRings& rings, const Band& band, double h) noexcept {
+  const double height = std::max(band.height_mm(), h), length = std::min(kBendingMm, height);
+  const double low = std::clamp(band.peak_mm - 0.5 * length, band.low_mm,
+                                std::max(band.low_mm, band.high_mm - length));
+  const double high = low + length;
+  const auto ring_at = [&](double up) {
+    return static_cast<std::size_t>(
+        std::clamp(up / h, static_cast<double>(rings.from()), static_cast<double>(rings.to() - 1)));
+  };
+  const std::size_t first = ring_at(low), last = ring_at(high);
+  double sum = 0.0;
+  rings.each_slice(first, last + 1, [&](const auto& slice) {
+    for (std::size_t k = slice.begin; k < slice.end; ++k) sum += slice.rows.give[k];
+  });
+  const double below = low - static_cast<double>(first) * h,
+               above = static_cast<double>(last + 1) * h - high;
+  return (h * sum - below * rings.give(first) - above * rings.give(last)) / length;
+}
+
 /// Where the contact ends beside its last ring, `next` being the one beyond it.
 double end_beside(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
                   std::size_t last, bool up) noexcept {
@@ -49,13 +74,13 @@ Band band_of(const Tool& tool, const ClayStack& stack, double hip_y,
       const double give = slice.rows.give[k],
                    level = static_cast<double>(slice.ring + (k - slice.begin)) + 0.5;
       band.deepest_mm = std::max(band.deepest_mm, slice.rows.depth[k]);
-      band.give_mm = std::max(band.give_mm, give);
       peak.add(level, give);
     }
   });
   band.low_mm = end_beside(tool, stack, hip_y, contact, rings.from(), false);
   band.high_mm = end_beside(tool, stack, hip_y, contact, rings.to() - 1, true);
   peak.settle(stack.ring_height_mm(), band);
+  band.give_mm = mean_give(rings, band, stack.ring_height_mm());
   return band;
 }
 

@@ -13,7 +13,7 @@ namespace clay {
 struct Band {
   double low_mm = 0.0, high_mm = 0.0;  ///< ends of the contact above the wheel head
   double peak_mm = 0.0;                ///< where the surface gives way most (`Peak`)
-  double give_mm = 0.0;                ///< how far it does at most
+  double give_mm = 0.0;                ///< how far it does about there, in the mean over 4 mm
   double deepest_mm = 0.0;             ///< of the tool in the clay
   std::size_t ring = 0;                ///< of the peak
 

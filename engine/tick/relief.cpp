@@ -9,11 +9,10 @@ namespace {
 constexpr int kSamples = 512;  // of a profile
 
 Cone cone_of(const Tool& tool, const Shoulders& shoulders, double h, double hip_y, const Band& band,
-             Contact& contact, bool up) noexcept {
+             const Contact& contact, bool up) noexcept {
   Cone cone{.outside = contact.side == Side::compressive, .up = up};
   const double shoulder = hip_y + (up ? shoulders.high_mm : shoulders.low_mm);
   const double from = up ? std::min(shoulder, band.high_mm) : std::max(shoulder, band.low_mm);
-  // The clay is as deep in the tool there as in the nearest ring before.
   const double level = from / h - 0.5;
   const double first = static_cast<double>(contact.rings.from());
   const double last = static_cast<double>(contact.rings.to() - 1);
@@ -21,7 +20,8 @@ Cone cone_of(const Tool& tool, const Shoulders& shoulders, double h, double hip_
   const bool before = up ? ring > level : ring < level;
   cone.from_mm = before ? (ring + 0.5) * h : from;
   cone.beside = static_cast<std::size_t>(ring);
-  const double out = tool.radius(cone.from_mm - hip_y) - contact.rings.depth(cone.beside);
+  // On the tool, not on the clay: a ring that an end has just entered still stands far out.
+  const double out = tool.radius(cone.from_mm - hip_y);
   cone.base_mm = contact.axis_distance_mm + (cone.outside ? -out : out);
   return cone;
 }

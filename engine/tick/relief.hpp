@@ -28,10 +28,10 @@ struct Shoulders {
 };
 [[nodiscard]] Shoulders shoulders_of(const Tool& tool);
 
-/// The cone at one end of a contact, as the clay's surface lies against the tool. [mm]
+/// The cone at one end of a contact. [mm]
 struct Cone {
   double from_mm = 0.0;    ///< height at which it begins
-  double base_mm = 0.0;    ///< radius of the surface there
+  double base_mm = 0.0;    ///< radius of the tool's surface there
   std::size_t beside = 0;  ///< the last touched ring before it
   bool outside = true, up = true;
   bool meets = false;  ///< clay beyond the contact

@@ -78,6 +78,10 @@ class TouchedRings {
     slices(*this, first, end, use);
   }
   template <class Use>
+  void each_slice(std::size_t first, std::size_t end, Use use) const noexcept {
+    slices(*this, first, end, use);
+  }
+  template <class Use>
   void each_slice(Use use) noexcept {
     slices(*this, from_, to_, use);
   }

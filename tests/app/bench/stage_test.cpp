@@ -16,7 +16,7 @@
 namespace clay::test {
 namespace {
 
-TEST(BareTick, MatchesTheEnginesStackBitForBit) {
+TEST(BareTick, MatchesTheEnginesStackAndReportBitForBit) {
   for (const double inner_mm : {0.0, 20.0}) {
     SceneSpec scene;
     scene.force.reset();
@@ -24,8 +24,9 @@ TEST(BareTick, MatchesTheEnginesStackBitForBit) {
     Wheel wheel = Wheel::build(scene).value();
     bench::BareWheel bare(scene);
     for (const Pose& pose : cli::stroke_poses(scene, cli::kFirmMm)) {
-      wheel.step(pose);
-      bare.step(pose);
+      const StepReport report = wheel.step(pose), bare_report = bare.step(pose);
+      ASSERT_EQ(report.flags, bare_report.flags);
+      ASSERT_EQ(report.rings_touched, bare_report.rings_touched);
     }
     EXPECT_NE(wheel.stack(), Wheel::build(scene)->stack());
     EXPECT_EQ(wheel.stack(), bare.stack());
