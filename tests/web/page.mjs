@@ -64,11 +64,16 @@ async function throwAndExport(browser) {
   await page.mouse.click(302, 465);  // Lump, of the bowl
   await page.says('work started: bowl');
   await page.says('checked: proved');
+  await pause(2500);
+  const lump = await page.lastLine('work started');
   await drag(page);
   await page.mouse.up();
   await page.says('stroke ended');
   await page.says('checked: proved', 2);
-  await pause(1500);
+  await pause(2500);
+  const thrown = await page.lastLine('stroke ended');
+  console.log('  longest time without a frame after the lump appeared and after the stroke: ' +
+              `${lump.gap.toFixed(0)} and ${thrown.gap.toFixed(0)} ms`);
   await picture(page, 'thrown');
   await chord(page, 'KeyZ', 'Control');
   await page.says('action: edit.undo');
