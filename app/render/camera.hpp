@@ -33,6 +33,11 @@ struct Viewport {
   friend bool operator==(const Viewport&, const Viewport&) = default;
 };
 
+/// Some rows of a picture [px], counted from the bottom, as OpenGL does.
+struct PixelRows {
+  int first = 0, count = 0;
+};
+
 [[nodiscard]] glm::dvec3 eye_mm(const Camera& camera) noexcept;
 /// From the wheel's coordinates to the camera's, which looks along -z.
 [[nodiscard]] glm::dmat4 view_matrix(const Camera& camera) noexcept;

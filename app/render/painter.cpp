@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstddef>
+#include <iterator>
 #include <optional>
 
 namespace clay::render {
@@ -18,11 +21,27 @@ GLuint bound_framebuffer() {
   return static_cast<GLuint>(bound);
 }
 
+/// Small pictures that use every program, one after the other.
+std::array<Picture, 4> rehearsal() {
+  Picture clay;
+  clay.pot = {{{10.0f, 0.0f}, {10.0f, 8.0f}}, 10.0, {}, {}};
+  clay.camera = framed(clay.pot, 1.0);
+  Picture cut = clay, coated = clay, tool = clay;
+  cut.cut = Cut::quarter;
+  coated.material = kWet;
+  tool.tool = ToolView{.half_profile_mm = {{0.0f, -5.0f}, {5.0f, 0.0f}, {0.0f, 5.0f}},
+                       .place_mm = {12.0, 5.0, 0.0},
+                       .gap_mm = {},
+                       .force_n = {1.0, 0.0, 0.0}};
+  return {clay, tool, cut, coated};
+}
+
 }  // namespace
 
 struct Painter::State {
   ScenePainter scene;
   std::optional<Canvas> canvas;  ///< multisampled, of the last requested size
+  std::size_t warm = 0;          ///< how many pictures warm_up has drawn
 };
 
 Painter::Painter(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -36,12 +55,17 @@ Result<Painter> Painter::create() {
     return failure(ErrorKind::device, fmt::format("expected OpenGL 3.3 or later, found {}.{}",
                                                   version / 10, version % 10));
   return ScenePainter::create().map([](ScenePainter scene) {
-    return Painter(std::make_unique<State>(State{std::move(scene), std::nullopt}));
+    return Painter(std::make_unique<State>(State{std::move(scene), std::nullopt, 0}));
   });
 }
 
 void Painter::paint(const Picture& picture, int width_px, int height_px, int samples) noexcept {
-  if (width_px < 1 || height_px < 1) return;
+  paint_rows(picture, width_px, height_px, samples, {0, height_px});
+}
+
+void Painter::paint_rows(const Picture& picture, int width_px, int height_px, int samples,
+                         PixelRows rows) noexcept {
+  if (width_px < 1 || height_px < 1 || rows.count < 1) return;
   const Viewport viewport{width_px, height_px};
   auto& canvas = state_->canvas;
   if (samples > 1 && !(canvas && canvas->is(width_px, height_px, samples))) {
@@ -50,17 +74,34 @@ void Painter::paint(const Picture& picture, int width_px, int height_px, int sam
     if (auto made = Canvas::create(width_px, height_px, samples)) canvas.emplace(std::move(*made));
   }
   if (samples <= 1 || !canvas) {
-    state_->scene.paint(picture, viewport);
+    state_->scene.paint(picture, viewport, rows);
     return;
   }
   const GLuint target = bound_framebuffer();
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas->framebuffer());
-  state_->scene.paint(picture, viewport);
+  state_->scene.paint(picture, viewport, rows);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas->framebuffer());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
-  glBlitFramebuffer(0, 0, width_px, height_px, 0, 0, width_px, height_px, GL_COLOR_BUFFER_BIT,
+  const int end = rows.first + rows.count;
+  glBlitFramebuffer(0, rows.first, width_px, end, 0, rows.first, width_px, end, GL_COLOR_BUFFER_BIT,
                     GL_NEAREST);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, target);
+}
+
+bool Painter::warm_up() noexcept {
+  constexpr int kSidePx = 16, kSamples[] = {1, 4};
+  const std::array<Picture, 4> pictures = rehearsal();
+  const std::size_t count = pictures.size() * std::size(kSamples);
+  if (state_->warm >= count) return false;
+  const std::size_t next = state_->warm++;
+  const GLuint target = bound_framebuffer();
+  // With samples and without, as the window draws.
+  if (const auto canvas = Canvas::create(kSidePx, kSidePx, kSamples[next / pictures.size()])) {
+    glBindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer());
+    state_->scene.paint(pictures[next % pictures.size()], {kSidePx, kSidePx}, {0, kSidePx});
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, target);
+  return state_->warm < count;
 }
 
 }  // namespace clay::render

@@ -24,6 +24,13 @@ class Painter {
   /// directly. With a software renderer (llvmpipe), four samples take more than twice the time: use
   /// none while things move.
   void paint(const Picture& picture, int width_px, int height_px, int samples) noexcept;
+  /// Draws these rows of the whole picture only. All rows in turn make the same picture.
+  void paint_rows(const Picture& picture, int width_px, int height_px, int samples,
+                  PixelRows rows) noexcept;
+
+  /// Draws a small hidden picture, because drivers compile a part of each program at its first use.
+  /// Returns whether another one is left. Changes the same as `paint`.
+  bool warm_up() noexcept;
 
  private:
   struct State;

@@ -57,7 +57,7 @@ Result<ScenePainter> ScenePainter::create() {
   return made;
 }
 
-void ScenePainter::paint(const Picture& picture, Viewport viewport) {
+void ScenePainter::paint(const Picture& picture, Viewport viewport, PixelRows rows) {
   const SceneFrame frame(picture, viewport);
   FrameBlock block = frame.block;
   if (!picture.alone && frame.from_above()) {
@@ -68,7 +68,8 @@ void ScenePainter::paint(const Picture& picture, Viewport viewport) {
   send(block);
   glViewport(0, 0, viewport.width_px, viewport.height_px);
   glDisable(GL_BLEND);
-  glDisable(GL_SCISSOR_TEST);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, rows.first, viewport.width_px, rows.count);
   glDisable(GL_STENCIL_TEST);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
@@ -88,6 +89,7 @@ void ScenePainter::paint(const Picture& picture, Viewport viewport) {
   }
   if (!picture.alone && frame.from_above()) paint_wheel(frame);
   if (!picture.alone) paint_background();
+  glDisable(GL_SCISSOR_TEST);
   glBindVertexArray(0);
   glUseProgram(0);
 }

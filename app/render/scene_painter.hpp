@@ -17,8 +17,8 @@ struct SceneFrame;
 class ScenePainter {
  public:
   static Result<ScenePainter> create();
-  /// Draws into the bound framebuffer.
-  void paint(const Picture& picture, Viewport viewport);
+  /// Draws these rows into the bound framebuffer.
+  void paint(const Picture& picture, Viewport viewport, PixelRows rows);
 
  private:
   void paint_background();

@@ -24,7 +24,6 @@ constexpr float kColumnEm = 16.0f, kNarrowestViewEm = 20.0f;
 constexpr float kBelowPart = 0.42f;  // of the height: the context below the view of a narrow window
 constexpr double kSpinUpS = 0.6;     // time of the wheel between rest and full speed
 constexpr double kLongestFrameS = 0.1;
-constexpr double kSettledS = 0.15;  // after this time without a change, the view is at rest
 
 std::int64_t steady_ns() {
   return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
@@ -58,12 +57,10 @@ Studio::Studio(Host& host, Settings settings, std::function<void(std::string_vie
 Result<std::unique_ptr<Studio>> Studio::create(Host& host, Settings settings,
                                                std::function<void(std::string_view)> log_line) {
   std::unique_ptr<Studio> studio(new Studio(host, std::move(settings), std::move(log_line)));
-  auto painter = render::Painter::create();
-  if (!painter) return tl::make_unexpected(painter.error());
-  studio->painter_.emplace(std::move(*painter));
-  auto smoother = render::EdgeSmoother::create();
-  if (!smoother) return tl::make_unexpected(smoother.error());
-  studio->smoother_.emplace(std::move(*smoother));
+  auto canvas = ViewCanvas::create();
+  if (!canvas) return tl::make_unexpected(canvas.error());
+  studio->canvas_.emplace(std::move(*canvas));
+  studio->warm_ = !host.real_time();
   studio->context_ = ImGui::CreateContext();
   connect_imgui(host);
   if (!ImGui_ImplOpenGL3_Init(render::glsl_version()))
@@ -80,7 +77,7 @@ Studio::~Studio() {
 }
 
 bool Studio::wakeful() const noexcept {
-  return !input_.empty() || moving() || fine_ != kFineness[0] || awake_frames_ > 0 ||
+  return !input_.empty() || moving() || canvas_->unfinished() || !warm_ || awake_frames_ > 0 ||
          state_.readings.checking() || state_.ui.thumbs_missing || state_.guide.busy() ||
          state_.exporter.busy() || state_.pictures.busy() || state_.file_dialog.open();
 }
@@ -121,7 +118,10 @@ bool Studio::frame(Painting painting) {
   turn_wheel(elapsed_s);
   if (painting == Painting::none) return false;
   const std::int64_t moved_ns = std::exchange(moved_ns_, 0);
-  if (!needs_paint() && painting == Painting::if_changed) return false;
+  if (!needs_paint() && painting == Painting::if_changed) {
+    if (!warm_) warm_ = !canvas_->warm_up();
+    return false;
+  }
   paint();
   if (moved_ns == 0 || !state_.host.real_time()) return true;
   glFinish();  // waits until the frame is drawn
@@ -203,7 +203,7 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   if (timeline > 0.0f)
     draw_timeline(model, actions, {left, top + tall - timeline}, {wide, timeline});
   const bool first = state_.scene.rect().size_px.x <= 1.0f;
-  place_view(model, view, timeline, right == 0.0f);
+  place_view(model, view, timeline, right == 0.0f && below == 0.0f);
   if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
   draw_target(model, view);
   const float verdict = draw_verdict(model, view);
@@ -213,7 +213,7 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   draw_pause(model, view);
   draw_export_marks(model, view, verdict);
   draw_hint(model, actions, free);
-  draw_guide(model, actions, free);
+  if (below == 0.0f) draw_guide(model, actions, free);  // else it would cover the pot
   draw_dialog(model, actions, view);
   draw_banner(model, actions, view, verdict);
 }
@@ -228,21 +228,12 @@ void Studio::place_view(const ViewModel& model, const ViewRect& view, float time
   if (before == 0.0f && guide_px_ > 0.0f) state_.scene.look(model.stroke.view(), ViewFrom::lesson);
 }
 
-/// Compares the view and the panels with those on the screen, and chooses the resolution of the
-/// view: it is reduced while the view changes.
+/// Compares the view and the panels with those on the screen.
 bool Studio::needs_paint() {
-  render::Picture picture = state_.scene.picture(view_model(state_));
-  const bool changed = picture != picture_;
-  if (changed) {
-    picture_ = std::move(picture);
-    changed_s_ = last_s_;
-  }
-  const bool changing = state_.host.real_time() && last_s_ - changed_s_ < kSettledS;
-  const Fineness fine = quality_.fineness(changing);
-  redraw_ = redraw_ || changed || fine != fine_;
-  fine_ = fine;
+  const bool view = canvas_->show(state_.scene.picture(view_model(state_)), state_.scene.viewport(),
+                                  last_s_, state_.host.real_time());
   const std::size_t panels = hash_of(*ImGui::GetDrawData());
-  return std::exchange(panels_, panels) != panels || redraw_;
+  return std::exchange(panels_, panels) != panels || view;
 }
 
 void Studio::paint() {
@@ -250,14 +241,18 @@ void Studio::paint() {
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
   const std::int64_t begun_ns = steady_ns();
   const bool drawn = update_canvas();
-  draw_view(static_cast<unsigned>(target));
   const glm::ivec2 size = state_.host.size_px();
+  const ViewRect& rect = state_.scene.rect();
+  // OpenGL counts rows from the bottom.
+  canvas_->copy_to(static_cast<unsigned>(target), {static_cast<int>(rect.corner_px.x),
+                                                   size.y - static_cast<int>(rect.corner_px.y) -
+                                                       state_.scene.viewport().height_px});
   glViewport(0, 0, size.x, size.y);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  if (!state_.host.real_time() || !drawn || last_s_ - changed_s_ >= kSettledS) return;
+  if (!drawn || !canvas_->changing()) return;
   glFinish();  // waits until the frame is drawn
   const std::int64_t now_ns = steady_ns();
-  quality_.took(seconds(now_ns - begun_ns));
+  canvas_->took(seconds(now_ns - begun_ns));
   if (!moving()) return;
   times_.drawing.add(now_ns - begun_ns);
   if (times_.last_ns > 0) {
@@ -267,51 +262,11 @@ void Studio::paint() {
   times_.last_ns = now_ns;
 }
 
-/// A canvas of the chosen resolution. False: the driver refuses it, which is reported.
-bool Studio::fit(std::optional<render::Canvas>& canvas) {
-  const render::Viewport view = state_.scene.viewport();
-  const int width = std::max(1, view.width_px / fine_.divisor);
-  const int height = std::max(1, view.height_px / fine_.divisor);
-  if (canvas && canvas->is(width, height, 0)) return true;
-  canvas.reset();
-  auto made = render::Canvas::create(width, height, 0);
-  if (!made) {
-    report(state_, made.error());
-    return false;
-  }
-  canvas.emplace(std::move(*made));
-  redraw_ = true;
-  return true;
-}
-
-/// Draws the picture into a separate canvas, because the painter fills its whole target. Returns
-/// whether it was necessary.
+/// Returns whether it was necessary. A driver that refuses the size is reported.
 bool Studio::update_canvas() {
-  const bool reduced = fine_.divisor > 1;
-  if (!fit(canvas_) || (reduced && !fit(smoothed_)) || !redraw_) return false;
-  glBindFramebuffer(GL_FRAMEBUFFER, canvas_->framebuffer());
-  painter_->paint(picture_, canvas_->width_px(), canvas_->height_px(), fine_.samples);
-  if (reduced) smoother_->draw(*canvas_, *smoothed_);
-  redraw_ = false;
-  return true;
-}
-
-/// Copies the canvas to the window.
-void Studio::draw_view(unsigned target) {
-  const auto& canvas = fine_.divisor > 1 ? smoothed_ : canvas_;
-  if (!canvas) return;
-  const glm::ivec2 size = state_.host.size_px();
-  const ViewRect& rect = state_.scene.rect();
-  const render::Viewport view = state_.scene.viewport();
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas->framebuffer());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
-  // OpenGL counts rows from the bottom.
-  const int left = static_cast<int>(rect.corner_px.x);
-  const int top = size.y - static_cast<int>(rect.corner_px.y);
-  glBlitFramebuffer(0, 0, canvas->width_px(), canvas->height_px(), left, top - view.height_px,
-                    left + view.width_px, top, GL_COLOR_BUFFER_BIT,
-                    fine_.divisor > 1 ? GL_LINEAR : GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, target);
+  const auto drawn = canvas_->draw();
+  if (!drawn) report(state_, drawn.error());
+  return drawn.value_or(false);
 }
 
 }  // namespace clay::studio

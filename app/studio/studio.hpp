@@ -1,11 +1,9 @@
 #pragma once
 // The window: processes input, updates the state, draws a frame.
 
-#include "app/render/edge_smoother.hpp"
-#include "app/render/gl_objects.hpp"
-#include "app/render/painter.hpp"
 #include "app/studio/app_state.hpp"
 #include "app/studio/input.hpp"
+#include "app/studio/view_canvas.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,46 +15,6 @@
 struct ImGuiContext;
 
 namespace clay::studio {
-
-struct Fineness {
-  int samples;  ///< samples per pixel
-  int divisor;  ///< divisor of width and height
-  friend bool operator==(const Fineness&, const Fineness&) = default;
-};
-inline constexpr std::array<Fineness, 4> kFineness = {{{4, 1}, {1, 1}, {1, 2}, {1, 3}}};
-
-/// Resolution of the view. Without a graphics card a view that changes, because the pot or the
-/// pointer moves, is drawn with fewer pixels, and with all of them at rest.
-class Quality {
- public:
-  [[nodiscard]] Fineness fineness(bool changing) const noexcept {
-    return kFineness[changing ? level_ : 0];
-  }
-  /// Reports the drawing time of a frame of a changing view.
-  void took(double seconds) noexcept {
-    smooth_s_ = smooth_s_ > 0.0 ? 0.7 * smooth_s_ + 0.3 * seconds : seconds;
-    // A pot that lags behind the hand is worse than a coarse one, so the resolution falls at once
-    // and rises slowly.
-    if (smooth_s_ > kSlowS && level_ + 1 < kFineness.size())
-      change(level_ + 1);
-    else if (++since_ >= kFramesBetween && smooth_s_ < kFastS && level_ > 0)
-      change(level_ - 1);
-  }
-
- private:
-  // The next finer level costs up to three times as much.
-  static constexpr double kSlowS = 0.033, kFastS = 0.010;
-  static constexpr int kFramesBetween = 30;
-  void change(std::size_t level) noexcept {
-    level_ = level;
-    since_ = 0;
-    smooth_s_ = 0.0;
-  }
-
-  std::size_t level_ = 0;
-  double smooth_s_ = 0.0;
-  int since_ = 0;
-};
 
 /// Frames with a moving pot.
 struct FrameTimes {
@@ -120,31 +78,21 @@ class Studio {
   void place_view(const ViewModel& model, const ViewRect& view, float timeline, bool narrow);
   [[nodiscard]] bool needs_paint();
   void paint();
-  void draw_view(unsigned target);
   bool update_canvas();
-  bool fit(std::optional<render::Canvas>& canvas);
 
   static constexpr int kFramesAfterInput = 3;  // frames until an ImGui window has settled
 
   AppState state_;
   ImGuiContext* context_ = nullptr;
-  std::optional<render::Painter> painter_;
-  std::optional<render::EdgeSmoother> smoother_;
-  /// The picture of the view; with fewer pixels than the view, `smoothed_` is the one shown.
-  std::optional<render::Canvas> canvas_, smoothed_;
+  std::optional<ViewCanvas> canvas_;
   std::deque<Input> input_;
   std::array<int, kPadButtons> pad_keys_{};  // the key that each button holds down; 0: none
   std::int64_t moved_ns_ = 0;  // arrival of the first motion that no frame shows yet; 0: none
   std::string title_;
   double last_s_ = 0.0;
   double spin_ = 0.0;  // speed of the wheel: 0 at rest, 1 at full speed
-  Quality quality_;
   FrameTimes times_;
-  // The view: its picture, the resolution of the canvas, and the time of the last change.
-  render::Picture picture_;
-  Fineness fine_ = kFineness[0];
-  double changed_s_ = -1.0;
-  bool redraw_ = true;      // the canvas does not show picture_
+  bool warm_ = false;       // the driver is prepared
   std::size_t panels_ = 0;  // hash of the painted panels
   int awake_frames_ = 0;    // ImGui needs some frames after an input
   float guide_px_ = 0.0f;   // kept free for the guide's card

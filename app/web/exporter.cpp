@@ -23,7 +23,8 @@ Result<ExportFigures> result_in(const std::string& message, const std::vector<st
   std::optional<web::ExportAnswer> answer;
   if (!message.empty()) answer = web::export_in(message);
   if (answer) return store(std::move(*answer), paths);
-  return failure(ErrorKind::io, "The export stopped: the browser may have too little memory");
+  return failure(ErrorKind::io,
+                 "The export stopped: the browser may have too little memory, or lacks a file");
 }
 
 }  // namespace

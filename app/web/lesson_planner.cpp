@@ -26,7 +26,7 @@ std::optional<LessonPlan> LessonPlanner::take() {
   LessonPlan failed;
   failed.node = answered->question.node;
   failed.step = answered->question.step;
-  failed.problem = "The plan stopped: the browser may have too little memory";
+  failed.problem = "The plan stopped: the browser may have too little memory, or lacks a file";
   return failed;
 }
 

@@ -23,7 +23,8 @@ std::optional<PotCheck> PotChecker::take() {
   if (!answered->message.empty())
     if (auto check = web::check_in(answered->message)) return check;
   PotCheck failed;
-  failed.why_not = "The check stopped: the browser may have too little memory";
+  failed.stopped = true;
+  failed.why_not = "The check stopped: the browser may have too little memory, or lacks a file";
   return failed;
 }
 

@@ -37,12 +37,16 @@ export async function openPage(browser, folder, url, size, before = null) {
   });
   page.on('pageerror', error => page.problems.push(error.message));
   page.on('console', line => { if (line.type() === 'error') page.problems.push(line.text()); });
-  // When the page announced each line, and the longest time without a frame since then [ms].
+  // When the page announced each line, the longest time without a frame since then, and the time of
+  // the wheel since then, of which a frame counts for 100 ms at most [ms].
   await page.evaluateOnNewDocument(() => {
     window.announced = [];
     let last = 0;
     const frame = now => {
-      for (const line of window.announced) line.gap = Math.max(line.gap, now - last);
+      for (const line of window.announced) {
+        line.gap = Math.max(line.gap, now - last);
+        line.turned += Math.min(100, now - last);
+      }
       last = now;
       requestAnimationFrame(frame);
     };
@@ -50,7 +54,7 @@ export async function openPage(browser, folder, url, size, before = null) {
     document.addEventListener('DOMContentLoaded', () => new MutationObserver(changes => {
       for (const change of changes)
         for (const line of change.addedNodes)
-          window.announced.push({text: line.textContent, at: performance.now(), gap: 0});
+          window.announced.push({text: line.textContent, at: performance.now(), gap: 0, turned: 0});
     }).observe(document.getElementById('events') ?? document, {childList: true}));
   });
   if (before) await page.evaluateOnNewDocument(before);

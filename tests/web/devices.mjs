@@ -32,13 +32,12 @@ function strokesOf(work) {
   return strokes.filter(stroke => stroke.length > 0);  // not the lump
 }
 
-/// The poses from the one at which `begun` becomes true, for `ms`.
-function part(stroke, begun, ms) {
-  const first = stroke.findIndex(begun);
-  assert.ok(first >= 0, 'expected a stroke that goes that far');
-  const poses = stroke.slice(first).filter(pose => pose.ms <= stroke[first].ms + ms);
-  assert.ok(poses.at(-1).ms - poses[0].ms > 0.8 * ms, 'expected a stroke that lasts longer');
-  return poses;
+/// The poses while a quantity of theirs goes from one value up to another, for the first time.
+function part(poses, of, from, to) {
+  const first = poses.findIndex(pose => of(pose) >= from), end = poses.findIndex(pose => of(pose) >= to);
+  assert.ok(first >= 0 && end > first,
+    `expected a stroke that goes from ${from} to ${to}, found ${Math.max(...poses.map(of)).toFixed(1)}`);
+  return poses.slice(first, end);
 }
 
 /// Mean speed of a quantity of the poses [mm/s].
@@ -46,12 +45,27 @@ function speed(poses, of) {
   return 1000 * (of(poses.at(-1)) - of(poses[0])) / (poses.at(-1).ms - poses[0].ms);
 }
 
-const inward = pose => -pose.rho;
+/// The median speed between poses: an event that the browser delivers late does not change it.
+function steadySpeed(poses, of) {
+  const speeds = poses.slice(1).map((pose, i) => speed([poses[i], pose], of)).sort((a, b) => a - b);
+  return speeds[Math.floor(speeds.length / 2)];
+}
 
 function near(found, expected, relative, what) {
   assert.ok(Math.abs(found - expected) <= relative * Math.abs(expected),
     `${what}: expected ${expected.toFixed(2)}, found ${found.toFixed(2)}`);
 }
+
+/// Waits for a time of the wheel [ms]: a frame counts for 100 ms at most (WebHost).
+const turns = (page, ms) => page.evaluate(ms => new Promise(done => {
+  let left = ms, last = performance.now();
+  const frame = now => {
+    left -= Math.min(100, Math.max(0, now - last));
+    last = now;
+    if (left > 0) requestAnimationFrame(frame); else done();
+  };
+  requestAnimationFrame(frame);
+}), ms);
 
 /// The lump of the bowl on the wheel; `before` runs before the scripts of the page.
 async function lump(open, before) {
@@ -64,7 +78,7 @@ async function lump(open, before) {
 }
 
 /// Saves the work and returns its strokes.
-async function saved(page, folder) {
+export async function saved(page, folder) {
   rmSync(join(folder, 'bowl.work'), {force: true});
   await page.focus('#canvas');
   await chord(page, 'KeyS', 'Control');
@@ -75,48 +89,75 @@ async function saved(page, folder) {
   return strokesOf(await downloaded(folder, 'bowl.work'));
 }
 
-// The tool, a ball of 10 mm radius, touches the lump of 45 mm radius at 55 mm.
-const kTouchMm = 55.0, kWhileMs = 300;
-/// How fast the tool goes into the clay.
-function bite(stroke) {
-  return speed(part(stroke, pose => pose.rho < kTouchMm - 0.5, kWhileMs), inward);
+// The lump is a cylinder of 48 mm radius and 40 mm height. Strokes are made at half of its height, by
+// the first tool, a ball of 10 mm radius, at the first speed of the wheel. The hand presses with up to
+// 80 mm/s.
+const kLumpMm = 48, kLumpHighMm = 40, kBallMm = 10, kTurnsPerS = 2, kHandMmPerS = 80;
+const depth = pose => kLumpMm + kBallMm - pose.rho;
+
+/// Speed of the tool into the clay [mm/s] between two depths.
+function bite(stroke, depths) {
+  const poses = part(stroke, depth, ...depths);
+  for (const {y} of poses)
+    assert.ok(y >= kBallMm && y <= kLumpHighMm - kBallMm, `expected the whole ball beside the lump, found it at ${y}`);
+  return steadySpeed(poses, depth);
 }
 
-/// The hand halves its step of 80 mm/s until the clay permits it, at most five times. A soft press
-/// (1 mm per turn) ends there, at 2.5 mm/s; a firm one (14 mm per turn) is permitted eight times as
-/// much or more.
-function softAndFirm([soft, firm], what) {
-  near(soft, 80 / 2 ** 5, 0.2, `${what}, soft [mm/s]`);
-  assert.ok(firm > 4 * soft, `${what}: expected a firm press to be faster, found ${firm} and ${soft}`);
+/// The expected speed of a press [mm/s] whose target is far within the clay. In one turn of the wheel
+/// the clay yields to the height of the tool times the bite, 0.5 to 20 mm by the strength, in equal
+/// ratios. The tool meets it with a chord. The hand halves its speed until the clay yields, at most
+/// five times. Clay that bulges lengthens the chord, up to the whole tool.
+function expectedBite(strength, [from]) {
+  const yields = 0.5 * 40 ** strength * kTurnsPerS * 2 * kBallMm;  // mm2/s
+  const speeds = [2 * Math.sqrt(from * (2 * kBallMm - from)), 2 * kBallMm].map(chord => {
+    let v = kHandMmPerS;
+    for (let k = 0; k < 5 && v * chord > yields; ++k) v /= 2;
+    return v;
+  });
+  assert.equal(speeds[0], speeds[1], 'expected a depth from which on the speed is constant');
+  return speeds[0];
 }
+
+/// The speeds of strokes with these strengths.
+function checkBites(strokes, strengths, what) {
+  const kDepths = [3, 5];
+  assert.equal(strokes.length, strengths.length);
+  const found = strokes.map(stroke => bite(stroke, kDepths));
+  const expected = strengths.map(strength => expectedBite(strength, kDepths));
+  const shown = values => values.map(v => v.toFixed(1)).join(', ');
+  console.log(`  ${what}: ${shown(found)} mm/s into the clay, expected ${shown(expected)}`);
+  found.forEach((v, i) => near(v, expected[i], 0.02, `${what}, strength ${strengths[i].toFixed(2)} [mm/s]`));
+}
+
+// Places of the pointer [px]: beside the lump, at its surface, and about 20 mm within it. Half of its
+// height; the view moves after the first stroke, to make room for the timeline.
+const kBesidePx = 790, kSurfacePx = 782, kWithinPx = 700;
+const halfHeightPx = stroke => stroke === 1 ? 345 : 455;
 
 /// A firmer pen goes faster into the clay.
 export async function pen({open, folder}) {
   const page = await lump(open);
   const events = await page.createCDPSession();
-  const kInto = 700;  // px: about 17 mm into the lump
   const stroke = async (force, count) => {
     const event = (type, x, more) => events.send('Input.dispatchMouseEvent',
-      {type, x, y: 522, pointerType: 'pen', force, button: 'left', clickCount: 1, ...more});
-    await event('mouseMoved', 790, {button: 'none', force: 0});
+      {type, x, y: halfHeightPx(count), pointerType: 'pen', force, button: 'left', clickCount: 1, buttons: 1, ...more});
+    await event('mouseMoved', kBesidePx, {button: 'none', buttons: 0, force: 0});
     await pause(300);
-    await event('mousePressed', 790, {buttons: 1});
-    for (let x = 790; x >= kInto; x -= 5) {
-      await event('mouseMoved', x, {buttons: 1});
-      await pause(20);
+    await event('mousePressed', kBesidePx);
+    // The hand slows down in contact. It learns of that with the next event of the pen.
+    for (const x of [kSurfacePx, kWithinPx, kWithinPx - 1, kWithinPx]) {
+      await event('mouseMoved', x);
+      await turns(page, 400);
     }
-    await pause(1500);
-    await event('mouseReleased', kInto, {buttons: 0});
+    await turns(page, 2500);
+    await event('mouseReleased', kWithinPx, {buttons: 0});
     await page.says('stroke ended', count);
     await chord(page, 'KeyZ', 'Control');
     await page.says('action: edit.undo', count);
   };
-  const kForces = [0.2, 0.9];
-  await stroke(kForces[0], 1);
-  await stroke(kForces[1], 2);
-  const found = (await saved(page, folder)).map(bite);
-  console.log(`  pen at ${kForces}: ${found.map(v => v.toFixed(1)).join(', ')} mm/s into the clay`);
-  softAndFirm(found, 'pen');
+  const kForces = [0.2, 0.5, 0.9];
+  for (const [i, force] of kForces.entries()) await stroke(force, i + 1);
+  checkBites(await saved(page, folder), kForces, 'pen');
   assert.deepEqual(page.problems, []);
   await page.browserContext().close();
 }
@@ -138,18 +179,21 @@ const rate = (way, dead) => ((way - dead) / (1 - dead)) ** 2;
 export async function gamepad({open, folder}) {
   const page = await lump(open, fakePad);
   const kRight = 7, kUndo = 4, kRedo = 5, kX = 0;  // of the standard layout
+  const kHalf = 0.5, kFast = 0.9;                  // deflections of the stick
   const hold = (button, value) => page.evaluate((b, v) => window.hold(b, v), button, value);
   const lean = (axis, value) => page.evaluate((a, v) => window.lean(a, v), axis, value);
   await page.evaluate(() => window.plug());
   await pause(500);
   const press = async (pulled, count) => {
-    await page.mouse.move(870, 522);
-    await page.mouse.move(860, 522);  // beside the lump, at about 78 mm
+    await page.mouse.move(870, halfHeightPx(count));
+    await page.mouse.move(860, halfHeightPx(count));  // beside the lump
     await pause(300);
     await hold(kRight, pulled);
     await page.says('stroke started', count);
-    await lean(kX, -0.5);
-    await pause(2500);
+    await lean(kX, -kHalf);
+    await turns(page, 500);  // about 13 of 20 mm to the lump
+    await lean(kX, -kFast);  // faster than the clay yields
+    await turns(page, 2600);
     await lean(kX, 0);
     await hold(kRight, 0);
     await page.says('stroke ended', count);
@@ -165,12 +209,11 @@ export async function gamepad({open, folder}) {
   await page.says('action: edit.redo');
   await hold(kRedo, 0);
   const strokes = await saved(page, folder);
-  const found = strokes.map(bite), air = strokes.map(stroke =>
-    speed(part(stroke, pose => pose.rho < stroke[0].rho - 4, kWhileMs), inward));
-  console.log(`  stick at 0.5: ${air.map(v => v.toFixed(1)).join(', ')} mm/s; trigger at ${kPulls}: ` +
-              `${found.map(v => v.toFixed(1)).join(', ')} mm/s into the clay`);
-  for (const v of air) near(v, 150 * rate(0.5, 0.15), 0.1, 'speed of the stick beside the clay [mm/s]');
-  softAndFirm(found, 'trigger');
+  const stick = 150 * rate(kHalf, 0.15);
+  const air = strokes.map(stroke => speed(part(stroke, depth, depth(stroke[0]) + 2, depth(stroke[0]) + 10), depth));
+  console.log(`  stick at ${kHalf}: ${air.map(v => v.toFixed(1)).join(', ')} mm/s, expected ${stick.toFixed(1)}`);
+  for (const v of air) near(v, stick, 0.1, 'speed of the stick beside the clay [mm/s]');
+  checkBites(strokes, kPulls.map(pulled => (pulled - 0.05) / 0.95), 'trigger');
   assert.deepEqual(page.problems, []);
   await page.browserContext().close();
 }
@@ -193,6 +236,8 @@ function fakeHid() {
   window.unplug = () => hid.dispatchEvent(Object.assign(new Event('disconnect'), {device}));
 }
 
+const kWholeCap = 350;  // counts of the full deflection
+
 /// A report of the three translations: 16 bits each, low byte first; x right, y to the user, z down.
 function translation(x, y, z) {
   const bytes = Buffer.alloc(7);
@@ -210,29 +255,32 @@ export async function spaceMouse({open, folder}) {
   assert.ok(filters.some(each => each.vendorId === 0x256f && each.productId === 0xc635));
   // A controller sends reports as long as its cap is moved, here for some time.
   const move = async (ms, ...cap) => {
-    await page.evaluate((bytes, ms) => new Promise(done => {
-      const timer = setInterval(() => window.report(bytes), 8);
-      setTimeout(() => { clearInterval(timer); done(); }, ms);
-    }), translation(...cap), ms);
-    await page.evaluate(bytes => window.report(bytes), translation(0, 0, 0));
-    await pause(400);
+    await page.evaluate(bytes => { window.moved = setInterval(() => window.report(bytes), 8); }, translation(...cap));
+    await turns(page, ms);
+    await page.evaluate(bytes => {
+      clearInterval(window.moved);
+      window.report(bytes);
+    }, translation(0, 0, 0));
+    await turns(page, 300);
   };
-  await move(900, 0, 0, -350);   // up
-  await move(1200, 0, 0, 175);   // down, at half of the cap
-  await move(1500, -350, 0, 0);  // left, into the clay
+  // The tool begins at a radius of 60 mm and a height of 75 mm.
+  await move(350, 0, 0, -kWholeCap);         // up by about 45 mm
+  await move(750, 0, 0, kWholeCap);          // down by about 96 mm, beside the lump
+  await move(1000, -kWholeCap / 2, 0, 0);    // left into the clay, by about 29 mm
   await page.evaluate(() => window.unplug());
   await page.says('stroke ended');
-  const poses = (await saved(page, folder)).flat();
-  const highest = poses.reduce((best, pose, i) => pose.y > poses[best].y ? i : best, 0);
-  const rises = part(poses, pose => pose.y > poses[0].y + 5, 300);
-  const sinks = part(poses.slice(highest), pose => pose.y < poses[highest].y - 2, 300);
-  const goes = part(poses.slice(highest), pose => pose.x < poses[highest].x - 5, 300);
-  const found = [speed(rises, pose => pose.y), -speed(sinks, pose => pose.y), -speed(goes, pose => pose.x)];
-  console.log(`  cap up, half down, left: ${found.map(v => v.toFixed(1)).join(', ')} mm/s`);
-  const kFull = 80, kHalf = kFull * rate(0.5, 0.05);
-  near(found[0], kFull, 0.1, 'speed upwards [mm/s]');
-  near(found[1], kHalf, 0.1, 'speed downwards [mm/s]');
-  near(found[2], kFull, 0.1, 'speed to the left [mm/s]');
+  const strokes = await saved(page, folder);
+  assert.equal(strokes.length, 1, 'expected one stroke that touches the clay');
+  const [poses] = strokes;
+  const up = pose => pose.y, down = pose => -pose.y, left = pose => -pose.x;
+  const highest = poses.reduce((best, pose, i) => pose.y > poses[best].y ? i : best, 0), after = poses.slice(highest);
+  const found = [steadySpeed(part(poses, up, 80, 105), up), steadySpeed(part(after, down, -105, -45), down),
+    steadySpeed(part(after, left, -58, -45), left)];
+  console.log(`  cap up, down, half left: ${found.map(v => v.toFixed(1)).join(', ')} mm/s`);
+  const kWhole = 80 * 1.6, kHalf = kWhole * rate(0.5, 0.05);  // 80 mm/s of the hand, 1.6 mm per mm
+  near(found[0], kWhole, 0.02, 'speed upwards [mm/s]');
+  near(found[1], kWhole, 0.02, 'speed downwards [mm/s]');
+  near(found[2], kHalf, 0.02, 'speed to the left [mm/s]');
   await page.click('#words');
   const report = await page.$eval('#report-text', element => element.textContent);
   assert.match(report, /Unaccounted for: 0\n/);

@@ -87,8 +87,9 @@ void draw_pull(const ViewModel& model, ImDrawList* draw, glm::vec2 tool_px) {
   draw->PathStroke(ink, ImDrawFlags_None, 0.22f * em);
 }
 
-/// The clay below this line stays: no tool opens the bottom deeper.
-void draw_floor(const ViewModel& model, ImDrawList* draw) {
+/// The clay below this line stays: no tool opens the bottom deeper. Its text stands beside the
+/// line, or below it if the view, which begins at `view_left`, is too narrow.
+void draw_floor(const ViewModel& model, ImDrawList* draw, float view_left) {
   if (!model.document.scene().clay || model.document.scene().clay->floor_mm <= 0.0) return;
   const double y_mm = model.document.scene().clay->floor_mm;
   const render::Row* row = row_at(model.stroke.view(), y_mm);
@@ -102,9 +103,11 @@ void draw_floor(const ViewModel& model, ImDrawList* draw) {
   for (float x = left->x; x < right->x; x += 2.0f * dash)
     draw->AddLine({x, left->y}, {std::min(x + dash, right->x), left->y}, ink, 0.1f * em);
   const std::string text = fmt::format("floor stop {}", length_text(y_mm, model.settings.unit));
-  shaded_text(draw,
-              {left->x - 0.7f * em - ImGui::CalcTextSize(text.c_str()).x, left->y - 0.5f * em},
-              text, ImGui::GetStyleColorVec4(ImGuiCol_Text));
+  const float beside = left->x - 0.7f * em - ImGui::CalcTextSize(text.c_str()).x;
+  const float least = view_left + 0.5f * em;
+  const ImVec2 at =
+      beside >= least ? ImVec2(beside, left->y - 0.5f * em) : ImVec2(least, left->y + 0.4f * em);
+  shaded_text(draw, at, text, ImGui::GetStyleColorVec4(ImGuiCol_Text));
 }
 
 }  // namespace
@@ -125,7 +128,7 @@ void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
   const render::Row* row = row_at(model.stroke.view(), tool->place_mm.y);
   const double widest = row != nullptr ? static_cast<double>(row->outer_mm) : 0.0;
   const bool near = model.stroke.throwing() || rho < widest + 40.0;
-  if (near && (tool->inside || rho < kBoreMm + 20.0)) draw_floor(model, draw);
+  if (near && (tool->inside || rho < kBoreMm + 20.0)) draw_floor(model, draw, rect.corner_px.x);
   draw_pull(model, draw, at);
   if (near) draw_lines(draw, figures_at(model, *tool), at, rect.corner_px.x + rect.size_px.x);
   draw->PopClipRect();

@@ -75,10 +75,11 @@ std::string volume_text(double mm3) { return fmt::format("{:.3f} ml", 1e-3 * mm3
 void headline(const PotCheck& check, bool again, const Palette& colours) {
   ImGui::TextColored(check.proved ? colours.good : colours.fault, "%s",
                      check.proved ? "Proved: one closed solid" : "Not proved");
-  faint_text(colours, again          ? "Checking the current pot..."
-                      : check.live   ? "Checked: the outline during the stroke"
-                      : check.fallen ? "Checked: the triangles of the fallen pot"
-                                     : "Checked: the exact pot");
+  faint_text(colours, again           ? "Checking the current pot..."
+                      : check.stopped ? "Not checked"
+                      : check.live    ? "Checked: the outline during the stroke"
+                      : check.fallen  ? "Checked: the triangles of the fallen pot"
+                                      : "Checked: the exact pot");
 }
 
 void figures(const PotCheck& check, const Palette& colours, LengthUnit unit) {

@@ -239,6 +239,7 @@ bool PotCheck::ready() const {
 }
 
 std::string ready_text(const PotCheck& check, LengthUnit unit) {
+  if (check.stopped) return "Not checked";
   if (!check.proved)
     return check.fault_mm ? fmt::format("Not ready: in two parts at a height of {}",
                                         length_text(*check.fault_mm, unit))
@@ -252,6 +253,7 @@ std::string ready_text(const PotCheck& check, LengthUnit unit) {
 
 std::string wall_text(const PotCheck& check, LengthUnit unit) {
   if (check.fallen) return "Fallen: walls are not measured";
+  if (check.stopped) return "Walls unknown: the pot is not checked";
   if (!check.proved) return "Walls unknown: the section is not that of one solid";
   std::string words =
       fmt::format("Thinnest wall {}, at a height of {}", length_text(check.thinnest_mm, unit),

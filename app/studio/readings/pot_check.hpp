@@ -49,7 +49,8 @@ struct PotRemark {
 };
 
 struct PotCheck {
-  bool live = false;  ///< made from the outline during a stroke
+  bool live = false;     ///< made from the outline during a stroke
+  bool stopped = false;  ///< the check could not be finished: nothing is known
   bool proved = false;
   std::string why_not;
   std::optional<double> fault_mm;  ///< height of the fault, where it has one

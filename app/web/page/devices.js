@@ -69,7 +69,7 @@ async function listenToHid() {
   const filters = JSON.parse(studio.UTF8ToString(studio._claystack_hid_filters()));
   const known = device => filters.some(filter =>
     filter.vendorId === device.vendorId && filter.productId === device.productId);
-  if (matchMedia('(pointer: fine)').matches) by('hid').hidden = false;  // not on a phone
+  by('hid').hidden = matchMedia('(pointer: coarse)').matches;  // not on a phone
   by('hid').onclick = async () => {
     for (const device of await hid.requestDevice({filters})) await connectHid(device);
     canvas.focus();

@@ -125,13 +125,15 @@ function listenToKeys() {
     // Tab goes on to the buttons of the page, unless a dialog or menu uses it.
     if (event.key === 'Tab' && (event.shiftKey || !studio._claystack_dialog_open())) return;
     if (control && code === 86) return;  // the event `paste` follows
+    const inDialog = studio._claystack_dialog_open();  // before the key closes it
     if (code >= 0) studio._claystack_key(code, true, event.repeat, mods(event));
     if (!control && !event.altKey && event.key.length === 1)
       studio._claystack_text(event.key.codePointAt(0));
     ask();
-    // Leaves the page's own keys to the browser: reload, developer tools, tabs.
-    if (code >= 0 && !(control && /^[rtnwl]$/i.test(event.key)) && !/^F(5|11|12)$/.test(event.key))
-      event.preventDefault();
+    // Leaves the page's own keys to the browser: reload, developer tools, tabs. In a dialog Ctrl+R
+    // recovers or replaces.
+    const browsers = control && (/^[tnwl]$/i.test(event.key) || (/^r$/i.test(event.key) && !inDialog));
+    if (code >= 0 && !browsers && !/^F(5|11|12)$/.test(event.key)) event.preventDefault();
   });
   canvas.addEventListener('keyup', event => {
     const code = codeOf(event);
@@ -228,21 +230,41 @@ function answered(slot, bytes) {
   ask();
 }
 
-function worker(slot) {
-  if (workers[slot]) return workers[slot];
+/// The module `claystack`, compiled once for all workers: a promise.
+let code = null;
+function compiled() {
+  code ??= (async () => {
+    const file = await fetch('claystack.wasm');
+    if (!file.ok) throw new Error(`claystack.wasm: the server answers ${file.status}`);
+    // A server that names another type of content refuses streaming.
+    return WebAssembly.compileStreaming(file.clone()).catch(async () => WebAssembly.compile(await file.arrayBuffer()));
+  })();
+  code.catch(() => { code = null; });  // the next worker tries again
+  return code;
+}
+
+function newWorker(take, fail) {
   const made = new Worker('worker.js');
-  made.onmessage = ({data}) => {
+  made.onmessage = ({data}) => { if (data.failure) fail(data.failure); else take(data); };
+  made.onerror = event => {
+    event.preventDefault();
+    fail(event.message);
+  };
+  compiled().then(code => made.postMessage({code}), error => fail(error.message));
+  return made;
+}
+
+function worker(slot) {
+  workers[slot] ??= newWorker(data => {
     if (data.answer) answered(slot, data.answer);
     else if (data.stage) withText(data.stage, text => studio._claystack_stage(slot, text));
     ask();
-  };
-  made.onerror = event => {
-    event.preventDefault();
-    page.log('error: worker: ' + event.message);
+  }, failure => {
+    page.log('error: worker: ' + failure);
     page.stop(slot);
     answered(slot, new Uint8Array());
-  };
-  return workers[slot] = made;
+  });
+  return workers[slot];
 }
 
 function showReport(title, verdict, text) {
@@ -255,18 +277,17 @@ function showReport(title, verdict, text) {
 
 function checkMesh(file) {
   showReport(file.name, 'Checking on this machine; the file is not sent anywhere...', '');
-  const made = new Worker('worker.js');
   const done = (verdict, text) => {
     made.terminate();
     by('report-verdict').textContent = verdict;
     by('report-text').textContent = text;
   };
-  by('report').onclose = () => made.terminate();
-  made.onmessage = ({data}) => done(
+  const made = newWorker(data => done(
     data.status === 0 ? 'Sound: one closed solid without self-intersections'
       : data.status === 1 ? 'Not sound: the report says why' : 'The file could not be read',
-    data.out || data.err);
-  made.onerror = event => done('The check stopped: the browser may have too little memory', event.message);
+    data.out || data.err),
+  failure => done('The check stopped: the browser may have too little memory, or lacks a file', failure));
+  by('report').onclose = () => made.terminate();
   made.postMessage({words: ['check', '--json', file.name], files: [file]}, [file.bytes.buffer]);
 }
 
@@ -411,6 +432,7 @@ async function start() {
   keepOffline();
   canvas.focus();
   openLink();
+  (window.requestIdleCallback ?? setTimeout)(() => compiled().catch(() => {}));  // before the first check
 }
 
 start().catch(error => say('Claystack could not start: ' + (error.message ?? error)));

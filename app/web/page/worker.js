@@ -1,15 +1,23 @@
 // A worker with its own copy of the module `claystack`. Messages:
-//   {question: bytes}                  -> {stage: text} ..., {answer: bytes}
+//   {code: the compiled module}            comes once, before or after the first question
+//   {question: bytes}                      -> {stage: text} ..., {answer: bytes}
 //   {words: [...], files: [{name, bytes}]} -> {status, out, err}: one command of the program
+// {failure: text}: it cannot answer, for example because the browser has too little memory.
 'use strict';
 importScripts('claystack.js');
 
-const made = claystack({
-  print: line => { out += line + '\n'; },
-  printErr: line => { err += line + '\n'; },
-  onStage: stage => postMessage({stage}),
-});
-let out = '', err = '';
+let out = '', err = '', provide;
+const made = new Promise(done => { provide = done; }).then(code => new Promise((done, fail) => {
+  claystack({
+    print: line => { out += line + '\n'; },
+    printErr: line => { err += line + '\n'; },
+    onStage: stage => postMessage({stage}),
+    instantiateWasm(imports, use) {
+      WebAssembly.instantiate(code, imports).then(instance => use(instance, code)).catch(fail);
+      return {};
+    },
+  }).then(done, fail);
+}));
 
 function answer(module, question) {
   const place = module._malloc(question.length);
@@ -30,7 +38,12 @@ function command(module, {words, files}) {
 }
 
 onmessage = async ({data}) => {
-  const module = await made;
-  if (data.question) answer(module, data.question);
-  else command(module, data);
+  if (data.code) return provide(data.code);
+  try {
+    const module = await made;
+    if (data.question) answer(module, data.question);
+    else command(module, data);
+  } catch (error) {
+    postMessage({failure: String(error?.message ?? error)});
+  }
 };

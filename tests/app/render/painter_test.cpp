@@ -1,6 +1,11 @@
+#include "app/render/painter.hpp"
+#include "app/render/gl_objects.hpp"
 #include "tests/app/render/drawn.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace clay::test {
 namespace {
@@ -229,6 +234,59 @@ TEST(Painter, DrawsAnEmptyWheelAndExtremePots) {
 TEST(Painter, IsDeterministic) {
   const auto picture = picture_of(pot_of([](double p) { return 30.0 + 20.0 * p; }, 80.0, 5.0, 6.0));
   EXPECT_EQ(drawn(picture), drawn(picture));
+}
+
+/// All pixels of a canvas.
+std::vector<std::uint8_t> pixels_of(const render::Canvas& canvas) {
+  std::vector<std::uint8_t> pixels(4 * static_cast<std::size_t>(canvas.width_px()) *
+                                   static_cast<std::size_t>(canvas.height_px()));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas.framebuffer());
+  glReadPixels(0, 0, canvas.width_px(), canvas.height_px(), GL_RGBA, GL_UNSIGNED_BYTE,
+               pixels.data());
+  return pixels;
+}
+
+TEST(Painter, RowsInTurnMakeTheWholePicture) {
+  render::Picture picture = with_tool({45.0, 20.0, 0.0});
+  picture.cut = render::Cut::quarter;
+  (void)drawn(picture);  // makes the context current
+  auto painter = render::Painter::create().value();
+  const int width = kView.width_px, height = kView.height_px;
+  for (const int samples : {1, 4}) {
+    const auto whole = render::Canvas::create(width, height, 0).value();
+    const auto parts = render::Canvas::create(width, height, 0).value();
+    glBindFramebuffer(GL_FRAMEBUFFER, whole.framebuffer());
+    painter.paint(picture, width, height, samples);
+    const auto expected = pixels_of(whole);
+    const auto paint_rows = [&](int first, int end) {
+      glBindFramebuffer(GL_FRAMEBUFFER, parts.framebuffer());
+      painter.paint_rows(picture, width, height, samples, {first, end - first});
+    };
+    glBindFramebuffer(GL_FRAMEBUFFER, parts.framebuffer());
+    glClearColor(1.0f, 0.0f, 1.0f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    const auto untouched = pixels_of(parts);
+    paint_rows(100, 217);
+    const auto some = pixels_of(parts);
+    const auto begin = untouched.begin(), found = some.begin();
+    const auto row = [&](int y) { return std::ptrdiff_t{4} * width * y; };
+    EXPECT_TRUE(std::equal(begin, begin + row(100), found));
+    EXPECT_TRUE(std::equal(begin + row(217), untouched.end(), found + row(217)));
+    paint_rows(0, 100);
+    paint_rows(217, height);
+    EXPECT_EQ(pixels_of(parts), expected) << samples;
+  }
+  EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
+}
+
+TEST(Painter, WarmsUpWithoutErrors) {
+  (void)drawn(with_tool({45.0, 20.0, 0.0}));
+  auto painter = render::Painter::create().value();
+  int pictures = 1;
+  while (painter.warm_up() && pictures < 100) ++pictures;
+  EXPECT_LT(pictures, 100);
+  EXPECT_FALSE(painter.warm_up());
+  EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
 }
 
 }  // namespace

@@ -287,6 +287,13 @@ TEST(Verdict, IsThatOfTheExport) {
   }
 }
 
+TEST(Verdict, ClaimsNothingAboutAPotThatIsNotChecked) {
+  PotCheck check;
+  check.stopped = true;
+  EXPECT_EQ(ready_text(check, LengthUnit::mm), "Not checked");
+  EXPECT_EQ(wall_text(check, LengthUnit::mm), "Walls unknown: the pot is not checked");
+}
+
 TEST(Verdict, NamesPlaceAndMeasureInTheUnit) {
   const auto verdict = [](std::vector<Ring> rings, LengthUnit unit) {
     return ready_text(check_pot(question_of(pot_of(std::move(rings)), "porcelain")), unit);
