@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace clay::cli {
@@ -21,7 +20,7 @@ constexpr double kSmallestMm = 1e-3, kLargestMm = 1e4;
 Result<solid::FootRing> foot_of(const std::string& text) {
   std::vector<std::string> parts;
   std::istringstream list(text);
-  for (std::string part; std::getline(list, part, 'x');) parts.push_back(std::move(part));
+  for (std::string part; std::getline(list, part, 'x');) parts.push_back(part);
   const std::string last = parts.empty() ? "" : parts.back();
   const std::size_t unit = last.find_last_of("0123456789.") + 1;
   std::vector<double> sizes;

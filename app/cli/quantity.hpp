@@ -34,6 +34,11 @@ Result<double> quantity_of(std::string_view text, std::span<const Unit> units);
 /// kind `bad_input` state limits and units.
 Result<double> length_of(std::string_view text, double low_mm, double high_mm);
 
+/// Replaces a text by the length in mm, as a number.
+[[nodiscard]] CLI::Validator length_within(double low_mm, double high_mm);
+/// What help shows in place of the value of a length.
+inline constexpr const char* kLengthName = "LENGTH";
+
 /// Adds an option for a length. Every length of the command line is read by it or by `length_of`,
 /// and may have a unit. `value`: a double or an optional of it [mm]. Without limits any finite
 /// length is read.
@@ -41,16 +46,7 @@ template <class Value>
 CLI::Option* add_length(CLI::App& command, const std::string& name, Value& value,
                         const std::string& help,
                         double low_mm = std::numeric_limits<double>::lowest(),
-                        double high_mm = std::numeric_limits<double>::max());
-
-/// Replaces a text by the length in mm, as a number.
-[[nodiscard]] CLI::Validator length_within(double low_mm, double high_mm);
-/// What help shows in place of the value of a length.
-inline constexpr const char* kLengthName = "LENGTH";
-
-template <class Value>
-CLI::Option* add_length(CLI::App& command, const std::string& name, Value& value,
-                        const std::string& help, double low_mm, double high_mm) {
+                        double high_mm = std::numeric_limits<double>::max()) {
   return command.add_option(name, value, help)
       ->type_name(kLengthName)
       ->transform(length_within(low_mm, high_mm));

@@ -227,7 +227,7 @@ std::string text_of(const solid::Problem& problem, const PotCheck& check, Length
       return fmt::format("overhang of {:.0f} degrees at a height of {}: print it with supports",
                          problem.figure, length_text(y_mm, unit));
     case solid::ProblemKind::lip_fillet:
-      return "lip fillet of " + length_text(problem.figure, unit) + ", less than asked for";
+      return fmt::format("the lip is rounded by only {}", length_text(problem.figure, unit));
     case solid::ProblemKind::bodies:
       break;
   }
