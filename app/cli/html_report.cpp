@@ -166,6 +166,8 @@ class Page {
       html_.element("p", {{"class", "good"}},
                     std::string("Closed and without self-intersections; ") +
                         (limits ? "all limits met." : "no limits were set."));
+    else if (!limits)
+      html_.element("p", {}, "No limits were set.");
     for (const solid::Problem& problem : problems)
       html_.element("p", {{"class", problem.fails ? "bad" : ""}}, sentence(problem.text));
   }

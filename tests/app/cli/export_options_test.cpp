@@ -201,12 +201,12 @@ TEST_F(ExportOptions, WarnsOfALipFilletThatIsSmallerThanAskedFor) {
   std::ostringstream begin;
   begin << "claystack: warning: lip fillet of " << std::fixed << std::setprecision(2) << made
         << " mm instead of 2 mm";
-  const std::string end = ": half the width of the lip does not allow more; sharper edges chip\n";
   const Ran small = run("--lip-fillet 2");
   EXPECT_EQ(small.status, 0);
-  EXPECT_NE(small.err.find(begin.str() + end), std::string::npos) << small.err;
+  EXPECT_NE(small.err.find(begin.str() + ": "), std::string::npos) << small.err;
+  EXPECT_NE(small.err.find("; sharper edges chip\n"), std::string::npos) << small.err;
   const Ran process = run("--process stoneware");
-  EXPECT_NE(process.err.find(begin.str() + " (stoneware)" + end), std::string::npos) << process.err;
+  EXPECT_NE(process.err.find(begin.str() + " (stoneware): "), std::string::npos) << process.err;
   const auto problems = run("--json --lip-fillet 2").json().at("problems");
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].at("text").get<std::string>().find("lip fillet of "), 0u);
