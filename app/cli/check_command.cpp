@@ -1,6 +1,7 @@
 #include "app/cli/check.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/output_files.hpp"
+#include "app/cli/quantity.hpp"
 #include "app/cli/usage.hpp"
 #include "core/text.hpp"
 
@@ -136,21 +137,21 @@ void add_repair_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& comm
   sub->add_flag("--repair", command->repair,
                 "Repair the mesh until it is sound, and report what was repaired; where that is "
                 "not possible, report the reason and write nothing");
-  sub->add_option("--weld", command->repair_options.weld_mm,
-                  "With --repair: width of the cracks that are welded [mm]; default: a quarter of "
-                  "the shortest edge at a border, at most 1/1000 of the size of the mesh")
-      ->check(in_range(0.0, 1e6));
+  constexpr double kLeastMm = 1e-3, kMostMm = 1e6;
+  add_length(*sub, "--weld", command->repair_options.weld_mm,
+             "With --repair: width of the cracks that are welded [mm]; default: a quarter of "
+             "the shortest edge at a border, at most 1/1000 of the size of the mesh",
+             0.0, kMostMm);
   sub->add_flag("--cap", command->repair_options.cap_openings,
                 "With --repair: close wide openings by caps instead of refusing them");
-  sub->add_option("--thicken", command->repair_options.thicken_mm,
-                  "With --repair: thickness of the wall that a surface with a wide opening gets, "
-                  "half on each side [mm]; default: such a surface is refused")
-      ->check(in_range(1e-3, 1e6));
-  sub->add_option(
-         "--wrap", command->repair_options.wrap_mm,
-         "With --repair, if all else fails: replace the surface by a wrap at this distance "
-         "around it [mm], which loses smaller details; default: such a mesh is refused")
-      ->check(in_range(1e-3, 1e6));
+  add_length(*sub, "--thicken", command->repair_options.thicken_mm,
+             "With --repair: thickness of the wall that a surface with a wide opening gets, "
+             "half on each side [mm]; default: such a surface is refused",
+             kLeastMm, kMostMm);
+  add_length(*sub, "--wrap", command->repair_options.wrap_mm,
+             "With --repair, if all else fails: replace the surface by a wrap at this distance "
+             "around it [mm], which loses smaller details; default: such a mesh is refused",
+             kLeastMm, kMostMm);
 }
 
 /// The changed mesh.

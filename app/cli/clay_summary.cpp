@@ -26,11 +26,10 @@ Json collapse_json(const Collapse& fall) {
 void add_export([[maybe_unused]] const Pot& pot, Json& json) {
   json["min_wall_mm"] = json["maker"] = nullptr;
 #ifdef CLAYSTACK_EXPORT
-  if (pot.collapse) return;
   const auto report = solid::run_export(pot, {}, {});
   if (!report) return;
-  json["min_wall_mm"] = report->walls.min_wall_mm;
-  json["maker"] = maker_json(*report->maker);
+  if (!report->collapsed) json["min_wall_mm"] = report->walls.min_wall_mm;
+  json["maker"] = maker_json(*report);
 #endif
 }
 

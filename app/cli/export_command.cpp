@@ -6,6 +6,7 @@
 #include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
+#include "app/cli/quantity.hpp"
 #include "app/cli/report_file.hpp"
 #include "app/cli/usage.hpp"
 #include "app/cli/wall_options.hpp"
@@ -25,6 +26,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -86,35 +88,12 @@ Result<double> part_of(const std::string& text, double most) {
   return 0.01 * percent;
 }
 
-/// A unit and its factor.
-struct Unit {
-  std::string_view name;
-  double factor;
-};
-
-/// "350ml", "0.35 l", "350": a number above 0 in the first of the units, or in the one that it
-/// names.
-Result<double> quantity_of(const std::string& text, const std::vector<Unit>& units) {
-  double number = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [stop, problem] = from_chars(text.data(), end, number);
-  std::string_view name(stop, static_cast<std::size_t>(end - stop));
-  if (name.starts_with(' ')) name.remove_prefix(1);
-  const auto unit = std::ranges::find_if(
-      units, [&](const Unit& known) { return name.empty() || known.name == name; });
-  if (problem == std::errc() && number > 0.0 && number < 1e9 && unit != units.end())
-    return number * unit->factor;
-  std::string names;
-  for (const Unit& known : units) names.append(names.empty() ? "" : ", ").append(known.name);
-  return failure(ErrorKind::bad_input,
-                 fmt::format("expected a number above 0 in {}, found {}", names, text));
-}
+constexpr double kMostSmoothMm = 1e4;
 
 /// "9mm", "9", "0"; "tool": empty.
 Result<std::optional<double>> smooth_length_of(const std::string& text) {
   if (text == "tool") return std::optional<double>();
-  if (text == "0" || text == "0mm") return std::optional<double>(0.0);
-  return quantity_of(text, {{"mm", 1.0}, {"cm", 10.0}})
+  return length_of(text, 0.0, kMostSmoothMm)
       .map([](double mm) { return std::optional<double>(mm); })
       .map_error([](const Error& error) {
         return Error{error.kind, error.message + "; or tool"};
@@ -313,10 +292,10 @@ void add_clay_options(CLI::App* sub, const SharedCommand& command) {
   add_part(sub, command, "--ignition-loss", kMost,
            "Loss in firing, in percent of the dry weight (default: 9%)",
            [](solid::ExportOptions& options) -> double& { return options.clay.ignition_loss; });
-  sub->add_option("--fill-line", command->request.options.fill_line_mm,
-                  "Fill line for the capacity, below the brim of the fired pot [mm]; with --holds "
-                  "the capacity is up to this line")
-      ->check(in_range(0.0, 1e4))
+  add_length(*sub, "--fill-line", command->request.options.fill_line_mm,
+             "Fill line for the capacity, below the brim of the fired pot [mm]; with --holds "
+             "the capacity is up to this line",
+             0.0, 1e4)
       ->capture_default_str();
   // After parsing: whether the line was asked for.
   sub->parse_complete_callback(
@@ -324,14 +303,15 @@ void add_clay_options(CLI::App* sub, const SharedCommand& command) {
 }
 
 /// An option in units, written "350ml".
-void add_quantity(CLI::App* sub, const std::string& name, std::optional<double>& value,
-                  const std::vector<Unit>& units, const std::string& help) {
-  sub->add_option_function<std::string>(
-         name,
-         [&value, units](const std::string& text) {
-           if (const auto quantity = quantity_of(text, units)) value = *quantity;
-         },
-         help)
+CLI::Option* add_quantity(CLI::App* sub, const std::string& name, std::optional<double>& value,
+                          std::span<const Unit> units, const std::string& help) {
+  return sub
+      ->add_option_function<std::string>(
+          name,
+          [&value, units](const std::string& text) {
+            if (const auto quantity = quantity_of(text, units)) value = *quantity;
+          },
+          help)
       ->check([units](const std::string& text) {
         const auto parsed = quantity_of(text, units);
         return parsed ? std::string() : parsed.error().message;
@@ -340,18 +320,19 @@ void add_quantity(CLI::App* sub, const std::string& name, std::optional<double>&
 
 /// Sizes to which the pot is scaled.
 void add_goal_options(CLI::App* sub, const SharedCommand& command) {
-  const std::vector<Unit> volumes{{"ml", 1.0}, {"cl", 10.0}, {"l", 1000.0}};
-  const std::vector<Unit> weights{{"g", 1.0}, {"kg", 1000.0}};
-  const std::vector<Unit> lengths{{"mm", 1.0}, {"cm", 10.0}};
-  add_quantity(sub, "--holds", command->goal.holds_ml, volumes,
+  // A goal for a length is above 0, like those for volume and weight.
+  const auto add_size = [&](const std::string& name, std::optional<double>& value,
+                            const std::string& help) {
+    add_quantity(sub, name, value, kLengthUnits, help)->type_name(kLengthName);
+  };
+  add_quantity(sub, "--holds", command->goal.holds_ml, kVolumeUnits,
                "Scale the pot to this capacity, such as 350ml: to the brim, or to --fill-line");
-  add_quantity(sub, "--weighs", command->goal.weighs_g, weights,
+  add_quantity(sub, "--weighs", command->goal.weighs_g, kWeightUnits,
                "Scale the pot to this weight, such as 400g");
-  add_quantity(sub, "--height", command->goal.height_mm, lengths,
-               "Scale the pot to this height, such as 120mm; with one more of these options, "
-               "height and radius are scaled apart");
-  add_quantity(sub, "--diameter", command->goal.diameter_mm, lengths,
-               "Scale the pot to this largest diameter");
+  add_size("--height", command->goal.height_mm,
+           "Scale the pot to this height, such as 120mm; with one more of these options, "
+           "height and radius are scaled apart");
+  add_size("--diameter", command->goal.diameter_mm, "Scale the pot to this largest diameter");
   sub->add_flag("--fired", command->goal.fired,
                 "The goal is of the fired pot, after --shrinkage; else of the pot as thrown");
 }
@@ -372,6 +353,7 @@ void add_smoothing_options(CLI::App* sub, const SharedCommand& command) {
          "With --smooth fair: continuous curvature; what is shorter along the height than this is "
          "smoothed away, such as 9mm; tool: the radius of the pot's tool; 0: straight from ring to "
          "ring (default: 0)")
+      ->type_name(std::string(kLengthName) + "|tool")
       ->check([](const std::string& text) {
         const auto length = smooth_length_of(text);
         return length ? std::string() : length.error().message;
@@ -380,10 +362,9 @@ void add_smoothing_options(CLI::App* sub, const SharedCommand& command) {
 
 /// What the solid is like.
 void add_solid_options(CLI::App* sub, const SharedCommand& command) {
-  sub->add_option(
-         "--tolerance", command->request.options.tolerance_mm,
-         "Maximum chordal error, vertex error in .drc and distance of curves in .step [mm]")
-      ->check(in_range(1e-5, 10.0))
+  add_length(*sub, "--tolerance", command->request.options.tolerance_mm,
+             "Maximum chordal error, vertex error in .drc and distance of curves in .step [mm]",
+             1e-5, 10.0)
       ->capture_default_str();
   add_smoothing_options(sub, command);
   add_finish_options(*sub, command->request.options, command->glaze_mm);
@@ -394,10 +375,9 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
          "--max-triangles", command->request.options.max_triangles,
          "Maximum number of triangles (default: no limit); facets may then exceed the tolerance")
       ->check(in_whole_range(8, 20'000'000));
-  sub->add_option(
-         "--drain", command->request.options.drain_mm,
-         "Diameter of a hole along the axis that opens closed cavities [mm] (default: none)")
-      ->check(in_range(1e-3, 1e4));
+  add_length(*sub, "--drain", command->request.options.drain_mm,
+             "Diameter of a hole along the axis that opens closed cavities [mm] (default: none)",
+             1e-3, 1e4);
   add_part(sub, command, "--shrinkage", solid::kMostShrinkage,
            "Shrinkage in drying and firing, in percent of each length, such as 12%: the files are "
            "enlarged so that the fired piece has the size of the pot (default: 0%)",
@@ -411,10 +391,9 @@ void add_file_options(CLI::App* sub, const SharedCommand& command) {
                 "Also run the skipped stages, and report the time [s] that skipping saves");
   sub->add_option("--report", command->request.report_path,
                   "File for the report: .html: a page to print; .json: what --json prints");
-  sub->add_option(
-         "--precision", command->precision_mm,
-         "Rounding of radii in pot files [mm] (default: exact); meshes keep the exact radii")
-      ->check(in_range(1e-5, 1.0));
+  add_length(*sub, "--precision", command->precision_mm,
+             "Rounding of radii in pot files [mm] (default: exact); meshes keep the exact radii",
+             1e-5, 1.0);
   sub->add_flag("--certificate", command->request.certificates,
                 "Write OUT.certificate.json beside each mesh, for claystack check --certificate");
   sub->add_option("--verify", command->verify,
@@ -467,7 +446,7 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       "  claystack export bowl.pot.json bowl.step --process stoneware\n"
       "  claystack export bowl.pot.json bowl.3mf --holds 350ml --fired --shrinkage 12%\n"
       "  claystack export bowl.pot.json bowl.pdf bowl.dxf --shrinkage 12%\n"
-      "  claystack export bowl.pot.json bowl.3mf --foot 60x6x4 --floor-fillet 5\n"
+      "  claystack export bowl.pot.json bowl.3mf --foot 60x6x4 --floor-fillet 5mm\n"
       "  claystack export bowl.pot.json bowl.stl --tolerance 0.005 --process stoneware\n"
       "  claystack export bowl.pot.json bowl.stl --process porcelain --shrinkage 12%\n"
       "  claystack export bowl.pot.json bowl.drc --certificate --report bowl.report.json\n"

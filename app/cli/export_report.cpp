@@ -373,7 +373,7 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies)
                            {"passes", report.thinnest_mm() >= limit->min_wall_mm}};
   if (report.process.overhang) json["overhang"] = overhang_json(report.process);
   if (const auto& process = report.process.limits) json["process"] = process_json(report, *process);
-  json["maker"] = report.maker ? maker_json(*report.maker) : Json(nullptr);
+  json["maker"] = maker_json(report);
   json["problems"] = problems_json(report);
   auto copy = copies.begin();
   for (const FileReport& file : report.files) {
@@ -386,8 +386,9 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies)
         break;
       case FileKind::section:
       case FileKind::wall_table:
-        json["files"].push_back(
-            {{"path", file.path}, {"format", solid::section_file(file.path)->name}});
+        json["files"].push_back({{"path", file.path},
+                                 {"format", solid::section_file(file.path)->name},
+                                 {"bytes", file.bytes}});
         break;
       case FileKind::given:
         json["files"].push_back(copy_json(*copy++, file.path));
@@ -432,8 +433,7 @@ void print_export(const Console& console, const ExportReport& report,
 
 void print_summary(const Console& console, const ExportReport& report) {
   if (report.has_solid())
-    print_maker_table(console, report.maker ? maker_json(*report.maker) : Json(nullptr),
-                      wall_row(report), verdict_of(report));
+    print_maker_table(console, maker_json(report), wall_row(report), verdict_of(report));
 }
 
 bool print_problems(const Console& console, const ExportReport& report) {

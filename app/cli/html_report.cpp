@@ -161,9 +161,13 @@ class Page {
 
   void verdict() {
     const auto problems = solid::problems_of(report_);
+    const bool limits = report_.walls.limit || report_.process.limits;
     if (problems.empty())
       html_.element("p", {{"class", "good"}},
-                    "Closed and without self-intersections; all limits met.");
+                    std::string("Closed and without self-intersections; ") +
+                        (limits ? "all limits met." : "no limits were set."));
+    else if (!limits)
+      html_.element("p", {}, "No limits were set.");
     for (const solid::Problem& problem : problems)
       html_.element("p", {{"class", problem.fails ? "bad" : ""}}, sentence(problem.text));
   }
@@ -188,6 +192,7 @@ class Page {
   }
 
   void maker(const Json& maker) {
+    const bool fired = !maker["fired"].is_null();
     table("Size, weight and capacity", [&] {
       std::vector<std::pair<std::string, const Json*>> states;
       for (const auto& [key, name] :
@@ -196,7 +201,9 @@ class Page {
       std::vector<std::string> heads{""};
       for (const auto& state : states) heads.push_back(state.first);
       row(heads, "th");
-      const auto line = [&](const char* name, const char* field, const char* unit, int digits) {
+      const auto line = [&](const std::string& name, const char* field, const char* unit,
+                            int digits) {
+        if (maker["thrown"][field].is_null()) return;
         std::vector<std::string> cells{name};
         for (const auto& state : states)
           cells.push_back(fixed(number_in(*state.second, field), digits) + unit);
@@ -207,9 +214,12 @@ class Page {
       line("foot", "foot_diameter_mm", " mm", 1);
       line("weight", "weight_g", " g", 0);
       line("capacity to the brim", "capacity_ml", " ml", 0);
-      line("capacity to the fill line", "to_line_ml", " ml", 0);
+      line(fmt::format("capacity to the fill line, {:g} mm below the brim{}",
+                       number_in(maker, "fill_line_mm"), fired ? " of the fired pot" : ""),
+           "to_line_ml", " ml", 0);
     });
-    table("Balance", [&] {
+    if (maker["empty"].is_null()) return;
+    table(fired ? "Balance of the fired pot" : "Balance of the pot as thrown", [&] {
       row({"", "centre of gravity", "tips at"}, "th");
       for (const auto& [key, name] : {std::pair("empty", "empty"), std::pair("full", "full")})
         if (!maker[key].is_null())
@@ -239,10 +249,16 @@ class Page {
         row({"steepest overhang", fmt::format("{:.0f} degrees from the vertical at {:.1f} mm",
                                               overhang->angle_deg, overhang->from.y)},
             "td", false);
-      if (const auto& process = report_.process.limits; process && process->size)
-        row({"fits " + process->name, json_["process"]["bed"]["fits"].get<bool>() ? "yes" : "no"},
-            "td", false);
+      if (const auto& process = report_.process.limits) fits(*process);
     });
+  }
+
+  void fits(const solid::ProcessLimits& process) {
+    if (process.size)
+      row({"fits " + process.name, json_["process"]["bed"]["fits"].get<bool>() ? "yes" : "no"},
+          "td", false);
+    else
+      row({"size", "not checked: no bed size is known for " + process.name}, "td", false);
   }
 
   /// On its own page, scaled to it: the file is for printing at 1:1.

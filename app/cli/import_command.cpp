@@ -2,6 +2,7 @@
 #include "app/cli/json_output.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/cli/pot_copy.hpp"
+#include "app/cli/quantity.hpp"
 #include "app/cli/usage.hpp"
 #include "app/import/drawn_pot.hpp"
 #ifdef CLAYSTACK_EXPORT
@@ -11,13 +12,11 @@
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
-#include "core/number_text.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -40,12 +39,13 @@ Result<void> set_axis(ImportOptions& options) {
     section.axis = options.axis == "left" ? AxisRule::left : AxisRule::middle;
     return {};
   }
-  const char* end = options.axis.data() + options.axis.size();
-  const auto [stop, problem] = from_chars(options.axis.data(), end, section.axis_mm);
-  if (problem != std::errc() || stop != end || !(std::abs(section.axis_mm) <= 1e6))
+  constexpr double kFarthestMm = 1e6;
+  const auto place = length_of(options.axis, -kFarthestMm, kFarthestMm);
+  if (!place)
     return failure(
         ErrorKind::bad_input,
         fmt::format("--axis: expected left, middle or a place in mm, found {}", options.axis));
+  section.axis_mm = *place;
   section.axis = AxisRule::at;
   return {};
 }
@@ -157,23 +157,19 @@ void add_drawing_options(CLI::App* command, ImportOptions& options) {
   command->add_option("--layer", options.layer,
                       "The only layer of an SVG or DXF drawing to read, by its name (default: all "
                       "that are shown)");
-  command
-      ->add_option("--height", options.section.height_mm,
-                   "Height of the pot: scales the drawing or mesh [mm] (default: as it is)")
-      ->check(in_range(0.01, 1e5));
+  add_length(*command, "--height", options.section.height_mm,
+             "Height of the pot: scales the drawing or mesh [mm] (default: as it is)", 0.01, 1e5);
 }
 
 void add_pot_options(CLI::App* command, DrawnPotSettings& settings) {
-  command
-      ->add_option("--wall", settings.wall_mm,
-                   "Thickness of wall and floor, for a drawing that shows only the outside [mm] "
-                   "(default: solid)")
-      ->check(in_range(0.01, 1000.0));
-  command
-      ->add_option("--ring-height", settings.ring_height_mm,
-                   "Maximum ring height [mm] (default: 0.75, or less where the rings would deviate "
-                   "by more than 0.02 mm from the drawing)")
-      ->check(in_range(1e-3, 1e3));
+  add_length(*command, "--wall", settings.wall_mm,
+             "Thickness of the wall, measured horizontally, and of the floor, for a drawing that "
+             "shows only the outside [mm] (default: solid)",
+             0.01, 1000.0);
+  add_length(*command, "--ring-height", settings.ring_height_mm,
+             "Maximum ring height [mm] (default: 0.75, or less where the rings would deviate "
+             "by more than 0.02 mm from the drawing)",
+             1e-3, 1e3);
   command->add_option("--density", settings.density_g_cm3, "Density of the clay [g/cm3]")
       ->check(in_range(0.1, 20.0))
       ->capture_default_str();

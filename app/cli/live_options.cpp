@@ -1,5 +1,6 @@
 #include "app/cli/device_choice.hpp"
 #include "app/cli/live_throw.hpp"
+#include "app/cli/quantity.hpp"
 #include "app/cli/usage.hpp"
 
 #include <CLI/CLI.hpp>
@@ -32,13 +33,11 @@ void add_place_options(CLI::App& command, servo::MappingSettings& mapping) {
           "Side of the pot on which the hand works: right, left or front")
       ->check(one_of({"right", "left", "front"}))
       ->default_str("right");
-  command
-      .add_option("--reach", mapping.reach_mm,
-                  "Distance of the workspace centre from the axis [mm]")
+  add_length(command, "--reach", mapping.reach_mm,
+             "Distance of the workspace centre from the axis [mm]")
       ->capture_default_str();
-  command
-      .add_option("--height", mapping.height_mm,
-                  "Height of the workspace centre above the wheel head [mm]")
+  add_length(command, "--height", mapping.height_mm,
+             "Height of the workspace centre above the wheel head [mm]")
       ->capture_default_str();
   command
       .add_option_function<std::string>(
@@ -72,9 +71,8 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
   command.add_option("--force-limit", settings.guard.force_limit_n, "Force limit [N]")
       ->check(in_range(0.5, falcon::kMostForceN))
       ->capture_default_str();
-  command.add_option(
-      "--gap", settings.gap_mm,
-      "Gap of a pinch [mm] (default: that of the scene); the keys + and - change it");
+  add_length(command, "--gap", settings.gap_mm,
+             "Gap of a pinch [mm] (default: that of the scene); the keys + and - change it");
   command.add_option("--damping", settings.arm.damping_ns_per_mm, "Damping of the arm [N s/mm]")
       ->capture_default_str();
   command.add_flag("--soften,!--no-soften", options.soften,

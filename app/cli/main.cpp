@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 
 #include "app/cli/memory_room.hpp"
+#include "app/cli/quantity.hpp"
 #include "app/cli/suggestion.hpp"
 #include "app/cli/usage.hpp"
 #include "claystack/core/atomic_file.hpp"
@@ -79,6 +80,17 @@ void add_memory_option(CLI::App& command) {
       ->type_name("SIZE");
 }
 
+/// Help says what a length may look like, where there is one.
+void explain_lengths(CLI::App& command) {
+  const auto is_length = [](const CLI::Option* option) {
+    return option->get_type_name().find(kLengthName) != std::string::npos;
+  };
+  if (std::ranges::none_of(command.get_options(), is_length)) return;
+  command.footer(std::string("\n") + kLengthName +
+                 ": in mm, or with its unit (mm, cm, in), such as 10mm, 1cm or 0.4in\n" +
+                 command.get_footer());
+}
+
 bool writes_files(std::string_view command) {
   static constexpr std::array kCommands = {"throw",  "export", "check", "strokes",
                                            "import", "render", "bench"};
@@ -90,6 +102,7 @@ void add_shared_options(CLI::App& command, Console& console) {
   command.add_flag("--json", console.json, "Print data as JSON on standard output");
   command.add_flag("-q,--quiet", console.quiet, "Print errors only");
   add_memory_option(command);
+  explain_lengths(command);
   if (writes_files(name))
     command.add_flag("--no-overwrite", console.no_overwrite,
                      "Refuse output files that exist (default: replace them; an input is never "

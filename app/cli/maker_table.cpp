@@ -7,13 +7,15 @@ namespace clay::cli {
 namespace {
 
 #ifdef CLAYSTACK_EXPORT
-Json state_json(const solid::PotState& state) {
+/// A collapsed pot has neither foot nor capacity.
+Json state_json(const solid::PotState& state, bool stands) {
+  const auto if_standing = [&](double number) { return stands ? Json(number) : Json(nullptr); };
   return {{"diameter_mm", state.size.diameter_mm},
           {"height_mm", state.size.height_mm},
-          {"foot_diameter_mm", state.size.foot_diameter_mm},
+          {"foot_diameter_mm", if_standing(state.size.foot_diameter_mm)},
           {"weight_g", state.weight_g},
-          {"capacity_ml", state.capacity_ml},
-          {"to_line_ml", state.to_line_ml}};
+          {"capacity_ml", if_standing(state.capacity_ml)},
+          {"to_line_ml", if_standing(state.to_line_ml)}};
 }
 
 Json balance_json(const solid::Balance& balance) {
@@ -44,16 +46,23 @@ std::string capacity_text(const Json& state) {
 std::string capacity_row(const Json& numbers) {
   const bool fired = !numbers["fired"].is_null();
   const Json& used = fired ? numbers["fired"] : numbers["thrown"];
+  if (used["capacity_ml"].is_null()) return "none: the pot collapsed";
   if (number_in(used, "capacity_ml") <= 0.0) return "none: no floor under an open bore";
-  return by_state(numbers, capacity_text) +
-         fmt::format(" to the brim; {:.0f} ml to {:g} mm below it{}", number_in(used, "to_line_ml"),
-                     number_in(numbers, "fill_line_mm"), fired ? ", fired" : "");
+  const std::string to_brim = by_state(numbers, capacity_text) + " to the brim; ";
+  const double to_line_ml = number_in(used, "to_line_ml");
+  const double line_mm = number_in(numbers, "fill_line_mm");
+  if (to_line_ml <= 0.0)
+    return to_brim + fmt::format("the fill line, {:g} mm below it, is below the floor", line_mm);
+  return to_brim + fmt::format("{:.0f} ml to {:g} mm below it{}", to_line_ml, line_mm,
+                               fired ? ", fired" : "");
 }
 
 }  // namespace
 
 #ifdef CLAYSTACK_EXPORT
-Json maker_json(const solid::MakerNumbers& numbers) {
+namespace {
+
+Json maker_json(const solid::MakerNumbers& numbers, bool stands) {
   const solid::ClayFigures& clay = numbers.clay;
   Json json = {{"clay",
                 {{"density_g_cm3", clay.density_g_cm3},
@@ -62,15 +71,23 @@ Json maker_json(const solid::MakerNumbers& numbers) {
                  {"water", clay.water},
                  {"ignition_loss", clay.ignition_loss}}},
                {"fill_line_mm", numbers.fill_line_mm},
-               {"thrown", state_json(numbers.thrown)},
+               {"thrown", state_json(numbers.thrown, stands)},
                {"dry", nullptr},
                {"fired", nullptr},
-               {"empty", balance_json(numbers.empty)},
+               {"empty", nullptr},
                {"full", nullptr}};
-  if (numbers.dry) json["dry"] = state_json(*numbers.dry);
-  if (numbers.fired) json["fired"] = state_json(*numbers.fired);
+  if (numbers.dry) json["dry"] = state_json(*numbers.dry, stands);
+  if (numbers.fired) json["fired"] = state_json(*numbers.fired, stands);
+  if (stands) json["empty"] = balance_json(numbers.empty);
   if (numbers.full) json["full"] = balance_json(*numbers.full);
   return json;
+}
+
+}  // namespace
+
+Json maker_json(const solid::ExportReport& report) {
+  if (report.maker) return maker_json(*report.maker, true);
+  return report.fallen ? maker_json(*report.fallen, false) : Json(nullptr);
 }
 #endif
 

@@ -4,7 +4,7 @@
 #include "app/cli/console.hpp"
 #include "app/cli/json_output.hpp"
 #ifdef CLAYSTACK_EXPORT
-#include "claystack/export/maker.hpp"
+#include "claystack/export/job.hpp"
 #endif
 
 #include <string>
@@ -12,8 +12,8 @@
 namespace clay::cli {
 
 #ifdef CLAYSTACK_EXPORT
-/// States, balance and the figures of the clay behind them.
-[[nodiscard]] Json maker_json(const solid::MakerNumbers& numbers);
+/// States, balance and the figures of the clay behind them; of a collapsed pot size and weight.
+[[nodiscard]] Json maker_json(const solid::ExportReport& report);
 #endif
 
 /// `numbers` are those of maker_json, or null: then only the other two rows. An empty row is left

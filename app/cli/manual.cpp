@@ -97,11 +97,11 @@ void add_option(std::ostream& page, const CLI::Option& option) {
     page << "Default: " << roff(option.get_default_str()) << ".\n";
 }
 
-/// The footer: "Examples:" and then lines of commands.
+/// The footer: paragraphs, then "Examples:" and lines of commands.
 void add_examples(std::ostream& page, const std::string& footer) {
   std::istringstream lines(footer);
-  bool verbatim = false;
-  for (std::string line; std::getline(lines, line);) {
+  bool verbatim = false, blank = false;
+  for (std::string line; std::getline(lines, line); blank = line.empty()) {
     if (line.empty()) continue;
     if (line == "Examples:") {
       page << ".SH EXAMPLES\n";
@@ -109,6 +109,7 @@ void add_examples(std::ostream& page, const std::string& footer) {
     }
     const bool command = line.starts_with("  ");
     if (command != verbatim) page << (command ? ".nf\n" : ".fi\n.PP\n");
+    if (!command && !verbatim && blank) page << ".PP\n";
     verbatim = command;
     page << roff(command ? line.substr(2) : line) << '\n';
   }

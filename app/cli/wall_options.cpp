@@ -1,15 +1,14 @@
 #include "app/cli/wall_options.hpp"
 
-#include "app/cli/console.hpp"
-#include "app/cli/usage.hpp"
+#include "app/cli/quantity.hpp"
 
 #include <CLI/CLI.hpp>
 
 namespace clay::cli {
 
 void WallOptions::add_to(CLI::App& command) {
-  command.add_option("--min-wall", min_wall_mm_, "Minimum wall [mm] (default: no limit)")
-      ->check(in_range(1e-6, 1e4));
+  add_length(command, "--min-wall", min_wall_mm_, "Minimum wall [mm] (default: no limit)", 1e-6,
+             1e4);
   command.add_option(
       "--process", process_,
       "Process that sets the minimum wall: fdm, sla, earthenware, stoneware, porcelain, or a .json "

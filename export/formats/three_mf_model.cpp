@@ -63,6 +63,32 @@ std::string quoted(std::string_view text) {
   return shown + (text.size() > 40 ? "...'" : "'");
 }
 
+std::string_view name_of(Place place) {
+  if (place == kItem.place) return kItem.name;
+  const auto rule = std::ranges::find(kRules, place, &Rule::place);
+  return rule == kRules.end() ? "the file" : rule->name;
+}
+
+/// For an element that is not allowed where it is.
+std::string misplaced(std::string_view name, Place parent) {
+  std::string belongs;
+  for (const Rule& rule : kRules)
+    if (rule.name == name)
+      belongs.append(belongs.empty() ? "" : " or ").append(name_of(rule.parent));
+  if (name == kItem.name) belongs = name_of(kItem.parent);
+  if (belongs.empty())
+    return std::string("expected an element of the core specification in ")
+        .append(name_of(parent))
+        .append(", found ")
+        .append(quoted(name));
+  return std::string("expected ")
+      .append(quoted(name))
+      .append(" in ")
+      .append(belongs)
+      .append(", found it in ")
+      .append(name_of(parent));
+}
+
 template <class Number>
 std::optional<Number> whole(std::optional<std::string_view> text, Number least, Number most) {
   if (!text) return std::nullopt;
@@ -122,7 +148,7 @@ void ModelReader::begin(XmlReader& reader, const XmlElement& element) {
     return;
   }
   const auto place = place_of(element.name, places_.back());
-  if (!place) return reader.fail("expected another element, found " + quoted(element.name));
+  if (!place) return reader.fail(misplaced(element.name, places_.back()));
   places_.push_back(*place);
   enter(reader, *place, element);
 }
@@ -203,7 +229,7 @@ void ModelReader::begin_model(XmlReader& reader, const XmlElement& element) {
     const auto space = std::ranges::find(element.namespaces, prefix, &XmlAttribute::name);
     const std::string_view uri = space == element.namespaces.end() ? "" : space->value;
     if (uri != kMaterials && uri != kProduction)
-      return reader.fail("expected no required extension but materials, found " +
+      return reader.fail("expected no required extension but materials and production, found " +
                          quoted(uri.empty() ? prefix : uri));
   }
 }
@@ -212,9 +238,11 @@ void ModelReader::begin_metadata(XmlReader& reader, const XmlElement& element) {
   const auto name = element.value_of("name");
   if (!name || name->empty()) return reader.fail("metadata: expected a name, found none");
   if (places_[places_.size() - 2] != Place::model) return;
-  if (metadata_.size() == kMaxMetadata || !metadata_.emplace(*name).second)
+  if (!metadata_.emplace(*name).second)
+    return reader.fail("metadata: expected the name " + quoted(*name) + " once, found it twice");
+  if (metadata_.size() > kMaxMetadata)
     return reader.fail("expected at most " + std::to_string(kMaxMetadata) +
-                       " metadata of different names, found " + quoted(*name));
+                       " metadata, found more");
   reads_pot_ = *name == kPotMetadata;
 }
 

@@ -128,6 +128,11 @@ class CollapsedExport {
     report_.process.limits = options_.walls.process;
     report_.collapsed = std::move(solid);
     describe_volume(report_.collapsed->volume_mm3);
+    ClayFigures clay = options_.clay;
+    clay.density_g_cm3 = pot_.density_g_cm3;
+    clay.shrinkage = options_.shrinkage;
+    report_.fallen = fallen_numbers({report_.size.diameter_mm, report_.size.height_mm, 0.0},
+                                    prepared_.done.counted_volume_mm3, clay, options_.fill_line_mm);
   }
 
   void describe_volume(double volume_mm3) {

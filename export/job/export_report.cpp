@@ -107,14 +107,36 @@ std::vector<Problem> problems_with(const ExportReport& report, std::optional<std
   return problems;
 }
 
+/// Whether made smaller by more than a little.
+std::optional<Problem> small_lip_fillet(const ExportReport& report) {
+  constexpr double kLittle = 0.01;
+  const SmoothedProfile& smoothed = report.section.smoothed;
+  const double asked = smoothed.lip_fillet_asked_mm, made = smoothed.lip_fillet_mm;
+  if (made >= (1.0 - kLittle) * asked) return std::nullopt;
+  const auto& limits = report.process.limits;
+  const bool by_process = limits && limits->edges && limits->edges->min_radius_mm == asked;
+  return Problem{fmt::format("lip fillet of {:.2f} mm instead of {:g} mm{}: {}; sharper edges chip",
+                             made, asked, by_process ? " (" + limits->name + ")" : "",
+                             reason_of(smoothed.lip_fillet_limit)),
+                 std::nullopt, false, ProblemKind::lip_fillet, made};
+}
+
 }  // namespace
 
 std::vector<Problem> problems_of(const ExportReport& report) {
-  return problems_with(report, thin_wall_of(report));
+  std::vector<Problem> problems = problems_with(report, thin_wall_of(report));
+  // A lip matters where it is made.
+  const bool made = std::ranges::any_of(
+      report.files, [](const FileReport& file) { return file.kind != FileKind::given; });
+  if (auto fillet = small_lip_fillet(report); fillet && made)
+    problems.push_back(std::move(*fillet));
+  return problems;
 }
 
 std::vector<Problem> problems_of_solid(const ExportReport& report) {
-  return problems_with(report, thin_wall_of_solid(report));
+  std::vector<Problem> problems = problems_with(report, thin_wall_of_solid(report));
+  if (auto fillet = small_lip_fillet(report)) problems.push_back(std::move(*fillet));
+  return problems;
 }
 
 }  // namespace clay::solid::inline job

@@ -115,10 +115,7 @@ class GoalSearch {
     std::array<double, 2> ratios{1.0, 1.0};
     for (std::size_t i = 0; i < aims_.size(); ++i) {
       const double found = aims_[i].of(state(report));
-      if (!(found > 0.0))
-        return failure(ErrorKind::bad_input, aims_[i].name +
-                                                 ": expected a pot that has one, found "
-                                                 "none: no floor under an open bore");
+      if (!(found > 0.0)) return failure(ErrorKind::bad_input, aims_[i].name + nothing(report));
       ratios[i] = aims_[i].target / found;
     }
     const Aim& first = aims_[0];
@@ -142,6 +139,14 @@ class GoalSearch {
                                                  in_mm(kFarthest) + " times of the pot, found " +
                                                  in_mm(first.target));
     return {};
+  }
+
+  /// Why the pot holds nothing.
+  [[nodiscard]] std::string nothing(const ExportReport& report) const {
+    if (state(report).capacity_ml > 0.0)
+      return ": expected a fill line above the floor of the pot, found one " +
+             in_mm(options_.fill_line_mm) + " mm below the brim";
+    return ": expected a pot that has one, found none: no floor under an open bore";
   }
 
   Result<GoalReport> accept(const ExportReport& report) {

@@ -20,7 +20,6 @@ using Anchor = SheetText::Anchor;
 
 constexpr double kScaleBarMm = 100.0;
 constexpr double kArrowMm = 2.5;
-constexpr double kLetterMm = 1.9;  ///< width of a letter of 3 mm, at most
 
 Outline right_of(const Polygon& line) {
   Outline outline;
@@ -81,6 +80,13 @@ std::vector<double> crossings(const Profile& profile, double height) {
     }
   std::ranges::sort(found, std::greater<>());
   return found;
+}
+
+/// Of words 3 mm high in DejaVu Sans: a little more than those of dimensions take.
+double length_of(std::string_view words) {
+  constexpr double kLetterMm = 2.15, kMoreMm = 1.5;
+  const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+  return kMoreMm + kLetterMm * static_cast<double>(std::ranges::count_if(words, begins));
 }
 
 class SheetMaker {
@@ -172,10 +178,12 @@ class SheetMaker {
     arrows({-r, line_height}, {r, line_height});
     // Beside the axis, or outside if the words would reach the right arrow.
     const std::string words = "\u2300 " + size(diameter_mm);
-    const bool fits = 2.0 + kLetterMm * static_cast<double>(words.size()) < r - kArrowMm;
-    write(SheetLayer::dimensions,
-          fits ? glm::dvec2{2.0, line_height + 1.0} : glm::dvec2{r + 3.0, line_height - 1.0}, words,
-          Anchor::start);
+    if (2.0 + length_of(words) < r - kArrowMm)
+      return write(SheetLayer::dimensions, {2.0, line_height + 1.0}, words, Anchor::start);
+    // Above the pot, beyond the lines that rise from its widest place.
+    const double end = way > 0.0 ? radius_ : r;
+    if (end > r) line(SheetLayer::dimensions, {r, line_height}, {end + 2.0, line_height});
+    write(SheetLayer::dimensions, {end + 3.0, line_height - 1.0}, words, Anchor::start);
   }
 
   void draw_diameters() {
@@ -204,13 +212,13 @@ class SheetMaker {
     if (numbers_.thrown.capacity_ml > 0.0) {
       const double floor = floor_mm();
       height(floor, top_, radius_ + 12.0, bore_at(floor), rim);
-      write(SheetLayer::dimensions, {2.0, floor + 6.0}, "floor " + size(floor - below_floor()),
-            Anchor::start);
+      write_floor(floor);
     }
     height(0.0, top_, radius_ + 22.0, foot, rim);
     if (lip_mm_ > 0.0) {
-      line(SheetLayer::dimensions, {rim, top_}, {radius_ + 5.0, top_ + 5.0});
-      write(SheetLayer::dimensions, {radius_ + 6.0, top_ + 5.0}, "lip R " + size(lip_mm_),
+      // Between the line of the height and the words of the mouth.
+      line(SheetLayer::dimensions, {rim, top_}, {radius_ + 5.0, top_ + 3.0});
+      write(SheetLayer::dimensions, {radius_ + 6.0, top_ + 2.5}, "lip R " + size(lip_mm_),
             Anchor::start);
     }
     for (const CaliperRow& row : caliper_rows(profile_)) {
@@ -219,6 +227,42 @@ class SheetMaker {
       write(SheetLayer::dimensions, {-radius_ - 7.0, row.height - 1.5}, size(row.wall()),
             Anchor::end);
     }
+  }
+
+  /// In the bore above the floor, on two lines if one is too long; beside the foot if the bore is
+  /// too narrow for both.
+  void write_floor(double floor) {
+    constexpr double kLine = 4.5, kGap = 2.0;
+    std::string words = "floor " + size(floor - below_floor());
+    std::string second;
+    const auto fits = [&](double height) {
+      return kGap + std::max(length_of(words), length_of(second)) + kGap <
+             bore_between(floor, floor + height);
+    };
+    if (fits(kLine + 5.0))
+      return write(SheetLayer::dimensions, {kGap, floor + 5.0}, words, Anchor::start);
+    if (const std::size_t fired = words.find(" ("); fired != std::string::npos) {
+      second = words.substr(fired + 1);
+      words.resize(fired);
+      if (fits(2.0 * kLine + 5.0)) {
+        write(SheetLayer::dimensions, {kGap, floor + 5.0 + kLine}, words, Anchor::start);
+        return write(SheetLayer::dimensions, {kGap, floor + 5.0}, second, Anchor::start);
+      }
+      words += " " + second;
+    }
+    const double foot = 0.5 * numbers_.thrown.size.foot_diameter_mm;
+    write(SheetLayer::dimensions, {-foot - 3.0, -5.0}, words, Anchor::end);
+  }
+
+  /// The narrowest bore between two heights in the air above the floor.
+  [[nodiscard]] double bore_between(double low, double high) const {
+    double bore = radius_;
+    for (const ProfilePoint& p : profile_.pieces.back())
+      if (p.y > low && p.y < high && p.rho > 0.0) bore = std::min(bore, p.rho);
+    for (const double height : {low + 1e-6, high})
+      if (const auto at = crossings(profile_, height); !at.empty())
+        bore = std::min(bore, at.back());
+    return bore;
   }
 
   /// The highest clay on the axis.

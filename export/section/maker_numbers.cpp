@@ -139,23 +139,45 @@ RevolvedBody room_of(const Profile& profile, double depth_mm) noexcept {
   return piece[at].rho > 0.0 ? RevolvedBody{} : sum.body();
 }
 
+namespace {
+
+/// Dry and fired, by the shrinkage, if that is known.
+void add_later_states(MakerNumbers& numbers) {
+  const ClayFigures& clay = numbers.clay;
+  if (!(clay.shrinkage > 0.0)) return;
+  const double drying = clay.drying_shrinkage.value_or(0.5 * clay.shrinkage);
+  numbers.dry = scaled(numbers.thrown, 1.0 - drying, 1.0 - clay.water);
+  numbers.fired =
+      scaled(numbers.thrown, 1.0 - clay.shrinkage, (1.0 - clay.water) * (1.0 - clay.ignition_loss));
+}
+
+constexpr double kPerMl = 1e-3;
+
+}  // namespace
+
+MakerNumbers fallen_numbers(const PotSize& size, double volume_mm3, const ClayFigures& clay,
+                            double fill_line_mm) {
+  MakerNumbers numbers;
+  numbers.clay = clay;
+  numbers.fill_line_mm = fill_line_mm;
+  numbers.thrown.size = size;
+  numbers.thrown.weight_g = kPerMl * volume_mm3 * clay.density_g_cm3;
+  add_later_states(numbers);
+  return numbers;
+}
+
 MakerNumbers maker_numbers(const Profile& profile, const ClayFigures& clay, double fill_line_mm) {
   MakerNumbers numbers;
   numbers.clay = clay;
   numbers.fill_line_mm = fill_line_mm;
   const double fired = 1.0 - clay.shrinkage;
   const RevolvedBody body = revolved_body(profile), room = room_of(profile);
-  constexpr double kPerMl = 1e-3;
   PotState& thrown = numbers.thrown;
   thrown.size = size_of(profile);
   thrown.weight_g = kPerMl * body.volume_mm3 * clay.density_g_cm3;
   thrown.capacity_ml = kPerMl * room.volume_mm3;
   thrown.to_line_ml = kPerMl * room_of(profile, fill_line_mm / fired).volume_mm3;
-  if (clay.shrinkage > 0.0) {
-    const double drying = clay.drying_shrinkage.value_or(0.5 * clay.shrinkage);
-    numbers.dry = scaled(thrown, 1.0 - drying, 1.0 - clay.water);
-    numbers.fired = scaled(thrown, fired, (1.0 - clay.water) * (1.0 - clay.ignition_loss));
-  }
+  add_later_states(numbers);
   const PotState& used = numbers.in_use();
   const double foot = foot_level(profile), centre = fired * (body.centre_mm - foot);
   numbers.empty = balance(centre, used.size.foot_diameter_mm);

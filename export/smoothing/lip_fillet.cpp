@@ -96,11 +96,27 @@ FilletedLip with_lip_fillet(const WallLines& lines, double radius_mm, double tol
   }
 }
 
-double largest_fillet_mm(const PieceWalls& piece, const Cuts& cuts, const WallLines& lines) {
+LargestFillet largest_fillet(const PieceWalls& piece, const Cuts& cuts, const WallLines& lines) {
   std::size_t run = piece.size() - 1;
   while (cuts.outer[run] == 0 && cuts.bore[run] == 0) --run;
   const double width = lines.outer.back().rho - lines.bore.back().rho;
-  return kHalf * std::min(width, piece.level.back() - piece.level[run]);
+  const double height = piece.level.back() - piece.level[run];
+  if (width <= height) return {kHalf * width, FilletLimit::lip_width};
+  return {kHalf * height, FilletLimit::height_below};
+}
+
+std::string_view reason_of(FilletLimit limit) {
+  switch (limit) {
+    case FilletLimit::lip_width:
+      return "half the width of the lip does not allow more";
+    case FilletLimit::height_below:
+      return "half the height between the lip and the step below it does not allow more";
+    case FilletLimit::inclined_walls:
+      return "with a larger one the arcs of the inclined walls would meet";
+    case FilletLimit::none:
+      break;
+  }
+  return "";
 }
 
 }  // namespace clay::solid::inline smoothing

@@ -35,6 +35,7 @@ struct SmoothedPiece {
   double extrapolated_mm = 0.0;
   double taken_mm = 0.0;
   double lip_fillet_mm = 0.0;
+  FilletLimit lip_fillet_limit = FilletLimit::none;
   double max_ring_error_relative = 0.0;
   FairingReport fairing;
 };
@@ -158,11 +159,13 @@ class PieceSmoother {
   }
 
   void finish(Correction correction, const RingFlags& rings) {
-    const double fillet =
-        piece_.carries_piece
-            ? 0.0
-            : std::min(options_.lip_fillet_mm, largest_fillet_mm(piece_, plan_.cuts(), lines_));
-    if (fillet > 0.0) correction = corrected(rings, fillet);
+    if (options_.lip_fillet_mm > 0.0 && !piece_.carries_piece) {
+      const LargestFillet most = largest_fillet(piece_, plan_.cuts(), lines_);
+      const double fillet = std::min(options_.lip_fillet_mm, most.radius_mm);
+      if (fillet < options_.lip_fillet_mm) result_.lip_fillet_limit = most.limit;
+      if (fillet > 0.0) correction = corrected(rings, fillet);
+      if (correction.fillet_mm < fillet) result_.lip_fillet_limit = FilletLimit::inclined_walls;
+    }
     result_.overshoot_mm = correction.moved_mm;
     result_.lip_fillet_mm = correction.fillet_mm;
     lines_ = std::move(correction.lines);
@@ -336,6 +339,7 @@ void add_fairing(FairingReport& sum, const FairingReport& piece) {
 
 void smooth_pieces(const ClayStack& stack, const SmoothingOptions& options,
                    SmoothedProfile& result) {
+  result.lip_fillet_asked_mm = options.lip_fillet_mm;
   for (std::size_t k = 0; k < result.section.shapes.size(); ++k) {
     const PieceShape& shape = result.section.shapes[k];
     SmoothedPiece piece =
@@ -345,7 +349,11 @@ void smooth_pieces(const ClayStack& stack, const SmoothingOptions& options,
     result.overshoot_mm = std::max(result.overshoot_mm, piece.overshoot_mm);
     result.extrapolated_mm = std::max(result.extrapolated_mm, piece.extrapolated_mm);
     result.taken_mm = std::max(result.taken_mm, piece.taken_mm);
-    result.lip_fillet_mm = std::max(result.lip_fillet_mm, piece.lip_fillet_mm);
+    // A lip that carries the next piece has none.
+    if (piece.lip_fillet_limit != FilletLimit::none || piece.lip_fillet_mm > 0.0) {
+      result.lip_fillet_mm = piece.lip_fillet_mm;
+      result.lip_fillet_limit = piece.lip_fillet_limit;
+    }
     result.max_ring_error_relative =
         std::max(result.max_ring_error_relative, piece.max_ring_error_relative);
     add_fairing(result.fairing, piece.fairing);

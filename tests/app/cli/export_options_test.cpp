@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <filesystem>
+#include <iomanip>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -191,6 +192,42 @@ TEST_F(ExportOptions, ReportsALipFilletAndExactWalls) {
   const Ran both = run("--smooth exact --lip-fillet 1");
   EXPECT_EQ(both.status, 2);
   EXPECT_NE(both.err.find("fillet"), std::string::npos) << both.err;
+}
+
+TEST_F(ExportOptions, WarnsOfALipFilletThatIsSmallerThanAskedFor) {
+  // A lip that no finger has rounded, less than 4 mm wide.
+  ASSERT_EQ(claystack("throw -q " + sample("paper/bowl.scene.json") + " -o " + pot).status, 0);
+  const double made = run("--json --lip-fillet 2").json().at("lip_fillet_mm");
+  std::ostringstream begin;
+  begin << "claystack: warning: lip fillet of " << std::fixed << std::setprecision(2) << made
+        << " mm instead of 2 mm";
+  const Ran small = run("--lip-fillet 2");
+  EXPECT_EQ(small.status, 0);
+  EXPECT_NE(small.err.find(begin.str() + ": "), std::string::npos) << small.err;
+  EXPECT_NE(small.err.find("; sharper edges chip\n"), std::string::npos) << small.err;
+  const Ran process = run("--process stoneware");
+  EXPECT_NE(process.err.find(begin.str() + " (stoneware): "), std::string::npos) << process.err;
+  const auto problems = run("--json --lip-fillet 2").json().at("problems");
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].at("text").get<std::string>().find("lip fillet of "), 0u);
+  EXPECT_EQ(problems[0].at("fails"), false);
+  for (const char* fits : {"", "--lip-fillet 1", "--process stoneware --lip-fillet 1mm"})
+    EXPECT_EQ(run(fits).err.find("lip fillet"), std::string::npos) << fits;
+}
+
+TEST_F(ExportOptions, SaysThatAFillLineIsBelowTheFloor) {
+  const Ran low = run("--fill-line 300");
+  EXPECT_EQ(low.status, 0);
+  EXPECT_NE(low.out.find(" to the brim; the fill line, 300 mm below it, is below the floor\n"),
+            std::string::npos)
+      << low.out;
+  EXPECT_NE(run("--fill-line 5").out.find(" ml to 5 mm below it\n"), std::string::npos);
+  const Ran goal = run("--holds 350ml --fill-line 300");
+  EXPECT_EQ(goal.status, 2);
+  EXPECT_NE(goal.err.find("capacity to the fill line [ml]: expected a fill line above the floor of "
+                          "the pot, found one 300 mm below the brim\n"),
+            std::string::npos)
+      << goal.err;
 }
 
 TEST_F(ExportOptions, ReportsTheFairing) {

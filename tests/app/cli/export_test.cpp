@@ -261,6 +261,30 @@ TEST_F(ExportCollapsed, ReportsTheVolumesAndIsDeterministic) {
   EXPECT_EQ(read_text(stl), read_text(folder.file("again.stl")));
 }
 
+TEST_F(ExportCollapsed, HasSizeAndWeightButNoCapacity) {
+  const std::string page = folder.file("c.html");
+  const Ran made = claystack("export --json --report " + page + " " + pot + " " + stl);
+  const auto json = made.json();
+  const auto &maker = json.at("maker"), &thrown = maker.at("thrown");
+  // All the clay weighs, also where both parts overlap.
+  EXPECT_NEAR(thrown.at("weight_g"),
+              1e-3 * counted * maker.at("clay").at("density_g_cm3").get<double>(), 1e-6);
+  EXPECT_EQ(thrown.at("diameter_mm"), json.at("diameter_mm"));
+  EXPECT_EQ(thrown.at("height_mm"), json.at("height_mm"));
+  for (const char* none : {"foot_diameter_mm", "capacity_ml", "to_line_ml"})
+    EXPECT_TRUE(thrown.at(none).is_null()) << none;
+  EXPECT_TRUE(maker.at("empty").is_null() && maker.at("full").is_null());
+  EXPECT_NE(read_text(page).find("weight"), std::string::npos);
+  EXPECT_EQ(read_text(page).find("capacity to the brim"), std::string::npos);
+  // The tables of both commands.
+  for (const Ran& run : {claystack("export " + pot + " " + stl),
+                         claystack("throw " + sample("paper/collapse.scene.json"))})
+    for (const char* words : {"\nsize      ", " mm high\nweight    ",
+                              " g\ncapacity  none: the pot "
+                              "collapsed\n"})
+      EXPECT_NE(run.out.find(words), std::string::npos) << words << run.out;
+}
+
 TEST_F(ExportCollapsed, WarnsAboutTrappedAir) {
   // Turned all the way down through the standing part, as a file from before falls were settled has
   // it.

@@ -110,6 +110,38 @@ TEST_F(SectionFiles, TheReportIsOnePage) {
         << element;
 }
 
+TEST_F(SectionFiles, TheReportSaysWhatItsNumbersAreOf) {
+  const std::string page = folder.file("r.html");
+  const auto html = [&](const std::string& options) {
+    EXPECT_LE(run(folder.file("a.stl") + " " + options + " --report " + page).status, 1);
+    return read_text(page);
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != text.npos;
+  };
+  const std::string plain = html("");
+  EXPECT_TRUE(has(plain, "o limits were set.") && !has(plain, "all limits met"));
+  EXPECT_TRUE(has(plain, "capacity to the fill line, 10 mm below the brim<"));
+  EXPECT_TRUE(has(plain, ">Balance of the pot as thrown<"));
+  EXPECT_FALSE(has(plain, "no bed size"));
+  EXPECT_TRUE(has(html("--min-wall 0.1"), "; all limits met."));
+  const std::string fired = html("--shrinkage 12% --fill-line 7 --process stoneware");
+  EXPECT_TRUE(has(fired, "capacity to the fill line, 7 mm below the brim of the fired pot<"));
+  EXPECT_TRUE(has(fired, ">Balance of the fired pot<"));
+  EXPECT_TRUE(has(fired, "not checked: no bed size is known for stoneware"));
+  EXPECT_FALSE(has(fired, ">fits stoneware<"));
+}
+
+TEST_F(SectionFiles, TheReportHasTheBytesOfEachFile) {
+  const auto files = run("--json " + folder.file("a.svg") + " " + folder.file("a.dxf") + " " +
+                         folder.file("a.pdf") + " " + folder.file("a.csv"))
+                         .json()
+                         .at("files");
+  ASSERT_EQ(files.size(), 4u);
+  for (const auto& file : files)
+    EXPECT_EQ(file.at("bytes"), std::filesystem::file_size(file.at("path").get<std::string>()));
+}
+
 TEST_F(SectionFiles, TheReportConformsToItsSchema) {
   const Json schema = load_schema("report");
   const auto check = [&](const std::string& rest) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <string>
+
 namespace clay::test {
 namespace {
 
@@ -92,6 +95,11 @@ TEST(Usage, ErrorsNameTheOptionTheExpectedAndTheFound) {
       {"export a b --tolerance", "--tolerance: expected a value, found none"},
       {"export a b --tolerance 1 --tolerance 2",
        "--tolerance: expected once, found more than once"},
+      {"export a b --tolerance 1m",
+       "--tolerance: expected a length from 1e-05 to 10 mm (mm, cm, in), found 1m\n"},
+      {"export a b --glaze-allowance 1.1cm",
+       "--glaze-allowance: expected a length from 0 to 10 mm (mm, cm, in), found 1.1cm\n"},
+      {"export a b --foot 60mmx6ftx4mm", "such as 60x6x4 or 6mmx4mm, found 60mmx6ftx4mm\n"},
       {"throw a --at one", "--at: expected a number, found one"},
       {"throw a b", "unexpected argument b\n"},
       {"check a --jsn", "unknown option --jsn; did you mean --json?\n"},
@@ -103,6 +111,42 @@ TEST(Usage, ErrorsNameTheOptionTheExpectedAndTheFound) {
     EXPECT_EQ(run.status, 2) << arguments;
     EXPECT_NE(run.err.find(message), std::string::npos) << arguments << "\n" << run.err;
   }
+}
+
+TEST(Usage, EveryLengthMayHaveAUnit) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("bowl.pot.json");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  const auto file = [&](const std::string& options) {
+    const std::string out = folder.file("bowl.stl");
+    const Ran run = claystack("export " + pot + " " + out + " " + options);
+    EXPECT_EQ(run.status, 0) << options << "\n" << run.err;
+    return run.out + read_text(out);
+  };
+  // Each is compared with plain mm, and with none: it has an effect.
+  const std::string none = file("");
+  for (const char* option : {"--fill-line 25.4|1in|2.54cm|25.4 mm", "--glaze-allowance 0.5|0.5mm",
+                             "--floor-fillet 5|5mm|0.5cm", "--foot 40x6x2|40mmx6mmx2mm|4x.6x.2cm",
+                             "--diameter 127|5in|12.7cm", "--smooth-length 9|9mm|.9cm",
+                             "--lip-fillet 0.5|0.5mm|.05cm"}) {
+    const std::string text = option, name = text.substr(0, text.find(' '));
+    std::istringstream values(text.substr(name.size() + 1));
+    std::string value, first;
+    while (std::getline(values, value, '|')) {
+      const std::string made = file(name + " '" + value + "'");
+      if (first.empty()) first = made;
+      EXPECT_TRUE(made == first) << name << " " << value;
+    }
+    EXPECT_FALSE(first == none) << name;
+  }
+}
+
+TEST(Usage, HelpSaysWhatALengthLooksLike) {
+  for (const char* command : {"export", "check", "import", "render", "throw"})
+    EXPECT_NE(claystack(std::string(command) + " --help")
+                  .out.find("LENGTH: in mm, or with its unit (mm, cm, in)"),
+              std::string::npos)
+        << command;
 }
 
 }  // namespace

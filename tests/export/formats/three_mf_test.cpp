@@ -213,15 +213,24 @@ TEST(ThreeMf, RefusesWhatTheSpecificationForbids) {
   expect("<item objectid=\"1\"/>", "", "triangles, found 0");
   expect("id=\"1\" ", "id=\"1\" type=\"pot\" ", "type: expected model");
   expect("id=\"1\" ", "id=\"1\" type=\"other\" ", "found one of type other");
-  expect("\"m\"", "\"x\"", "expected no required extension but materials");
-  expect("<mesh>", "<mesh><lattice/>", "found 'lattice'");
+  expect("\"m\"", "\"x\"",
+         "expected no required extension but materials and production, found 'urn:x'");
+  expect("<mesh>", "<mesh><lattice/>",
+         "expected an element of the core specification in mesh, found 'lattice'");
   expect("</mesh>", "</mesh><components/>", "one mesh or one list of components");
   expect("<?xml version=\"1.0\"?>", "<!DOCTYPE model [<!ENTITY a \"b\">]>", "no document type");
   expect("</build>", "", "expected XML, found");
   expect("objectid=\"1\"", "objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 0 0 0 0\"",
          "an invertible matrix");
   expect("objectid=\"1\"", "objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 0 0\"", "12 numbers");
-  expect("name=\"Title\">t</metadata>", "name=\"T\"/><metadata name=\"T\"/>", "different names");
+  expect("name=\"Title\">t</metadata>", "name=\"T\"/><metadata name=\"T\"/>",
+         "metadata: expected the name 'T' once, found it twice");
+  std::string many = "name=\"Title\"/>";
+  for (int i = 0; i < 1000; ++i) many += "<metadata name=\"" + std::to_string(i) + "\"/>";
+  expect("name=\"Title\">t</metadata>", many, "at most 1000 metadata, found more");
+  expect("<resources>", "<resources><metadata name=\"A\"/>",
+         "expected 'metadata' in model or metadatagroup, found it in resources");
+  expect("<mesh>", "<mesh><item objectid=\"1\"/>", "expected 'item' in build, found it in mesh");
   expect(kBuild,
          R"(<object id="2"><components><component objectid="2"/></components></object>)" + kBuild,
          "an object defined before it");  // a cycle

@@ -35,6 +35,7 @@ TEST(LipFillet, OfAStraightWallIsAQuarterCircleAtEachEdge) {
   const ClayStack tube = ClayStack::cylinder(60, 1.0, 40, 34, 60).value();
   const SmoothedProfile made = rounded(tube, 2.0);
   EXPECT_EQ(made.lip_fillet_mm, 2.0);
+  EXPECT_EQ(made.lip_fillet_limit, FilletLimit::none);
   EXPECT_LT(made.volume_error_relative, 1e-12);
   EXPECT_TRUE(certify(made.section.profile));
   const auto walls = oracles::walls_of(made.section.profile.pieces.at(0));
@@ -84,6 +85,8 @@ TEST(LipFillet, IsAtMostHalfTheLip) {
   const SmoothedProfile made = rounded(tube, 5.0);
   EXPECT_LE(made.lip_fillet_mm, 1.5);
   EXPECT_GT(made.lip_fillet_mm, 1.45);
+  EXPECT_EQ(made.lip_fillet_asked_mm, 5.0);
+  EXPECT_EQ(made.lip_fillet_limit, FilletLimit::lip_width);
   EXPECT_TRUE(certify(made.section.profile));
 }
 
@@ -93,6 +96,7 @@ TEST(LipFillet, IsAtMostHalfOfAFlange) {
   const SmoothedProfile made = rounded(stack_of(1.0, radii), 4.0);
   EXPECT_LE(made.lip_fillet_mm, 1.0);
   EXPECT_GT(made.lip_fillet_mm, 0.95);
+  EXPECT_EQ(made.lip_fillet_limit, FilletLimit::height_below);
 }
 
 RC_GTEST_PROP(LipFillet, KeepsTheVolumeAndTheWallsBelowIt, ()) {
@@ -102,6 +106,7 @@ RC_GTEST_PROP(LipFillet, KeepsTheVolumeAndTheWallsBelowIt, ()) {
   const double asked = *rc::gen::element(0.1, 1.0, 30.0);
   const SmoothedProfile made = rounded(stack, asked);
   RC_ASSERT(made.lip_fillet_mm > 0.0 && made.lip_fillet_mm <= asked);
+  RC_ASSERT((made.lip_fillet_mm < asked) == (made.lip_fillet_limit != FilletLimit::none));
   RC_ASSERT(std::abs(volume_of(made.section.profile) - stack.volume_mm3()) <=
             shapes::volume_rounding(stack));
   RC_ASSERT(certify(made.section.profile).has_value());

@@ -275,6 +275,7 @@ struct ExportReport {
   ProcessReport process;
   VolumeReport volume;
   std::optional<MakerNumbers> maker;        ///< of a standing pot
+  std::optional<MakerNumbers> fallen;       ///< of a collapsed pot, see `fallen_numbers`
   std::optional<CollapsedSolid> collapsed;  ///< without its mesh
   std::vector<FileReport> files;            ///< one for each requested file, in that order
   std::vector<StageTime> stages;
@@ -289,7 +290,7 @@ struct ExportReport {
 /// The drawing of a standing pot at 1:1, as in an .svg.
 [[nodiscard]] std::string drawing_svg(const ExportReport& report, const ExportOptions& options);
 
-enum class ProblemKind { thin_wall, too_large, cavity, overhang, bodies };
+enum class ProblemKind { thin_wall, too_large, cavity, overhang, bodies, lip_fillet };
 
 /// A problem for printing, with its place on the section of the written solid, if it has one.
 struct Problem {
@@ -302,7 +303,7 @@ struct Problem {
 
 /// Fails: a wall below the limit, a size above it, a closed cavity in a fired process. Warnings:
 /// without a limit a wall that no process allows, other closed cavities, overhangs above the
-/// limit, several bodies.
+/// limit, several bodies, in a file a lip with a smaller fillet than asked for.
 [[nodiscard]] std::vector<Problem> problems_of(const ExportReport& report);
 /// The same for the solid, of which no mesh need be written.
 [[nodiscard]] std::vector<Problem> problems_of_solid(const ExportReport& report);

@@ -86,4 +86,10 @@ struct MakerNumbers {
 [[nodiscard]] MakerNumbers maker_numbers(const Profile& profile, const ClayFigures& clay,
                                          double fill_line_mm = kFillLineMm);
 
+/// Of a collapsed pot, which has a size and a weight only: capacities, foot and balance are 0.
+/// Requires valid figures.
+[[nodiscard]] MakerNumbers fallen_numbers(const PotSize& size, double volume_mm3,
+                                          const ClayFigures& clay,
+                                          double fill_line_mm = kFillLineMm);
+
 }  // namespace clay::solid::inline section

@@ -74,6 +74,11 @@ struct FairingReport {
   std::vector<ShortenedFairing> shortened;  ///< by piece and height
 };
 
+/// Why the fillet of a lip has a smaller radius than asked for.
+enum class FilletLimit { none, lip_width, height_below, inclined_walls };
+/// "half the width of the lip does not allow more"; empty for `none`.
+[[nodiscard]] std::string_view reason_of(FilletLimit limit);
+
 struct SmoothedProfile {
   StackProfile section;
   std::vector<KeptSteps> guard;  ///< places with kept steps, by piece, reason and height
@@ -87,7 +92,9 @@ struct SmoothedProfile {
   /// Above 0 if `fair` had to remove clay and found no walls clear of the limit: then walls may be
   /// this much thinner than the guard promises, solids twice as much [mm].
   double taken_mm = 0.0;
-  double lip_fillet_mm = 0.0;          ///< radius as made
+  double lip_fillet_asked_mm = 0.0;  ///< radius
+  double lip_fillet_mm = 0.0;        ///< radius as made: as asked, or as `lip_fillet_limit` allows
+  FilletLimit lip_fillet_limit = FilletLimit::none;
   double volume_error_relative = 0.0;  ///< relative to the counted clay
   /// `exact`: maximum relative error of a ring's R^2 h or r^2 h, with levels in double precision;
   /// in a stack of 10^6 rings, the upper ones lose digits of h.

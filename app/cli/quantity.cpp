@@ -1,0 +1,71 @@
+#include "app/cli/quantity.hpp"
+
+#include "core/number_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <system_error>
+
+namespace clay::cli {
+namespace {
+
+/// A number in the first of the units, or in the one that it names; empty for any other text.
+std::optional<double> number_in(std::string_view text, std::span<const Unit> units) {
+  double number = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, problem] = from_chars(text.data(), end, number);
+  if (problem != std::errc()) return {};
+  std::string_view name(stop, static_cast<std::size_t>(end - stop));
+  if (name.starts_with(' ')) name.remove_prefix(1);
+  if (name.empty()) return number * units.front().factor;
+  const auto unit = std::ranges::find(units, name, &Unit::name);
+  if (unit == units.end()) return {};
+  return number * unit->factor;
+}
+
+std::string names_of(std::span<const Unit> units) {
+  std::string names;
+  for (const Unit& unit : units) names.append(names.empty() ? "" : ", ").append(unit.name);
+  return names;
+}
+
+/// "from 0 to 10 mm"; of a length without limits nothing.
+std::string limits_text(double low_mm, double high_mm) {
+  if (low_mm == std::numeric_limits<double>::lowest()) return "";
+  return fmt::format(" from {:g} to {:g} mm", low_mm, high_mm);
+}
+
+}  // namespace
+
+Result<double> quantity_of(std::string_view text, std::span<const Unit> units) {
+  constexpr double kMost = 1e9;
+  const auto number = number_in(text, units);
+  if (number && *number > 0.0 && *number < kMost) return *number;
+  return failure(ErrorKind::bad_input,
+                 fmt::format("expected a number above 0 in {}, found {}", names_of(units), text));
+}
+
+Result<double> length_of(std::string_view text, double low_mm, double high_mm) {
+  const auto length = number_in(text, kLengthUnits);
+  // Not (length < low): NaN must fail.
+  if (length && *length >= low_mm && *length <= high_mm) return *length;
+  return failure(ErrorKind::bad_input,
+                 fmt::format("expected a length{} ({}), found {}", limits_text(low_mm, high_mm),
+                             names_of(kLengthUnits), text));
+}
+
+CLI::Validator length_within(double low_mm, double high_mm) {
+  return {[=](std::string& text) {
+            const auto length = length_of(text, low_mm, high_mm);
+            if (!length) return length.error().message;
+            text = fmt::format("{}", *length);
+            return std::string();
+          },
+          ""};
+}
+
+}  // namespace clay::cli
