@@ -18,18 +18,26 @@
 
 namespace clay::cli {
 
+/// Rays that sample the walls of a mesh, unless --wall-samples is given.
+inline constexpr std::size_t kWallSamples = 10'000;
+
 struct CheckCommand {
   std::string file;
   WallOptions walls;
   std::string certificate;  ///< empty: no certificate is checked
-  std::size_t wall_samples = 10'000;
+  std::optional<std::size_t> wall_samples_asked;
   bool repair = false;
   solid::RepairOptions repair_options;
   bool dry_run = false;
   std::optional<std::size_t> max_triangles;
-  std::string out;             ///< empty: nothing is written
-  bool accept_prints = false;  ///< exit status 0 also for a mesh that prints without being sound
+  std::string out;     ///< empty: nothing is written
+  std::string accept;  ///< "sound" or "prints": exit status 0 also for a mesh that prints without
+                       ///< being sound; empty: not given, "sound"
 
+  [[nodiscard]] std::size_t wall_samples() const {
+    return wall_samples_asked.value_or(kWallSamples);
+  }
+  [[nodiscard]] bool accept_prints() const { return accept == "prints"; }
   [[nodiscard]] bool changes_mesh() const { return repair || max_triangles; }
 };
 

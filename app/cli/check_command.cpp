@@ -24,6 +24,8 @@ Result<void> check_usage(const CheckCommand& command, const Console& console) {
   if (command.out == "-" && console.json)
     return failure(ErrorKind::bad_input,
                    "-o -: expected no --json with it, because both write to standard output");
+  if (command.wall_samples_asked && !command.walls.asked() && !is_pot(command.file))
+    return tl::make_unexpected(no_effect_without("--wall-samples", "--min-wall or --process"));
   if (command.dry_run && !command.changes_mesh())
     return failure(ErrorKind::bad_input, "--dry-run: expected --repair or --max-triangles with it");
   const solid::RepairOptions& repair = command.repair_options;
@@ -109,24 +111,23 @@ int check(CheckCommand& command, Console& console) {
   const auto verdict = check_file(command, console);
   if (!verdict)
     return report(verdict.error(), verdict_json(command.file, failed(verdict.error()), false));
-  if (console.json) print_json(verdict_json(command.file, *verdict, command.accept_prints));
+  if (console.json) print_json(verdict_json(command.file, *verdict, command.accept_prints()));
   print_verdict(console, command.file, *verdict);
-  return verdict->passes(command.accept_prints) ? kDone : kUnsound;
+  return verdict->passes(command.accept_prints()) ? kDone : kUnsound;
 }
 
 /// What is required of the file.
 void add_demands(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
   command->walls.add_to(*sub);
-  sub->add_option("--wall-samples", command->wall_samples,
+  sub->add_option("--wall-samples", command->wall_samples_asked,
                   "Number of rays that sample the walls of a mesh; they may "
                   "miss the thinnest place (pots are measured, not sampled)")
       ->check(in_whole_range(1, solid::kMostWallSamples))
-      ->capture_default_str();
+      ->default_str(std::to_string(kWallSamples));
   sub->add_option("--certificate", command->certificate,
                   "Certificate of the file, to be verified against its bytes");
-  sub->add_option_function<std::string>(
-         "--accept",
-         [command](const std::string& state) { command->accept_prints = state == "prints"; },
+  sub->add_option(
+         "--accept", command->accept,
          "Exit with status 0 for a mesh that is sound, or also for one that prints: its closed "
          "shells intersect in a few places or are nested, and a slicer unites them (default: "
          "sound). Other checks must not fail")

@@ -100,10 +100,10 @@ void check_unit(const glm::dvec3& size, MeshFormat format, Verdict& verdict) {
 
 Result<void> measure_wall(const TriangleMesh& mesh, const solid::WallLimit& limit,
                           const CheckCommand& command, const Console& console, Verdict& verdict) {
-  Progress progress(console, "walls", command.wall_samples);
-  const auto wall =
-      solid::sampled_wall(mesh, command.wall_samples, solid::most_wall_steps(command.wall_samples),
-                          [&](std::size_t rays) { progress.update(rays); });
+  Progress progress(console, "walls", command.wall_samples());
+  const auto wall = solid::sampled_wall(mesh, command.wall_samples(),
+                                        solid::most_wall_steps(command.wall_samples()),
+                                        [&](std::size_t rays) { progress.update(rays); });
   if (!wall && wall.error().kind == ErrorKind::io)
     return failure(ErrorKind::io, command.file + ": " + wall.error().message);
   if (!wall) {
@@ -111,11 +111,11 @@ Result<void> measure_wall(const TriangleMesh& mesh, const solid::WallLimit& limi
     return {};
   }
   verdict.wall_sampled = *wall;
-  if (wall->rays < command.wall_samples)
+  if (wall->rays < command.wall_samples())
     verdict.add(
         "walls", Grade::warn,
         fmt::format("sampled by only {} rays instead of {}: too many triangles lie near each ray",
-                    wall->rays, command.wall_samples));
+                    wall->rays, command.wall_samples()));
   if (std::isinf(wall->least_mm))
     verdict.add(
         "walls", Grade::fail,

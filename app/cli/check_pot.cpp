@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace clay::cli {
 namespace {
@@ -73,9 +74,13 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command,
     return failure(
         ErrorKind::bad_input,
         command.file + ": --repair and --max-triangles are for meshes; export the pot again");
-  if (!command.certificate.empty())
-    return failure(ErrorKind::bad_input,
-                   command.file + ": expected a mesh for --certificate, found a pot");
+  for (const auto& [option, given] :
+       {std::pair("--certificate", !command.certificate.empty()),
+        std::pair("--wall-samples", command.wall_samples_asked.has_value()),
+        std::pair("--accept", !command.accept.empty())})
+    if (given)
+      return failure(ErrorKind::bad_input,
+                     fmt::format("{}: expected a mesh for {}, found a pot", command.file, option));
   Progress progress(console, "check", 0);
   progress.stage("reading");
   const auto pot = parse_pot(bytes, command.file);

@@ -82,7 +82,7 @@ const char* axis_source(const ImportOptions& options, const HalfSection& section
 }
 
 void print_summary(const Console& console, const ImportOptions& options, const HalfSection& section,
-                   const Json& json) {
+                   const DrawnPot& drawn, const Json& json) {
   console.print(fmt::format("axis at x = {:.3f} mm of the drawing ({})",
                             json["axis_mm"].get<double>(), axis_source(options, section)));
   console.print(fmt::format("{} of {:.4g} mm: {:.1f} mm high, {:.1f} cm3 of clay ({:.1f} cm3 {})",
@@ -91,11 +91,7 @@ void print_summary(const Console& console, const ImportOptions& options, const H
                             json["volume_mm3"].get<double>() / 1e3,
                             json["drawn_mm3"].get<double>() / 1e3,
                             options.pot_settings.wall_mm ? "if it were solid" : "in the drawing"));
-  console.print(fmt::format(
-      "largest deviation from the drawing: {:.3f} mm, {:.2f} mm from the axis and {:.2f} mm above "
-      "the foot",
-      json["deviation_mm"].get<double>(), json["deviation_at_mm"][0].get<double>(),
-      json["deviation_at_mm"][1].get<double>()));
+  console.print(text_of(drawn.deviation, "drawing"));
 }
 
 #ifdef CLAYSTACK_EXPORT
@@ -127,7 +123,7 @@ Result<void> import_drawing(const ImportOptions& options, const Console& console
   if (auto done = publish(options.pot, write_pot(pot->pot, encoding)); !done) return done;
   const Json json = summary(options, *section, *pot);
   if (console.json) print_json(json);
-  print_summary(console, options, *section, json);
+  print_summary(console, options, *section, *pot, json);
   if (!options.pot_settings.ring_height_mm && pot->deviation.mm > kDrawnDeviationMm)
     console.warn(
         fmt::format("{}: the rings deviate from the drawing by {:.3f} mm, although they are "
@@ -183,13 +179,15 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
       "import",
       "Make a pot from a drawing of its section, or from a mesh, to throw on or to print");
   command
-      ->add_option("drawing", options->drawing,
-                   "NAME.svg, NAME.dxf or NAME.csv; or a mesh of a pot"
+      ->add_option(
+          "drawing", options->drawing,
+          "NAME.svg, NAME.dxf or NAME.csv, or - for one of them on standard input; or a mesh "
+          "of a pot"
 #ifdef CLAYSTACK_EXPORT
-                   ": " +
-                       solid::format_endings(solid::FormatUse::read)
+          ": " +
+              solid::format_endings(solid::FormatUse::read)
 #endif
-                       )
+              )
       ->required();
   command->add_option("-o,--output", options->pot, "NAME.pot.json or NAME.pot.cbor")->required();
   add_drawing_options(command, *options);

@@ -7,13 +7,19 @@
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/export/formats.hpp"
+#include "claystack/export/proof.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
-#include <glm/common.hpp>
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace clay::cli {
 namespace {
@@ -25,8 +31,36 @@ constexpr std::uint64_t kImportBytesPerTriangle = 100;
 
 Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-Json summary(const std::string& name, const solid::TriangleMesh& mesh, double mesh_mm3,
-             const MeshPot& made) {
+/// What the mesh encloses.
+struct Enclosed {
+  std::optional<double> mm3;          ///< empty if it has no inside
+  std::vector<std::string> warnings;  ///< of a mesh that is not closed or not oriented outward
+};
+
+Enclosed enclosed_by(const solid::TriangleMesh& mesh) {
+  const solid::MeshReport report = solid::check_mesh(mesh);
+  Enclosed result{std::abs(solid::signed_volume(mesh)), {}};
+  for (const auto& [what, where, count] : report.problems) {
+    if (what == "open edge")
+      result.warnings.push_back(fmt::format(
+          "expected a closed mesh, found {}, the first at {}; an open mesh has no volume",
+          counted(count, "open edge"), where));
+    else if (what == "edge between faces of opposite orientation")
+      result.warnings.push_back(fmt::format(
+          "expected triangles that all face outward, found {} between triangles of opposite "
+          "orientation, the first at {}; the mesh has no volume",
+          counted(count, "edge"), where));
+    else if (what == "inside out")
+      result.warnings.push_back(
+          "expected triangles that face outward, found them facing inward: read as reversed");
+    if (what == "open edge" || what == "edge between faces of opposite orientation")
+      result.mm3.reset();
+  }
+  return result;
+}
+
+Json summary(const std::string& name, const solid::TriangleMesh& mesh,
+             const std::optional<double>& mesh_mm3, const MeshPot& made) {
   Json parts = Json::array();
   for (const MeshPart& part : made.parts)
     parts.push_back({{"azimuth_deg", {part.from_deg, part.to_deg}},
@@ -35,7 +69,7 @@ Json summary(const std::string& name, const solid::TriangleMesh& mesh, double me
   const ClayStack& stack = made.pot.stack;
   return {{"mesh", name},
           {"triangles", mesh.triangles.size()},
-          {"mesh_mm3", mesh_mm3},
+          {"mesh_mm3", mesh_mm3 ? Json(*mesh_mm3) : Json()},
           {"foot_mm", vector_json(made.axis.through)},
           {"axis", vector_json(made.axis.direction)},
           {"rings", stack.size()},
@@ -47,30 +81,34 @@ Json summary(const std::string& name, const solid::TriangleMesh& mesh, double me
           {"not_of_revolution", std::move(parts)}};
 }
 
-/// Rounded to 1 / units, without the sign of a negative zero.
-glm::dvec3 rounded(const glm::dvec3& v, double units) {
-  return glm::round(v * units) / units + 0.0;
+/// Without the sign of a negative zero.
+glm::dvec3 rounded(const glm::dvec3& v, double step) {
+  return {rounded_to(v.x, step), rounded_to(v.y, step), rounded_to(v.z, step)};
 }
 
-void print_summary(const Console& console, const MeshPot& made, double mesh_mm3) {
-  const glm::dvec3 foot = rounded(made.axis.through, 1e3), up = rounded(made.axis.direction, 1e5);
+/// A direction about the axis, from 0 to 359 degrees.
+int whole_degrees(double degrees) {
+  return ((static_cast<int>(std::lround(degrees)) % 360) + 360) % 360;
+}
+
+void print_summary(const Console& console, const MeshPot& made,
+                   const std::optional<double>& mesh_mm3) {
+  const glm::dvec3 foot = rounded(made.axis.through, 1e-3), up = rounded(made.axis.direction, 1e-5);
   const ClayStack& stack = made.pot.stack;
   console.print(
       fmt::format("axis through ({:.3f}, {:.3f}, {:.3f}) mm along ({:.5f}, {:.5f}, {:.5f})", foot.x,
                   foot.y, foot.z, up.x, up.y, up.z));
   console.print(fmt::format(
-      "{} rings of {:.4g} mm: {:.1f} mm high, {:.1f} cm3 of clay ({:.1f} cm3 in the mesh)",
-      stack.size(), stack.ring_height_mm(), stack.height_mm(), stack.volume_mm3() / 1e3,
-      mesh_mm3 / 1e3));
-  console.print(fmt::format(
-      "largest deviation from the mesh: {:.3f} mm, {:.2f} mm from the axis and {:.2f} mm above the "
-      "foot",
-      made.deviation.mm, made.deviation.radius_mm, made.deviation.height_mm));
+      "{} rings of {:.4g} mm: {:.1f} mm high, {:.1f} cm3 of clay{}", stack.size(),
+      stack.ring_height_mm(), stack.height_mm(), stack.volume_mm3() / 1e3,
+      mesh_mm3 ? fmt::format(" ({:.1f} cm3 in the mesh)", *mesh_mm3 / 1e3) : std::string()));
+  console.print(text_of(made.deviation, "mesh"));
   for (const MeshPart& part : made.parts)
     console.print(fmt::format(
-        "not of revolution, left out: azimuth {:.0f} to {:.0f} degrees, {:.1f} to {:.1f} mm above "
-        "the foot, up to {:.1f} mm off",
-        part.from_deg, part.to_deg, part.low_mm, part.high_mm, part.off_mm));
+        "not of revolution, left out: azimuth {} to {} degrees, {:.1f} to {:.1f} mm above the "
+        "foot, up to {:.1f} mm off",
+        whole_degrees(part.from_deg), whole_degrees(part.to_deg), rounded_to(part.low_mm, 0.1),
+        part.high_mm, part.off_mm));
 }
 
 }  // namespace
@@ -90,9 +128,10 @@ Result<void> import_mesh(const std::string& path, const std::string& pot,
   if (!made) return tl::make_unexpected(made.error());
   const PotEncoding encoding = pot_encoding_of(pot).value_or(PotEncoding::json);
   if (auto done = publish(pot, write_pot(made->pot, encoding)); !done) return done;
-  const double mesh_mm3 = solid::signed_volume(*mesh);
-  if (console.json) print_json(summary(path, *mesh, mesh_mm3, *made));
-  print_summary(console, *made, mesh_mm3);
+  const Enclosed enclosed = enclosed_by(*mesh);
+  if (console.json) print_json(summary(path, *mesh, enclosed.mm3, *made));
+  print_summary(console, *made, enclosed.mm3);
+  for (const std::string& warning : enclosed.warnings) console.warn(path + ": " + warning);
   constexpr double kLeastPotMm = 10.0;
   if (const double height = made->pot.stack.height_mm(); height < kLeastPotMm)
     console.warn(

@@ -128,6 +128,7 @@ int run(RenderCommand& command, Console console) {
   if (auto loaded = command.walls.load(); !loaded) return report(loaded.error());
   if (command.walls.asked()) command.wall_map = true;
 #endif
+  if (command.frames_asked) command.choices.frames = *command.frames_asked;
   const auto done = render(command, console);
   if (!done) return report(done.error());
   if (console.json) print_json(rendered_json(command, *done));
@@ -147,9 +148,9 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
       ->required();
   sub->add_option("-o,--output", command->out, "File for the picture, .png");
   sub->add_option("--turntable", command->turntable, "File for an animation of one turn, .gif");
-  sub->add_option("--frames", command->choices.frames, "Number of frames of the turntable")
+  sub->add_option("--frames", command->frames_asked, "Number of frames of the turntable")
       ->check(in_whole_range(1, render::kMostFrames))
-      ->capture_default_str();
+      ->default_str(std::to_string(command->choices.frames));
   add_size(*sub, *command);
   sub->add_flag("--section", command->choices.section, "Cut the pot open to show its walls");
 #ifdef CLAYSTACK_EXPORT

@@ -2,6 +2,7 @@
 #include "app/cli/memory_room.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/cli/pot_input.hpp"
+#include "app/cli/usage.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -25,6 +26,8 @@ Result<void> check_usage(const RenderCommand& command, const Console& console) {
   if (command.out.empty() && command.turntable.empty() && !command.time)
     return failure(ErrorKind::bad_input,
                    "expected -o FILE.png, --turntable FILE.gif or --time, found none");
+  if (command.frames_asked && command.turntable.empty())
+    return tl::make_unexpected(no_effect_without("--frames", "--turntable"));
   if (command.choices.alone && !command.turntable.empty())
     return failure(ErrorKind::bad_input,
                    "--transparent: expected a picture (-o FILE.png), found --turntable: a GIF here "

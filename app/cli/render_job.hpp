@@ -20,6 +20,7 @@ struct RenderCommand {
   std::string out;        ///< .png; empty: none
   std::string turntable;  ///< .gif; empty: none
   render::PictureChoices choices;
+  std::optional<int> frames_asked;  ///< of the turntable; overrides those of `choices`
   bool wall_map = false, time = false;
 #ifdef CLAYSTACK_EXPORT
   WallOptions walls;

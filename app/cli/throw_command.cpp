@@ -291,9 +291,7 @@ Result<void> check_effects(const ThrowOptions& options) {
   if (!options.live.device.empty()) return {};
   for (const CLI::Option* option : options.live_only)
     if (option->count() > 0)
-      return failure(
-          ErrorKind::bad_input,
-          option->get_name() + ": expected --device too; without it the option has no effect");
+      return tl::make_unexpected(no_effect_without(option->get_name(), "--device"));
 #else
   static_cast<void>(options);
 #endif

@@ -94,6 +94,11 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
           fmt::format("{{{}}}", fmt::join(words, ","))};
 }
 
+Error no_effect_without(std::string_view option, std::string_view other) {
+  return {ErrorKind::bad_input,
+          fmt::format("{}: expected {} too; without it the option has no effect", option, other)};
+}
+
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const std::string_view text = error.what();
   switch (static_cast<CLI::ExitCodes>(error.get_exit_code())) {

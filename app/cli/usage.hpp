@@ -1,11 +1,14 @@
 #pragma once
 // Usage errors in the words of all other errors: what was expected, and what was found.
 
+#include "claystack/core/result.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace clay::cli {
@@ -19,6 +22,9 @@ using ValueCheck = std::function<std::string(const std::string&)>;
 [[nodiscard]] ValueCheck in_whole_range(std::uint64_t low, std::uint64_t high);
 /// Accepts one of these words. Help and completions list them.
 [[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);
+
+/// What is said about an option that has no effect without another one.
+[[nodiscard]] Error no_effect_without(std::string_view option, std::string_view other);
 
 /// The message for an error of the parser, without the name of the program.
 [[nodiscard]] std::string usage_message(const CLI::App& app, const CLI::ParseError& error);

@@ -1,5 +1,7 @@
 #include "app/import/deviation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -159,6 +161,15 @@ Deviation deviation_between(const std::vector<Segment>& a, const std::vector<Seg
 
 Deviation deviation_between(std::span<const Slab> a, std::span<const Slab> b) {
   return deviation_between(outline_of(a), outline_of(b));
+}
+
+double rounded_to(double value, double step) { return std::round(value / step) * step + 0.0; }
+
+std::string text_of(const Deviation& deviation, std::string_view from) {
+  return fmt::format(
+      "largest deviation from the {}: {:.3f} mm, {:.2f} mm from the axis and {:.2f} mm above the "
+      "foot",
+      from, deviation.mm, deviation.radius_mm, rounded_to(deviation.height_mm, 0.01));
 }
 
 }  // namespace clay::importing

@@ -5,6 +5,8 @@
 
 #include <glm/vec2.hpp>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace clay::importing {
@@ -30,6 +32,12 @@ struct Segment {
 [[nodiscard]] Deviation deviation_between(const std::vector<Segment>& a,
                                           const std::vector<Segment>& b);
 [[nodiscard]] Deviation deviation_between(std::span<const Slab> a, std::span<const Slab> b);
+
+/// The nearest multiple of `step`, without the sign of a negative zero, for people.
+[[nodiscard]] double rounded_to(double value, double step);
+
+/// "largest deviation from the mesh: 0.012 mm, ...", for people.
+[[nodiscard]] std::string text_of(const Deviation& deviation, std::string_view from);
 
 /// The distance of each point from the outline; infinite from an empty one.
 [[nodiscard]] std::vector<double> distances_from(const std::vector<Segment>& outline,

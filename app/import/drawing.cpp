@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -14,6 +15,18 @@ namespace clay::importing {
 namespace {
 
 constexpr double kFarthestMm = 1e6;
+
+/// Standard input has no name: the ending that its first bytes suggest.
+std::string_view ending_of(std::string_view bytes) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  bytes = without_byte_order_mark(bytes);
+  bytes.remove_prefix(std::min(bytes.find_first_not_of(kBlank), bytes.size()));
+  if (bytes.starts_with('<')) return ".svg";
+  // A DXF file begins with the group code of a section or of a comment, alone on its line.
+  const std::string_view first = bytes.substr(0, bytes.find_first_of("\r\n"));
+  const bool dxf = trimmed(first) == "0" || trimmed(first) == "999";
+  return dxf || bytes.starts_with("AutoCAD Binary DXF") ? ".dxf" : ".csv";
+}
 
 /// Checks that apply to every reader.
 Result<Drawing> checked(Drawing drawing, const std::string& name) {
@@ -37,6 +50,14 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
+bool for_construction(std::string_view layer_name) {
+  constexpr std::string_view kBegin = "construction";
+  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  return layer_name.size() >= kBegin.size() &&
+         std::equal(kBegin.begin(), kBegin.end(), layer_name.begin(),
+                    [&](char wanted, char found) { return same(found, wanted); });
+}
+
 std::string PointLimits::out_of_bounds(std::span<const glm::dvec2> points_mm) {
   for (const glm::dvec2& p : points_mm)
     if (!(std::abs(p.x) <= kFarthestMm && std::abs(p.y) <= kFarthestMm))
@@ -55,7 +76,8 @@ std::string PointLimits::problem_with(std::span<const glm::dvec2> points_mm) {
 
 Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,
                              const std::string& layer) {
-  std::string ending = std::filesystem::path(name).extension().string();
+  std::string ending = name == "-" ? std::string(ending_of(bytes))
+                                   : std::filesystem::path(name).extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const bool svg = ending == ".svg", dxf = ending == ".dxf";
   if (!svg && !dxf && ending != ".csv")
@@ -76,8 +98,10 @@ Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,
               : dxf ? read_dxf(bytes, name, layer)
                     : read_csv(bytes, name);
   if (!read && !(svg && bytes.starts_with('<')))
-    return tl::make_unexpected(
-        kind_error(std::move(read.error()), bytes, name, "a drawing (" + ending + ")"));
+    return tl::make_unexpected(kind_error(std::move(read.error()), bytes, name,
+                                          name == "-"
+                                              ? "a drawing (SVG, DXF or CSV) on standard input"
+                                              : "a drawing (" + ending + ")"));
   return std::move(read).and_then(
       [&](Drawing&& drawing) { return checked(std::move(drawing), name); });
 }

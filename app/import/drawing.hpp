@@ -36,9 +36,10 @@ inline constexpr std::size_t kMostBytes = 32u << 20;
 ///   symbols, and style sheets as far as they hide shapes;
 /// - .dxf: lines, polylines with bulges, arcs, circles, ellipses and splines of the model, with
 ///   inserted blocks, in its units ($INSUNITS), by default mm. Layers that are frozen, off, not
-///   plotted or for construction are ignored;
+///   plotted or for construction (for_construction) are ignored;
 /// - .csv: radius and height in mm per row, or as a first row of names states (csv_columns); an
 ///   empty row begins a new line of the drawing; text after # is ignored. The axis is at radius 0.
+/// For the name "-", standard input, the first bytes select it.
 /// `layer`: the only layer to read, by its name (SVG: label or id); empty: all that are shown.
 /// Errors read "NAME: what was expected, what was found", with the line if there is one.
 Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,

@@ -122,7 +122,7 @@ class Reader {
     return {};
   }
 
-  /// Layers that are frozen, off, not plotted, or for construction draw nothing.
+  /// Layers that are frozen, off, not plotted, or marked as construction draw nothing.
   Result<void> layer(const DxfEntity& entity) {
     const auto flags = dxf_count(entity, 70, 0, name_);
     const auto colour = dxf_count(entity, 62, 7, name_);
@@ -176,13 +176,15 @@ class Reader {
   Result<void> draw(const DxfEntity& entity, DxfGroups& groups, const Insertion& within) {
     Name layer = lower(entity.text(8));
     if (layer.empty() || layer == "0") layer = within.layer;
-    const bool shown = entity.text(60) != "1" && entity.text(67) != "1" && layer != "defpoints" &&
-                       !ignored_.contains(layer);
+    const bool visible = entity.text(60) != "1" && entity.text(67) != "1" && layer != "defpoints" &&
+                         !ignored_.contains(layer);
+    const bool shown = visible && (!for_construction(layer) || layer == layer_);
     if (entity.type == "INSERT") return shown ? insert(entity, within, layer) : Result<void>();
     auto line = dxf_line(entity, groups, within.placement, limits_, name_);
     if (!line) return tl::make_unexpected(line.error());
-    if (!*line || (*line)->points_mm.size() < 2 || !shown) return {};
+    if (!*line || (*line)->points_mm.size() < 2 || !visible) return {};
     seen_layers_.insert(layer);
+    if (!shown) return {};
     if (layer_.empty() || layer == layer_) lines_.push_back(std::move(**line));
     return {};
   }

@@ -24,6 +24,10 @@ class PointLimits {
 /// The text without blanks at its ends.
 std::string_view trimmed(std::string_view text);
 
+/// Whether a layer is for construction by its name, which then begins with "construction" in any
+/// case. Such layers are drawn only if they are asked for by name.
+bool for_construction(std::string_view layer_name);
+
 /// `layer`: the only layer to read; empty: all that are shown.
 Result<Drawing> read_svg(std::string_view bytes, const std::string& name, const std::string& layer);
 Result<Drawing> read_dxf(std::string_view bytes, const std::string& name, const std::string& layer);

@@ -19,6 +19,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <span>
@@ -28,6 +29,8 @@ namespace clay::importing {
 namespace {
 
 constexpr double kMmPerPx = 25.4 / 96.0;
+/// Of a page that states no size: lengths that refer to it are not numbers.
+constexpr double kNoSize = std::numeric_limits<double>::quiet_NaN();
 constexpr std::ptrdiff_t kMostNodes = 1'000'000;  // the tree of each takes some 200 bytes
 
 /// Derives from the library's exception class, so that the library adds the element.
@@ -74,6 +77,10 @@ class Collector {
  public:
   std::vector<Line> lines;
 
+  /// Lengths in the user's units: percentages are of the viewport around the element.
+  using Lengths = svgpp::factory::length::unitless<>;
+  [[nodiscard]] const Lengths& length_factory() const { return states_.back().lengths; }
+
   void on_enter_element(svgpp::tag::element::any) { states_.push_back(states_.back()); }
   void on_exit_element() { states_.pop_back(); }
 
@@ -81,8 +88,8 @@ class Collector {
     states_.back().to_page =
         states_.back().to_page * glm::dmat3{m[0], m[1], 0.0, m[2], m[3], 0.0, m[4], m[5], 1.0};
   }
-  void set_viewport(double, double, double, double) {}
-  void set_viewbox_size(double, double) {}
+  void set_viewport(double, double, double width, double height) { set_size(width, height); }
+  void set_viewbox_size(double width, double height) { set_size(width, height); }
   void disable_rendering() { states_.back().shown = false; }
 
   void path_move_to(double x, double y, svgpp::tag::coordinate::absolute) {
@@ -140,11 +147,27 @@ class Collector {
   struct State {
     glm::dmat3 to_page{1.0};
     bool shown = true;
+    bool sized = false;  ///< the viewport has a width and a height
+    Lengths lengths{of_size(kNoSize, kNoSize)};
   };
+
+  static Lengths of_size(double width, double height) {
+    Lengths lengths;
+    lengths.set_viewport_size(width, height);
+    return lengths;
+  }
+  void set_size(double width, double height) {
+    states_.back().lengths = of_size(width, height);
+    states_.back().sized = std::isfinite(width) && std::isfinite(height);
+  }
 
   /// y points down on a page.
   [[nodiscard]] glm::dvec2 at(double x, double y) const {
     const glm::dvec3 p = states_.back().to_page * glm::dvec3{x, y, 1.0};
+    if (!states_.back().sized && (std::isnan(p.x) || std::isnan(p.y)))
+      throw Refusal(
+          "expected a viewBox, or a width and a height of the drawing, because a length refers to "
+          "its size; found none");
     return kMmPerPx * glm::dvec2{p.x, -p.y};
   }
 
@@ -186,7 +209,9 @@ using Attributes =
 
 using Traversal = svgpp::document_traversal<
     svgpp::processed_elements<Elements>, svgpp::processed_attributes<Attributes>,
-    svgpp::viewport_policy<svgpp::policy::viewport::as_transform>, svgpp::path_policy<Minimal>>;
+    svgpp::viewport_policy<svgpp::policy::viewport::as_transform>, svgpp::path_policy<Minimal>,
+    svgpp::length_policy<
+        svgpp::policy::length::forward_to_method<Collector, const Collector::Lengths>>>;
 
 /// Shortens the library's messages, which quote whole attributes, to one line.
 std::string shortened(std::string text) {

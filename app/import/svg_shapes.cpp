@@ -1,13 +1,15 @@
 #include "app/import/svg_shapes.hpp"
 
+#include "app/import/readers.hpp"
 #include "app/import/svg_style.hpp"
+#include "app/import/svg_transform.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <set>
 #include <string_view>
@@ -119,8 +121,10 @@ class Copier {
     if (kind == "g" && !enter_layer(node, state)) return {};
     if (const auto& transform = value(SvgProperty::transform);
         transform && *transform != "none" && parent != nullptr) {
+      const auto functions = svg_transform(*transform, value(SvgProperty::transform_origin));
+      if (!functions) return refusal(node, functions.error().message);
       parent = add(node, parent, "g");
-      set(parent, "transform", *transform);
+      set(parent, "transform", *functions);
     }
     if (kind == "use") return use(node, parent, state);
     if (kind == "svg") return viewport(node, node, parent, state);
@@ -153,9 +157,7 @@ class Copier {
     const std::string id = svg_attribute(node, "id");
     if (mode == "layer") layers_.insert(label.empty() ? id : label);
     if (!layer_.empty() && (label == layer_ || id == layer_)) found_layer_ = state.in_layer = true;
-    std::string lower = label.empty() ? id : label;
-    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return !lower.starts_with("construction") || (!layer_.empty() && state.in_layer);
+    return !for_construction(label.empty() ? id : label) || (!layer_.empty() && state.in_layer);
   }
 
   Result<void> children(xmlNode* node, xmlNode* parent, const Inherited& state) {
@@ -180,11 +182,29 @@ class Copier {
       return refusal(node, fmt::format("use: expected the id of an element of the drawing, found "
                                        "\"{}\"",
                                        href.substr(0, 40)));
+    const auto again = std::find(used_.begin(), used_.end(), href);
+    if (again != used_.end())
+      return refusal(node, fmt::format("use: expected an element that does not use itself, found "
+                                       "{} -> {}",
+                                       shortened(again, used_.end()), href.substr(0, 40)));
     xmlNode* place = add(node, parent, "svg");
     for (const char* attribute : {"x", "y"}) copy_attribute(node, place, attribute);
     const std::string_view kind = name_of(target->second);
-    if (kind != "symbol" && kind != "svg") return element(target->second, place, state);
-    return viewport(target->second, node, place, state);
+    used_.push_back(href);
+    auto done = kind != "symbol" && kind != "svg" ? element(target->second, place, state)
+                                                  : viewport(target->second, node, place, state);
+    used_.pop_back();
+    return done;
+  }
+
+  /// "#a -> #b" of a chain of uses.
+  static std::string shortened(std::vector<std::string>::const_iterator begin,
+                               std::vector<std::string>::const_iterator end) {
+    constexpr std::ptrdiff_t kMost = 8;
+    std::string text;
+    for (auto it = begin; it != end && it - begin < kMost; ++it)
+      text += (it == begin ? "" : " -> ") + it->substr(0, 40);
+    return end - begin > kMost ? text + " -> ..." : text;
   }
 
   /// The content of an svg or a symbol; the size is that of `sized`, if it has one.
@@ -196,13 +216,28 @@ class Copier {
     for (const char* attribute : {"width", "height"}) {
       if (sized != node && !svg_attribute(sized, attribute).empty())
         set(copied, attribute, svg_attribute(sized, attribute));
-      // A page in percent has no size of its own.
-      if (parent == nullptr && svg_attribute(node, attribute).ends_with('%'))
-        xmlUnsetProp(copied, reinterpret_cast<const xmlChar*>(attribute));
     }
+    if (parent == nullptr) size_page(copied);
     Inherited inside = state;
     ++inside.depth;
     return children(node, copied, inside);
+  }
+
+  /// A page in percent has no size of its own. Without a width or a height it takes that of its
+  /// view box, with neither of them both.
+  static void size_page(xmlNode* page) {
+    for (const char* attribute : {"width", "height"})
+      if (svg_attribute(page, attribute).ends_with('%'))
+        xmlUnsetProp(page, reinterpret_cast<const xmlChar*>(attribute));
+    const std::string width = svg_attribute(page, "width"), height = svg_attribute(page, "height");
+    const auto box = svg_numbers(svg_attribute(page, "viewBox"));
+    if (box.size() != 4 || !(box[2] > 0.0 && box[3] > 0.0)) return;
+    if (width.empty() && height.empty()) {
+      set(page, "width", number_text(box[2]));
+      set(page, "height", number_text(box[3]));
+    }
+    if (width.empty() && !height.empty()) set(page, "width", svg_scaled(height, box[2] / box[3]));
+    if (height.empty() && !width.empty()) set(page, "height", svg_scaled(width, box[3] / box[2]));
   }
 
   xmlNode* add(const xmlNode* source, xmlNode* parent, std::string_view kind) {
@@ -241,6 +276,7 @@ class Copier {
   xmlNs* space_ = nullptr;  ///< of the result
   SvgStyles styles_;
   std::map<std::string, xmlNode*> ids_;
+  std::vector<std::string> used_;  ///< the references within which the element is
   std::set<std::string> layers_;
   bool found_layer_ = false;
   std::size_t count_ = 0;

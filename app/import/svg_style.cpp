@@ -11,14 +11,13 @@ namespace {
 
 constexpr std::size_t kMostComparisons = 20'000'000;
 constexpr std::string_view kXlink = "http://www.w3.org/1999/xlink";
-constexpr std::string_view kSpace = " \t\r\n\f";
-constexpr std::array<std::string_view, kSvgProperties> kNames = {"display", "visibility", "fill",
-                                                                 "stroke", "transform"};
+constexpr std::array<std::string_view, kSvgProperties> kNames = {
+    "display", "visibility", "fill", "stroke", "transform", "transform-origin"};
 
 std::string_view stripped(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kSpace);
+  const std::size_t first = text.find_first_not_of(kSvgBlank);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+  return text.substr(first, text.find_last_not_of(kSvgBlank) - first + 1);
 }
 
 /// Removes everything up to `end` from the front, and returns what was before it.
@@ -73,7 +72,7 @@ void lay_over(SvgValues& values, const SvgValues& above) {
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words;
   while (!(text = stripped(text)).empty()) {
-    const std::size_t end = std::min(text.find_first_of(kSpace), text.size());
+    const std::size_t end = std::min(text.find_first_of(kSvgBlank), text.size());
     words.emplace_back(text.substr(0, end));
     text.remove_prefix(end);
   }
@@ -127,7 +126,7 @@ std::optional<std::vector<SvgStyles::Part>> SvgStyles::parts_of(std::string_view
     }
     Part part;
     part.child = std::exchange(child, false);
-    while (!selector.empty() && kSpace.find(selector.front()) == std::string_view::npos &&
+    while (!selector.empty() && kSvgBlank.find(selector.front()) == std::string_view::npos &&
            selector.front() != '>') {
       const char kind = selector.front();
       const bool marked = kind == '.' || kind == '#';

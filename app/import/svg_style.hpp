@@ -15,8 +15,11 @@
 
 namespace clay::importing {
 
-enum class SvgProperty { display, visibility, fill, stroke, transform };
-inline constexpr std::size_t kSvgProperties = 5;
+enum class SvgProperty { display, visibility, fill, stroke, transform, transform_origin };
+inline constexpr std::size_t kSvgProperties = 6;
+
+/// White space of style sheets and lists.
+inline constexpr std::string_view kSvgBlank = " \t\r\n\f";
 
 /// The values of one element, where they are set.
 using SvgValues = std::array<std::optional<std::string>, kSvgProperties>;

@@ -3,6 +3,7 @@
 #include "claystack/export/proof.hpp"
 #include "core/cancel.hpp"
 #include "core/parallel_parts.hpp"
+#include "core/text.hpp"
 #include "export/repair/hole_filling.hpp"
 #include "export/repair/intersection_repair.hpp"
 #include "export/repair/order_keeping.hpp"
@@ -14,6 +15,7 @@
 #include "export/repair/wrapping.hpp"
 #include "export/solid/mesh_extent.hpp"
 
+#include <cmath>
 #include <exception>
 #include <glm/geometric.hpp>
 
@@ -37,6 +39,29 @@ Result<TriangleMesh> wrapped_or_error(const TriangleMesh& soup, double offset_mm
   if (report.sound()) return mesh;
   return failure(ErrorKind::unsound, reason.message + "; wrapped: expected a sound mesh, found " +
                                          report.problems.front().what);
+}
+
+/// Refuses wraps that would take too long, before any work: of a thin wall, or close to the
+/// surface.
+Result<void> expect_quick_wraps(const TriangleMesh& soup, const RepairOptions& options) {
+  const auto expect = [&](std::string_view what, const std::optional<double>& asked_mm,
+                          double least_mm) -> Result<void> {
+    if (!asked_mm || *asked_mm >= least_mm) return {};
+    return failure(ErrorKind::bad_input, std::string(what) + ": expected at least " +
+                                             short_number_text(std::ceil(least_mm * 1e4) / 1e4) +
+                                             " mm for a surface of " +
+                                             short_number_text(area_mm2(soup) / 100.0) +
+                                             " cm2, found " + short_number_text(*asked_mm) +
+                                             " mm, which would take more "
+                                             "than " +
+                                             short_number_text(kMostWrapTriangles) + " triangles");
+  };
+  return expect("thickness of the wall", options.thicken_mm,
+                2.0 * least_wrap_offset_mm(soup, kThickenAlpha))
+      .and_then([&] {
+        return expect("distance of the wrap", options.wrap_mm,
+                      least_wrap_offset_mm(soup, kWrapAlpha));
+      });
 }
 
 /// The stages in their order.
@@ -76,6 +101,8 @@ Result<RepairedMesh> repair_unsound(const TriangleMesh& mesh, const RepairOption
   TriangleMesh soup = mesh;
   clean_soup(soup, options.weld_mm, result.repaired);
   if (soup.triangles.empty()) return nothing_left();
+  if (auto quick = expect_quick_wraps(soup, options); !quick)
+    return tl::make_unexpected(quick.error());
   auto sound = repaired_or_error(soup, options, result, stage);
   if (!sound && options.wrap_mm) {
     result = {};

@@ -10,4 +10,16 @@ namespace clay::solid::inline repair {
 /// are rounded to float32.
 TriangleMesh wrapped(const TriangleMesh& soup, double offset_mm, double alpha_per_offset);
 
+/// The smallest `offset_mm` of `wrapped` that is worth its time. A wrap of an open surface has some
+/// 2.7 triangles for each square of the size `alpha_per_offset * offset_mm` on one side of it
+/// (measured; fewer around a closed one), and each takes some 0.4 ms of a processor. The number of
+/// triangles is bounded by kMostWrapTriangles. Requires points and indices that are valid.
+[[nodiscard]] double least_wrap_offset_mm(const TriangleMesh& soup, double alpha_per_offset);
+
+/// A wrap of as many takes three to four minutes.
+inline constexpr double kMostWrapTriangles = 500'000.0;
+
+/// The area of all triangles [mm2].
+[[nodiscard]] double area_mm2(const TriangleMesh& soup);
+
 }  // namespace clay::solid::inline repair

@@ -237,12 +237,17 @@ TEST_F(CheckRepair, WritesNothingInADryRun) {
   EXPECT_EQ(claystack("check --dry-run " + in).status, 2);
 }
 
-TEST_F(CheckRepair, RefusesAnOpenCupUnlessItMayCapIt) {
-  TriangleMesh cup = cube(20.0);  // without its lid
+/// A cube of 20 mm without its lid.
+TriangleMesh open_cup() {
+  TriangleMesh cup = cube(20.0);
   std::erase_if(cup.triangles, [&](const auto& t) {
     return cup.points[t[0]].z + cup.points[t[1]].z + cup.points[t[2]].z == 60.0;
   });
-  const std::string in = write("cup.stl", cup), out = folder.file("out.stl");
+  return cup;
+}
+
+TEST_F(CheckRepair, RefusesAnOpenCupUnlessItMayCapIt) {
+  const std::string in = write("cup.stl", open_cup()), out = folder.file("out.stl");
   const Ran refused = claystack("check --repair " + in + " -o " + out);
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.err.find("found an opening 28.2842712 mm wide at (10, 10, 20) mm"),
@@ -256,11 +261,7 @@ TEST_F(CheckRepair, RefusesAnOpenCupUnlessItMayCapIt) {
 }
 
 TEST_F(CheckRepair, MakesAWallAroundAnOpenSurface) {
-  TriangleMesh cup = cube(20.0);  // without its lid
-  std::erase_if(cup.triangles, [&](const auto& t) {
-    return cup.points[t[0]].z + cup.points[t[1]].z + cup.points[t[2]].z == 60.0;
-  });
-  const std::string in = write("cup.stl", cup), out = folder.file("out.stl");
+  const std::string in = write("cup.stl", open_cup()), out = folder.file("out.stl");
   const Ran run = claystack("check --json --repair --thicken 2 " + in + " -o " + out);
   EXPECT_EQ(run.status, 0) << run.err;
   // Five sides of 400 mm2, 2 mm thick, less the corners inside and more at the edges.
@@ -352,7 +353,23 @@ TEST_F(CheckRepair, ReportsBadUsageBeforeAnyWork) {
   refused(in + " --min-wall 1 --wall-samples 0", "wall-samples");
   const std::string pot = folder.file("p.pot.json");
   ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  refused(in + " --wall-samples 100", "--wall-samples: expected --min-wall or --process too");
+  refused(pot + " --wall-samples 100", "expected a mesh for --wall-samples, found a pot");
+  refused(pot + " --accept prints", "expected a mesh for --accept, found a pot");
   refused("--repair " + pot + " -o " + folder.file("out.stl"), "for meshes");
+}
+
+TEST_F(CheckRepair, RefusesAWrapThatIsTooFineForTheMesh) {
+  // Five sides of 4 cm2, and 2.7 triangles for each square of the thickness: 500,000 of 0.104 mm.
+  const std::string in = write("cup.stl", open_cup());
+  for (const auto& [option, says] :
+       {std::pair("--thicken 0.001", "thickness of the wall: expected at least 0.104 mm for a surface of 20"),
+        std::pair("--wrap 0.001", "distance of the wrap: expected at least 0.0104 mm for a surface of 20"}) {
+    const Ran run = claystack("check --repair --dry-run " + in + " " + option);
+    EXPECT_EQ(run.status, 2) << option << run.out;
+    EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("cm2, found 0.001 mm"), std::string::npos) << run.err;
+  }
 }
 
 TEST_F(CheckRepair, ReturnsThreeForAnUnwritableOutput) {

@@ -60,6 +60,23 @@ TEST(Import, ReadsEndingsInCapitalLetters) {
   EXPECT_EQ(run.status, 0) << run.err;
 }
 
+TEST(Import, ReadsADrawingOnStandardInput) {
+  for (const char* drawing : {"jug.svg", "bowl.dxf", "tumbler.csv"}) {
+    const std::string file = sample(std::string("drawings/") + drawing);
+    const Ran named = claystack("import -q " + file + " -o -");
+    const Ran streamed = claystack("import -q - -o - < " + file);
+    ASSERT_EQ(streamed.status, 0) << streamed.err;
+    EXPECT_EQ(streamed.out, named.out) << drawing;
+  }
+  const ScratchFolder folder;
+  const std::string mesh = folder.file("a.stl");
+  write_text(mesh, "solid a\nendsolid a\n");
+  const Ran refused = claystack("import - -o - < " + mesh);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("-: expected a drawing (SVG, DXF or CSV) on standard input, "
+                                     "found an STL mesh in text"));
+}
+
 TEST(Import, ReportsErrorsAndLeavesNoFile) {
   const ScratchFolder folder;
   const std::string pot = folder.file("x.pot.json"), drawing = folder.file("x.csv");

@@ -181,7 +181,8 @@ TEST(Render, ReturnsTwoForBadUsage) {
         vase() + out + " --size 10x10x", vase() + out + " --size 9000x10",
         vase() + out + " --theme blue", vase() + out + " --material brick",
         vase() + out + " --elevation 90", vase() + " --turntable x.png",
-        vase() + out + " --process brick", sample("vase.session") + out})
+        vase() + out + " --process brick", vase() + out + " --frames 3",
+        sample("vase.session") + out})
     EXPECT_EQ(claystack("render " + arguments).status, 2) << arguments;
   EXPECT_FALSE(std::filesystem::exists(folder.file("x.png")));
 }

@@ -1,3 +1,4 @@
+#include "app/import/readers.hpp"
 #include "tests/app/import/solids.hpp"
 #include "tests/fuzz/drawing_promise.hpp"
 
@@ -37,6 +38,25 @@ TEST(Layers, OneOrAll) {
   EXPECT_EQ(lines_of(kDxf, "a.dxf", ""), 3u);
   EXPECT_EQ(lines_of(kDxf, "a.dxf", "pot"), 1u);
   EXPECT_EQ(lines_of(kDxf, "a.dxf", "LID"), 2u);
+}
+
+TEST(Layers, OfConstructionByTheirNameAreReadOnlyIfAskedFor) {
+  for (const char* layer : {"Construction", "construction_2", "CONSTRUCTION LINES"}) {
+    const std::string name = layer;
+    const std::string svg = "<svg xmlns='http://www.w3.org/2000/svg'><path d='M 0 0 H 9'/><g id='" +
+                            name + "'><path d='M 3 4 V 9'/></g></svg>";
+    EXPECT_EQ(lines_of(svg, "a.svg", ""), 1u) << name;
+    EXPECT_EQ(lines_of(svg, "a.svg", name), 1u) << name;
+    const std::string dxf =
+        "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nPot\n10\n0\n20\n0\n11\n8\n21\n8\n0\nLINE\n8\n" +
+        name + "\n10\n0\n20\n0\n11\n5\n21\n8\n0\nENDSEC\n0\nEOF\n";
+    EXPECT_EQ(lines_of(dxf, "a.dxf", ""), 1u) << name;
+    EXPECT_EQ(lines_of(dxf, "a.dxf", name), 1u) << name;
+    EXPECT_EQ(lines_of(dxf, "a.dxf", "pot"), 1u) << name;
+  }
+  EXPECT_TRUE(for_construction("Construction"));
+  EXPECT_FALSE(for_construction("Constructio"));
+  EXPECT_FALSE(for_construction("under construction"));
 }
 
 TEST(Layers, UnknownOnesAreRefusedWithTheNames) {

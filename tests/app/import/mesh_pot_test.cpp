@@ -171,5 +171,55 @@ TEST(MeshPot, CommandReportsAxisAndDeviationAndRefusesOptionsOfDrawings) {
   }
 }
 
+TEST(MeshPot, CommandWarnsOfAnOpenMeshAndAnInvertedOne) {
+  const Exported sample("vase");
+  const std::string pot = " -o " + sample.folder.file("again.pot.json");
+  const auto imported = [&](const TriangleMesh& mesh, const char* name) {
+    const std::string file = sample.folder.file(name);
+    test::write_text(file, *solid::encode_mesh(mesh, solid::MeshFormat::stl_binary, {}));
+    return std::pair(test::claystack("import --json " + file + pot),
+                     test::claystack("import " + file + pot));
+  };
+  // Without a triangle, each of its three edges has one triangle only.
+  TriangleMesh open = sample.mesh;
+  open.triangles.erase(open.triangles.begin() + 50);
+  const auto [open_json, open_text] = imported(open, "open.stl");
+  EXPECT_EQ(open_json.status, 0) << open_json.err;
+  EXPECT_THAT(open_json.err, HasSubstr("open.stl: expected a closed mesh, found 3 open edges"));
+  EXPECT_TRUE(open_json.json().at("mesh_mm3").is_null());
+  EXPECT_THAT(open_text.out, testing::Not(HasSubstr("in the mesh")));
+
+  TriangleMesh inverted = sample.mesh;
+  for (auto& [a, b, c] : inverted.triangles) std::swap(b, c);
+  const auto [inverted_json, inverted_text] = imported(inverted, "inverted.stl");
+  EXPECT_THAT(inverted_json.err, HasSubstr("inverted.stl: expected triangles that face outward"));
+  EXPECT_NEAR(inverted_json.json().at("mesh_mm3").get<double>() / sample.volume_mm3, 1.0, 1e-3);
+
+  TriangleMesh mixed = sample.mesh;
+  std::swap(mixed.triangles[70][1], mixed.triangles[70][2]);
+  const auto [mixed_json, mixed_text] = imported(mixed, "mixed.stl");
+  EXPECT_THAT(mixed_json.err, HasSubstr("found 3 edges between triangles of opposite orientation"));
+  EXPECT_TRUE(mixed_json.json().at("mesh_mm3").is_null());
+
+  const auto [sound_json, sound_text] = imported(sample.mesh, "sound.stl");
+  EXPECT_EQ(sound_json.err, "");
+}
+
+TEST(MeshPot, CommandWritesDirectionsFrom0To359DegreesAndNoNegativeZero) {
+  const Exported sample("cylinder");
+  TriangleMesh mug = sample.mesh;
+  add_box(mug, {38.0, -6.0, 50.0}, {68.0, 8.0, 110.0});  // on both sides of azimuth 0
+  const std::string file = sample.folder.file("mug.stl");
+  test::write_text(file, *solid::encode_mesh(mug, solid::MeshFormat::stl_binary, {}));
+  const auto run =
+      test::claystack("import " + file + " -o " + sample.folder.file("again.pot.json"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, testing::ContainsRegex("azimuth 3[0-9]+ to [0-9]+ degrees")) << run.out;
+  EXPECT_THAT(run.out, testing::Not(testing::ContainsRegex("to 3[0-9]+ degrees"))) << run.out;
+  EXPECT_EQ(text_of({0.01, 3.0, -1e-9}, "mesh"),
+            "largest deviation from the mesh: 0.010 mm, 3.00 mm from the axis and 0.00 mm above "
+            "the foot");
+}
+
 }  // namespace
 }  // namespace clay::importing

@@ -79,6 +79,76 @@ TEST(SvgDrawing, AppliesTransformsGroupsAndUnits) {
   EXPECT_NEAR(high->volume_mm3(), wanted, 1e-6);
 }
 
+TEST(SvgDrawing, PercentagesAreOfTheViewBox) {
+  const auto section = section_of(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='120mm' height='120mm' "
+      "viewBox='0 0 120 120'><rect x='25%' y='30%' width='15%' height='40%'/></svg>",
+      "pot.svg");
+  ASSERT_TRUE(section) << refusal_of(section);
+  EXPECT_NEAR(section->height_mm, 48.0, 1e-9);
+  EXPECT_NEAR(section->volume_mm3(), kPi * 81.0 * 48.0, 1e-6);
+}
+
+TEST(SvgDrawing, APageWithoutAWidthOrAHeightTakesThatOfItsViewBox) {
+  const auto high = [](const std::string& size) {
+    const auto section = section_of("<svg xmlns='http://www.w3.org/2000/svg' " + size +
+                                        "><rect x='10' y='10' width='20' height='40'/></svg>",
+                                    "pot.svg");
+    EXPECT_TRUE(section) << refusal_of(section);
+    return section ? section->height_mm : 0.0;
+  };
+  const double px = 25.4 / 96.0;
+  EXPECT_NEAR(high("viewBox='0 0 100 50'"), 40.0 * px, 1e-9);
+  EXPECT_NEAR(high("width='100%' height='100%' viewBox='0 0 100 50'"), 40.0 * px, 1e-9);
+  EXPECT_NEAR(high("width='200mm' viewBox='0 0 100 50'"), 80.0, 1e-9);
+  EXPECT_NEAR(high("height='5cm' viewBox='0 0 100 50'"), 40.0, 1e-9);
+  EXPECT_NEAR(high(""), 40.0 * px, 1e-9);
+  const std::string sizeless =
+      "<svg xmlns='http://www.w3.org/2000/svg'><rect width='20' height='40%'/></svg>";
+  EXPECT_THAT(refusal_of(read_drawing(sizeless, "pot.svg")),
+              HasSubstr("expected a viewBox, or a width and a height of the drawing"));
+}
+
+TEST(SvgDrawing, TransformsOfStylesAreHonouredOrRefusedByName) {
+  const std::string shape = " d='M 0 0 H 30 V 60 H 0 L 0 30 Z'/>";
+  const double wanted = kPi * 900.0 * 60.0;
+  EXPECT_NEAR(volume_of("<path style='transform: skew(0, 0) translate(5px,0)'" + shape), wanted,
+              1e-6);
+  // Twice as large about any origin.
+  EXPECT_NEAR(volume_of("<path style='transform-origin: 7px 9mm; transform: scale(2)'" + shape),
+              8.0 * wanted, 1e-5);
+  // About (50, 0) the left half comes to lie over the right one: the axis in the drawing tells.
+  const auto turned =
+      section_of(page("<path style='transform:scaleX(-1);transform-origin:50px 0px'" + shape),
+                 "pot.svg", {AxisRule::left, 0.0, {}});
+  ASSERT_TRUE(turned) << refusal_of(turned);
+  EXPECT_NEAR(turned->axis_mm, 70.0, 1e-9);
+  for (const char* transform :
+       {"translate3d(1px,2px,3px)", "translate(50%)", "scale(50%)", "rotate(5px)", "translate(1em)",
+        "rotate(1deg 2px)", "translate(1px", "wobble"})
+    EXPECT_THAT(
+        refusal_of(read_drawing(
+            page(std::string("<path style='transform:") + transform + "'" + shape), "pot.svg")),
+        HasSubstr("pot.svg:1: transform: expected matrix, translate"))
+        << transform;
+  EXPECT_THAT(
+      refusal_of(read_drawing(
+          page("<path style='transform:scale(2);transform-origin:center'" + shape), "pot.svg")),
+      HasSubstr("transform-origin: expected two lengths, such as 10px 20px, found center"));
+}
+
+TEST(SvgDrawing, AUseOfItselfIsNamed) {
+  EXPECT_THAT(refusal_of(read_drawing(page("<g id='a'><use href='#b'/></g><g id='b'><use "
+                                           "href='#a'/></g>"),
+                                      "pot.svg")),
+              HasSubstr("use: expected an element that does not use itself, found #b -> #a -> #b"));
+  EXPECT_THAT(refusal_of(read_drawing(page("<use id='u' href='#u'/>"), "pot.svg")),
+              HasSubstr("found #u -> #u"));
+  EXPECT_NEAR(volume_of("<defs><path id='p' d='M 0 0 H 30 V 60 H 0 L 0 30 Z'/></defs>"
+                        "<use href='#p'/><use href='#p'/>"),
+              kPi * 900.0 * 60.0, 1e-6);
+}
+
 TEST(SvgDrawing, IgnoresHiddenElements) {
   const std::string pot = "<path d='M 0 0 H 30 V 60 H 0 L 0 30 Z'/>";
   const std::string hidden = "<path d='M 0 0 H 90 V 60 H 0 Z'/>";

@@ -12,12 +12,12 @@ constexpr int kPixels = 200;  // of a page of 100 mm
 constexpr double kScale = 2.0;
 
 /// Compares a page of 100 x 100 mm with its picture.
-void compare(const std::string& shapes) {
+void compare(const std::string& shapes, const std::string& view_box = "0 0 100 100") {
   const test::ScratchFolder folder;
   const std::string page =
       "<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink' "
-      "width='100mm' height='100mm' viewBox='0 0 100 100'>" +
-      shapes + "</svg>";
+      "width='100mm' height='100mm' viewBox='" +
+      view_box + "'>" + shapes + "</svg>";
   test::write_text(folder.file("page.svg"), page);
   const auto drawing = read_drawing(page, "page.svg");
   ASSERT_TRUE(drawing) << drawing.error().message << page;
@@ -67,6 +67,37 @@ TEST(SvgRender, NestedTransforms) {
     compare("<symbol id='a' viewBox='0 0 50 50' overflow='visible'>" + own +
             "</symbol><use href='#a' x='10' y='4' width='90' height='70' transform='scale(.9)'/>");
   }
+}
+
+TEST(SvgRender, PercentagesOfTheViewport) {
+  const std::vector<std::string> shapes = {
+      "<rect x='25%' y='30%' width='15%' height='40%' rx='3%'/>",
+      "<circle cx='40%' cy='50%' r='20%'/>", "<ellipse cx='40%' cy='50%' rx='10%' ry='20%'/>",
+      "<rect width='50%' height='25%'/>"};
+  for (const char* box : {"0 0 120 120", "0 0 50 80", "-10 -5 300 100"})
+    for (const std::string& shape : shapes) {
+      compare(shape, box);
+      compare("<g transform='scale(.8)'>" + shape + "</g>", box);
+      compare("<svg x='10%' y='5%' width='60%' height='50%' overflow='visible'>" + shape + "</svg>",
+              box);
+      compare("<svg width='60%' height='50%' viewBox='0 0 40 90' overflow='visible'>" + shape +
+                  "</svg>" + shape,
+              box);
+      compare("<defs><g id='a'>" + shape + "</g></defs><use href='#a' x='8%' y='3%'/>", box);
+    }
+}
+
+TEST(SvgRender, TransformsOfStyles) {
+  for (const std::string& element : kElements)
+    for (const char* transform :
+         {"translate(12px,9px)", "translate(5mm)", "translate(.5in, 12pt) rotate(0.05turn)",
+          "translateX(9px)", "translateY(3mm) scaleX(1.4)", "rotate(17deg) scale(1.2,0.8)",
+          "rotate(.2rad)", "skewX(10deg)", "skewY(8grad)", "matrix(0.9,0.2,-0.3,1.1,15,4)"}) {
+      compare(
+          fmt::format(fmt::runtime(element), std::string("style='transform:") + transform + "'"));
+      compare(std::string("<style>.moved {transform: ") + transform + "}</style>" +
+              fmt::format(fmt::runtime(element), "class='moved'"));
+    }
 }
 
 TEST(SvgRender, StylesThatHideAndShow) {
