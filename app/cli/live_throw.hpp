@@ -15,7 +15,7 @@ struct LiveOptions {
   std::string device;  ///< empty: not live
   std::string record;  ///< session to write; empty: none
   falcon::FalconSettings falcon;
-  bool wait = false;    ///< wait for a disconnected device to return
+  bool wait = false;   ///< wait for a disconnected device to return
   bool soften = true;  ///< lower the scene's stiffness to the accepted limit
   servo::LiveSettings settings;
 };

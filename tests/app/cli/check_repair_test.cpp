@@ -363,8 +363,10 @@ TEST_F(CheckRepair, RefusesAWrapThatIsTooFineForTheMesh) {
   // Five sides of 4 cm2, and 2.7 triangles for each square of the thickness: 500,000 of 0.104 mm.
   const std::string in = write("cup.stl", open_cup());
   for (const auto& [option, says] :
-       {std::pair("--thicken 0.001", "thickness of the wall: expected at least 0.104 mm for a surface of 20"),
-        std::pair("--wrap 0.001", "distance of the wrap: expected at least 0.0104 mm for a surface of 20"}) {
+       {std::pair("--thicken 0.001",
+                  "thickness of the wall: expected at least 0.104 mm for a surface of 20"),
+        std::pair("--wrap 0.001",
+                  "distance of the wrap: expected at least 0.0104 mm for a surface of 20")}) {
     const Ran run = claystack("check --repair --dry-run " + in + " " + option);
     EXPECT_EQ(run.status, 2) << option << run.out;
     EXPECT_NE(run.err.find(says), std::string::npos) << run.err;

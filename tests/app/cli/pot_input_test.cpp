@@ -20,9 +20,10 @@ TEST(MeshDiffers, FromThePotInAnotherSizeOrShape) {
   EXPECT_TRUE(mesh_differs(box(40, 25), pot)) << "scaled";
   EXPECT_TRUE(mesh_differs(box(80, 45), pot)) << "cut";
   EXPECT_TRUE(mesh_differs(box(180, 50), pot)) << "two pots on a plate";
-  EXPECT_EQ(mesh_differs(box(40, 25), pot),
-            "the mesh is 40.0 mm wide and 25.0 mm high, the pot inside 80.0 mm and 50.0 mm: another "
-            "program changed the mesh");
+  EXPECT_EQ(
+      mesh_differs(box(40, 25), pot),
+      "the mesh is 40.0 mm wide and 25.0 mm high, the pot inside 80.0 mm and 50.0 mm: another "
+      "program changed the mesh");
 }
 
 }  // namespace
