@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cstring>
 #include <limits>
 #include <regex>
@@ -226,10 +228,12 @@ TEST(CheckPot, WarnsOfAClosedCavity) {
   write_text(pot, json.dump());
   const Ran run = claystack("check --json " + pot);
   EXPECT_EQ(run.status, 0) << run.out << run.err;
-  const auto check = run.json().at("checks").at(0);
-  EXPECT_EQ(check.at("check"), "geometry");
-  EXPECT_EQ(check.at("verdict"), "warn");
-  EXPECT_NE(check.at("text").get<std::string>().find("closed cavity"), std::string::npos);
+  // Its floor and lid of a ring each get a warning, too.
+  const auto checks = run.json().at("checks");
+  EXPECT_TRUE(std::ranges::any_of(checks, [](const auto& check) {
+    return check.at("check") == "geometry" && check.at("verdict") == "warn" &&
+           check.at("text").template get<std::string>().find("closed cavity") != std::string::npos;
+  })) << run.out;
   const Ran fired = claystack("check --process stoneware --json " + pot);
   EXPECT_EQ(fired.status, 1) << fired.out;
   const Ran exported = claystack("export " + pot + " " + folder.file("p.stl"));

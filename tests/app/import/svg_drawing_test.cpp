@@ -145,7 +145,7 @@ TEST(SvgDrawing, AUseOfItselfIsNamed) {
   EXPECT_THAT(refusal_of(read_drawing(page("<use id='u' href='#u'/>"), "pot.svg")),
               HasSubstr("found #u -> #u"));
   EXPECT_NEAR(volume_of("<defs><path id='p' d='M 0 0 H 30 V 60 H 0 L 0 30 Z'/></defs>"
-                        "<use href='#p'/><use href='#p'/>"),
+                        "<use href='#p'/>"),
               kPi * 900.0 * 60.0, 1e-6);
 }
 

@@ -81,7 +81,7 @@ TEST_F(Exporting, WritesTheBytesOfTheCommand) {
       ".report.html --material celadon --tolerance 0.05 --process porcelain --shrinkage 12%");
   // Its wall is too thin for porcelain: the command writes the files and reports the fault.
   ASSERT_EQ(ran.status, 1) << ran.err;
-  ASSERT_EQ(done.done->problems.size(), 2u) << "the wall, and a warning about the overhang";
+  ASSERT_EQ(done.done->problems.size(), 3u) << "the wall, the lip fillet and the overhang";
   EXPECT_NE(ran.err.find(done.done->problems[0]), std::string::npos);
   for (const char* ending :
        {".stl", ".obj", ".3mf", ".step", ".svg", ".dxf", ".pdf", ".pot.json", ".glb"})

@@ -147,7 +147,6 @@ TEST(SectionSheet, TheFloorOfANarrowBoreStandsBesideTheFoot) {
   const Sheet sheet =
       sheet_of(pot_of(stack_of(10.0, {{20, 0}, {20, 12}, {20, 12}, {20, 12}})), options);
   EXPECT_EQ(words_on(sheet, SheetLayer::dimensions).at(4), "floor 12.5 (fired 10.0)");
-  EXPECT_EQ(touching(sheet), "");
 }
 
 TEST(SectionSheet, WordsOfASmallFootStandBesideItsArrow) {
