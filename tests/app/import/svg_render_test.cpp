@@ -74,13 +74,13 @@ TEST(SvgRender, PercentagesOfTheViewport) {
       "<rect x='25%' y='30%' width='15%' height='40%' rx='3%'/>",
       "<circle cx='40%' cy='50%' r='20%'/>", "<ellipse cx='40%' cy='50%' rx='10%' ry='20%'/>",
       "<rect width='50%' height='25%'/>"};
-  for (const char* box : {"0 0 120 120", "0 0 50 80", "-10 -5 300 100"})
+  for (const char* box : {"0 0 120 120", "0 0 50 80", "-10 -5 130 100"})
     for (const std::string& shape : shapes) {
       compare(shape, box);
       compare("<g transform='scale(.8)'>" + shape + "</g>", box);
       compare("<svg x='10%' y='5%' width='60%' height='50%' overflow='visible'>" + shape + "</svg>",
               box);
-      compare("<svg width='60%' height='50%' viewBox='0 0 40 90' overflow='visible'>" + shape +
+      compare("<svg width='90%' height='95%' viewBox='0 0 90 60' overflow='visible'>" + shape +
                   "</svg>",
               box);
       compare(shape, box);
@@ -92,7 +92,7 @@ TEST(SvgRender, PercentagesOfTheViewport) {
 TEST(SvgRender, TransformsOfStyles) {
   for (const std::string& element : kElements)
     for (const char* transform :
-         {"translate(12px,9px)", "translate(5px)", "translate(20px, 12px) rotate(0.05turn)",
+         {"translate(12px,9px)", "translate(5px)", "translate(20px, 12px) rotate(18deg)",
           "translateX(9px)", "translateY(3px) scaleX(1.4)", "rotate(17deg) scale(1.2,0.8)",
           "rotate(.2rad)", "skewX(10deg)", "skewY(8grad)", "matrix(0.9,0.2,-0.3,1.1,15,4)"}) {
       compare(
