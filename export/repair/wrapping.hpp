@@ -16,7 +16,7 @@ TriangleMesh wrapped(const TriangleMesh& soup, double offset_mm, double alpha_pe
 /// triangles is bounded by kMostWrapTriangles. Requires points and indices that are valid.
 [[nodiscard]] double least_wrap_offset_mm(const TriangleMesh& soup, double alpha_per_offset);
 
-/// A wrap of as many takes three to four minutes.
+/// By the figures above a wrap of as many takes about three minutes (an estimate).
 inline constexpr double kMostWrapTriangles = 500'000.0;
 
 /// The area of all triangles [mm2].
