@@ -295,6 +295,8 @@ class WallProbe {
     const glm::dvec3 aside = std::abs(inward.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(inward, aside)), v = glm::cross(inward, u);
     constexpr int kLines = 4;
+    bool ends = false;
+    double along_mm = std::numeric_limits<double>::infinity();
     for (int k = 0; k < kLines; ++k) {
       const double angle = std::numbers::pi * k / kLines;
       glm::dvec3 towards_end = std::cos(angle) * u + std::sin(angle) * v;
@@ -304,14 +306,14 @@ class WallProbe {
         towards_end = -towards_end;
       }
       if (nearer.mm >= kEndThicknesses * thickness_mm) continue;
-      if (farther.mm < thickness_mm && !farther.grazes) continue;
+      ends = ends || farther.mm >= thickness_mm || farther.grazes;
       // In a sharp wedge the line meets the other face long before the clay ends. Along the face
-      // where the ray began it goes farther, and the other face is longer by the cosine between.
-      const double along_mm =
-          way(begin + kBelowFace * thickness_mm * inward, towards_end, steps).mm;
-      if (along_mm * (1.0 + 1.0 / opposite.facing) < 3.0 * thickness_mm) return true;
+      // where the ray began it goes farther.
+      along_mm = std::min(along_mm,
+                          way(begin + kBelowFace * thickness_mm * inward, towards_end, steps).mm);
     }
-    return false;
+    // The other face of a wedge is longer by the cosine between the faces.
+    return ends && along_mm * (1.0 + 1.0 / opposite.facing) < 3.0 * thickness_mm;
   }
 
   const TriangleMesh& mesh_;
