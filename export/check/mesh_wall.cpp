@@ -243,7 +243,6 @@ constexpr double kGrazing = std::numbers::sqrt2 / 2.0;
 /// thicknesses long, as `min_wall` requires, even if the clay ends in a wedge: 1.5, seen at 22.5
 /// degrees.
 constexpr double kEndThicknesses = 1.63;
-constexpr double kBelowFace = 1.0 / 32.0;  // thicknesses
 
 class WallProbe {
  public:
@@ -264,7 +263,7 @@ class WallProbe {
     if (hit && one.wall.oblique == 0 && hit->mm) {
       const Shortest ray{*hit->mm, begin, triangle, sample};
       // The sides are worth looking at only where the wall would be the thinnest.
-      if (ray.mm < found.least.mm && ends_beside(begin, inward, *hit, steps)) {
+      if (ray.mm < found.least.mm && ends_beside(begin, inward, ray.mm, steps)) {
         one.wall.oblique = 1;
         one.at_an_end = ray;
       } else {
@@ -275,45 +274,32 @@ class WallProbe {
   }
 
  private:
-  /// How far a line goes within the clay [mm].
-  struct Way {
-    double mm = std::numeric_limits<double>::infinity();
-    bool grazes = false;  // a leaning face, beside which the clay goes on
-  };
-  [[nodiscard]] Way way(const glm::dvec3& begin, const glm::dvec3& direction,
-                        std::size_t& steps) const {
-    const auto hit = WallRay(mesh_, begin, direction).first_hit(tree_, steps);
-    return hit && hit->mm ? Way{*hit->mm, hit->facing < kGrazing} : Way{};
-  }
-
   /// Whether the clay ends close to the middle of a wall, on one side of it only, as it does at the
   /// end of a lip or of a flange. A rod ends on both sides alike.
   [[nodiscard]] bool ends_beside(const glm::dvec3& begin, const glm::dvec3& inward,
-                                 const WallRay::Hit& opposite, std::size_t& steps) const {
-    const double thickness_mm = *opposite.mm;
+                                 double thickness_mm, std::size_t& steps) const {
     const glm::dvec3 middle = begin + 0.5 * thickness_mm * inward;
     const glm::dvec3 aside = std::abs(inward.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(inward, aside)), v = glm::cross(inward, u);
+    struct Way {
+      double mm = std::numeric_limits<double>::infinity();
+      bool grazes = false;  // a leaning face, beside which the clay goes on
+    };
+    const auto way = [&](const glm::dvec3& direction) {
+      const auto hit = WallRay(mesh_, middle, direction).first_hit(tree_, steps);
+      return hit && hit->mm ? Way{*hit->mm, hit->facing < kGrazing} : Way{};
+    };
     constexpr int kLines = 4;
-    bool ends = false;
-    double along_mm = std::numeric_limits<double>::infinity();
     for (int k = 0; k < kLines; ++k) {
       const double angle = std::numbers::pi * k / kLines;
-      glm::dvec3 towards_end = std::cos(angle) * u + std::sin(angle) * v;
-      Way nearer = way(middle, towards_end, steps), farther = way(middle, -towards_end, steps);
-      if (nearer.mm > farther.mm) {
-        std::swap(nearer, farther);
-        towards_end = -towards_end;
-      }
-      if (nearer.mm >= kEndThicknesses * thickness_mm) continue;
-      ends = ends || farther.mm >= thickness_mm || farther.grazes;
-      // In a sharp wedge the line meets the other face long before the clay ends. Along the face
-      // where the ray began it goes farther.
-      along_mm = std::min(along_mm,
-                          way(begin + kBelowFace * thickness_mm * inward, towards_end, steps).mm);
+      const glm::dvec3 direction = std::cos(angle) * u + std::sin(angle) * v;
+      Way nearer = way(direction), farther = way(-direction);
+      if (nearer.mm > farther.mm) std::swap(nearer, farther);
+      if (nearer.mm < kEndThicknesses * thickness_mm &&
+          (farther.mm >= thickness_mm || farther.grazes))
+        return true;
     }
-    // The other face of a wedge is longer by the cosine between the faces.
-    return ends && along_mm * (1.0 + 1.0 / opposite.facing) < 3.0 * thickness_mm;
+    return false;
   }
 
   const TriangleMesh& mesh_;

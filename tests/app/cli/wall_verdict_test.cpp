@@ -103,7 +103,7 @@ TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
   EXPECT_GE(2 * failed, pots());
 }
 
-// A lip that tapers to 0.23 mm: rays see a little more than the certificate proves.
+// A lip that tapers to 0.23 mm: rays do not see its edge.
 TEST(WallVerdict, OfAMeshWithACertificateIsThatOfTheCertificate) {
   const ScratchFolder folder;
   const std::string svg = folder.file("p.svg"), pot = folder.file("p.pot.json"),

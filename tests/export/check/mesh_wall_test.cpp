@@ -149,23 +149,6 @@ TEST(SampledWall, IgnoresAFootBelowALeaningNeck) {
   EXPECT_GT(min_wall_mm(pot), 5.0);
 }
 
-TEST(SampledWall, SeesTheEdgeOfASharpBevelOnly) {
-  // A wall of 6 mm whose inside is bevelled until 0.23 mm are left.
-  const auto bevelled = [](double degrees) {
-    const double drop = 5.77 / std::tan(degrees * std::numbers::pi / 180.0);
-    return Profile{{{{30, 0}, {36, 0}, {36, 90}, {35.77, 90}, {30, 90 - drop}}}};
-  };
-  for (const double degrees : {15.0, 20.0, 25.0, 29.0}) {
-    const double exact_mm = min_wall_mm(bevelled(degrees));
-    const double seen_mm = wall_of(revolve(bevelled(degrees), kSegments)).least_mm;
-    EXPECT_GT(seen_mm, 0.98 * exact_mm) << degrees;
-    EXPECT_LT(seen_mm, 2.0 * exact_mm) << degrees;
-    EXPECT_LT(exact_mm, 1.0) << degrees;
-  }
-  for (const double degrees : {42.0, 60.0})
-    EXPECT_NEAR(wall_of(revolve(bevelled(degrees), kSegments)).least_mm, 6.0, 0.12) << degrees;
-}
-
 TEST(SampledWall, OfARodIsItsDiameter) {
   const SampledWall rod = wall_of(revolve({{{{0, 0}, {3, 0}, {3, 40}, {0, 40}}}}, kSegments));
   EXPECT_NEAR(rod.least_mm, 6.0, 6.0 * 0.02);
