@@ -105,6 +105,9 @@ Result<Pot> read_pot(const std::string& path, [[maybe_unused]] const Console& co
   if (is_3mf(path))
     return read_file(path).and_then([&](const std::string& bytes) {
       return pot_from(bytes, path).map([&](Pot pot) {
+        // Slicers drop the certificate when they write a package again.
+        const auto parts = solid::parts_in_3mf(bytes, path);
+        if (!parts || !parts->certificate.empty()) return pot;
         const auto mesh = solid::decode_3mf(bytes, path);
         if (const auto difference = mesh ? mesh_differs(*mesh, pot) : std::nullopt)
           console.warn(path + ": " + *difference + "; the pot is used");

@@ -32,9 +32,9 @@ Result<Pot> read_pot(const std::string& path, const Console& console);
 /// Width, depth and height.
 [[nodiscard]] glm::dvec3 size_mm(const solid::TriangleMesh& mesh);
 
-/// The difference in words if the mesh beside a pot is not of that pot: another program may have
+/// The difference in words if the mesh beside a pot cannot be of that pot: another program may have
 /// scaled or cut it, or added other objects. Empty if it may be, in its size as thrown or enlarged
-/// by up to the largest shrinkage, 50 %; turns and moves do not count.
+/// by up to the largest shrinkage, 50 %. It may be moved, or turned about the vertical.
 [[nodiscard]] std::optional<std::string> mesh_differs(const solid::TriangleMesh& mesh,
                                                       const Pot& pot);
 #endif

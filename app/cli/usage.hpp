@@ -23,7 +23,7 @@ using ValueCheck = std::function<std::string(const std::string&)>;
 /// Accepts one of these words. Help and completions list them.
 [[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// What is said about an option that has no effect without another one.
+/// The error for an option that has no effect without another one.
 [[nodiscard]] Error no_effect_without(std::string_view option, std::string_view other);
 
 /// The message for an error of the parser, without the name of the program.

@@ -29,7 +29,7 @@ class Quality {
   [[nodiscard]] Fineness fineness(bool changing) const noexcept {
     return kFineness[changing ? level_ : 0];
   }
-  /// Frames for a picture at rest of so many samples.
+  /// The number of frames over which a picture at rest with this many samples is drawn.
   [[nodiscard]] int frames(double samples) const noexcept {
     return static_cast<int>(
         std::clamp(std::ceil(sample_s_ * samples / kPartS), 1.0, double{kMostFrames}));
