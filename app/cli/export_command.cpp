@@ -45,6 +45,7 @@ struct ExportCommand {
   std::vector<std::string> outputs;
   solid::ExportRequest request;
   std::string smooth = "fair";
+  bool length_of_tool = false;  ///< --smooth-length tool
   std::string verify = "margins";
   std::optional<std::string> step, glb, material;
   solid::Goal goal;
@@ -219,9 +220,9 @@ Result<Pot> pot_at_goal(const Pot& pot, ExportCommand& command, const Console& c
       });
 }
 
-/// `--smooth-length tool` needs a pot that remembers its tool.
+/// `--smooth-length tool` needs a pot that remembers its tool; the default does without.
 Result<void> check_tool_length(const Pot& pot, const ExportCommand& command) {
-  if (command.request.options.smooth_length_mm) return {};
+  if (!command.length_of_tool) return {};
   const auto refuse = [](const std::string& why) {
     return failure(ErrorKind::bad_input, "--smooth-length tool: expected " + why);
   };
@@ -347,12 +348,14 @@ void add_smoothing_options(CLI::App* sub, const SharedCommand& command) {
   sub->add_option_function<std::string>(
          "--smooth-length",
          [=](const std::string& text) {
-           if (const auto length = smooth_length_of(text))
+           if (const auto length = smooth_length_of(text)) {
              command->request.options.smooth_length_mm = *length;
+             command->length_of_tool = !*length;
+           }
          },
          "With --smooth fair: continuous curvature; what is shorter along the height than this is "
          "smoothed away, such as 9mm; tool: the radius of the pot's tool; 0: straight from ring to "
-         "ring (default: 0)")
+         "ring (default: tool, or 0 if the pot was not thrown)")
       ->type_name(std::string(kLengthName) + "|tool")
       ->check([](const std::string& text) {
         const auto length = smooth_length_of(text);

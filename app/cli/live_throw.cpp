@@ -7,7 +7,6 @@
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/replay.hpp"
 #include "app/cli/rescue.hpp"
-#include "app/history/pot_scene.hpp"
 #include "app/servo/scene_hand.hpp"
 #include "app/servo/signals.hpp"
 #include "app/servo/tick_trace.hpp"
@@ -84,17 +83,17 @@ PotEncoding encoding_of(const LiveJob& job) {
   return job.pot_path.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
 }
 
-std::string written_pot(const LiveJob& job, const SceneSpec& scene, const Pot& pot) {
-  return write_pot(history::remembering(scene, pot), encoding_of(job));
+std::string written_pot(const LiveJob& job, const Pot& pot) {
+  return write_pot(pot, encoding_of(job));
 }
 
 /// Only writing detects a full disk: tries to write the current pot, if that changes no existing
 /// file.
-Result<AtomicFile> open_pot_file(const LiveJob& job, const SceneSpec& scene, const Pot& pot) {
+Result<AtomicFile> open_pot_file(const LiveJob& job, const Pot& pot) {
   {
     auto trial = AtomicFile::create(job.pot_path);
     if (!trial || !trial->rereadable()) return trial;
-    if (auto fits = trial->write(written_pot(job, scene, pot)); !fits)
+    if (auto fits = trial->write(written_pot(job, pot)); !fits)
       return tl::make_unexpected(fits.error());
   }
   return AtomicFile::create(job.pot_path);
@@ -105,7 +104,7 @@ Result<void> open_pot(const LiveJob& job, Stage& stage) {
   if (job.pot_path.empty()) return {};
   const std::size_t rings = stage.wheel->stack().size();
   if (auto room = expect_room_to_write(rings, encoding_of(job), job.pot_path); !room) return room;
-  auto file = open_pot_file(job, stage.scene, stage.wheel->pot());
+  auto file = open_pot_file(job, stage.wheel->pot());
   if (!file) return tl::make_unexpected(file.error());
   stage.pot_file.emplace(std::move(*file));
   return {};
@@ -233,7 +232,7 @@ Result<void> keep_session(const LiveOptions& options, const Console& console, St
 
 Result<void> keep_pot(const LiveJob& job, Stage& stage, const Pot& pot) {
   if (!stage.pot_file) return {};
-  const std::string bytes = written_pot(job, stage.scene, pot);
+  const std::string bytes = written_pot(job, pot);
   const auto written =
       stage.pot_file->write(bytes).and_then([&] { return stage.pot_file->commit(); });
   if (written) return written;

@@ -10,7 +10,6 @@
 #include "app/cli/replay.hpp"
 #include "app/cli/throw_work.hpp"
 #include "app/cli/usage.hpp"
-#include "app/history/pot_scene.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -195,9 +194,7 @@ Result<void> write_outputs(Outputs& outputs, const Pot& pot, PotEncoding encodin
   Progress progress(console, "throwing", 0);
   progress.stage("writing");
   if (outputs.pot)
-    if (auto written = outputs.pot->write(write_pot(history::remembering(scene, pot), encoding));
-        !written)
-      return written;
+    if (auto written = outputs.pot->write(write_pot(pot, encoding)); !written) return written;
   if (trace)
     if (auto written = trace->finish(); !written) return written;
   if (outputs.error_plot) {

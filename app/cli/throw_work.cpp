@@ -1,7 +1,6 @@
 #include "app/cli/throw_work.hpp"
 #include "app/cli/json_output.hpp"
 
-#include "app/history/pot_scene.hpp"
 #include "app/history/work.hpp"
 
 #include "claystack/core/atomic_file.hpp"
@@ -96,10 +95,7 @@ Result<void> throw_work(const WorkJob& job, Console console) {
   if (!job.pot_path.empty()) {
     const PotEncoding encoding =
         job.pot_path.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
-    if (auto written = publish(
-            job.pot_path, write_pot(history::remembering(*work.view(node).scene, **pot), encoding));
-        !written)
-      return written;
+    if (auto written = publish(job.pot_path, write_pot(**pot, encoding)); !written) return written;
   }
   if (console.json) print_json(json);
   console.print(fmt::format(

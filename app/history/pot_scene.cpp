@@ -44,11 +44,4 @@ SceneSpec scene_for(const Pot& pot, const std::string& name) {
   return scene;
 }
 
-Pot remembering(const SceneSpec& scene, Pot pot) {
-  pot.thrown_with.reset();
-  if (ThrowSettings settings = settings_of(scene); settings != settings_of(scene_for(pot, {})))
-    pot.thrown_with = std::move(settings);
-  return pot;
-}
-
 }  // namespace clay::history

@@ -15,8 +15,4 @@ namespace clay::history {
 /// gets a name.
 [[nodiscard]] SceneSpec scene_for(const Pot& pot, const std::string& name);
 
-/// The pot for a file: it remembers the scene of its last stroke, unless `scene_for` would find the
-/// same settings without that.
-[[nodiscard]] Pot remembering(const SceneSpec& scene, Pot pot);
-
 }  // namespace clay::history

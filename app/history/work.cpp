@@ -107,7 +107,6 @@ Result<Work> Work::begin(const SceneSpec& scene, const Pot& start) {
   WorkRecord record;
   record.scenes = {scene};
   record.start = start;
-  record.start->thrown_with.reset();  // the scene has it
   record.nodes.resize(1);
   return open(std::move(record));
 }

@@ -122,12 +122,8 @@ Result<void> Document::save(const std::filesystem::path& path) {
         fmt::format("{}: expected a name that ends in .work, .pot.json or .pot.cbor", name));
   const auto encoding = name.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
   return cli::expect_room_to_write(pot_->stack.size(), encoding, name).and_then([&] {
-    return publish(path, write_pot(pot_for_file(), encoding));
+    return publish(path, write_pot(*pot_, encoding));
   });
-}
-
-Pot Document::pot_for_file() const {
-  return history::remembering(current_scene(work_->record()), *pot_);
 }
 
 void Document::keep_file(const std::filesystem::path& path) {

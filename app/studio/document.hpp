@@ -85,8 +85,6 @@ class Document {
   [[nodiscard]] bool has_work() const noexcept { return work_.has_value(); }
   [[nodiscard]] const history::Work& work() const noexcept { return *work_; }
   [[nodiscard]] const Pot& pot() const noexcept { return *pot_; }
-  /// The current pot as files hold it: with the tool and clay of its last stroke.
-  [[nodiscard]] Pot pot_for_file() const;
   /// Null before there is a work. During a stroke: the pot at its start.
   [[nodiscard]] const history::SharedPot& shared_pot() const noexcept { return pot_; }
   /// The pot on screen between strokes: the current pot, or the pot at `moment`.

@@ -53,8 +53,7 @@ void write_export(AppState& state, bool replace) {
   exporting.problem.clear();
   exporting.result.clear();
   state.log("export started");
-  state.exporter.write(std::make_shared<const Pot>(state.document.pot_for_file()),
-                       exporting.choices);
+  state.exporter.write(std::make_shared<const Pot>(state.document.pot()), exporting.choices);
 }
 
 void show_written_folder(AppState& state) {

@@ -163,8 +163,7 @@ EMSCRIPTEN_KEEPALIVE void claystack_hide() {
 /// Writes the pot on the wheel in its compact form. False: there is none.
 EMSCRIPTEN_KEEPALIVE bool claystack_write_pot(const char* path) {
   if (!window || !window->state().document.has_work()) return false;
-  return publish(path, write_pot(window->state().document.pot_for_file(), PotEncoding::cbor))
-      .has_value();
+  return publish(path, write_pot(window->state().document.pot(), PotEncoding::cbor)).has_value();
 }
 EMSCRIPTEN_KEEPALIVE void claystack_notice(const char* text) {
   if (!window) return;

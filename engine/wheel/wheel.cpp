@@ -37,6 +37,9 @@ struct Wheel::State {
   RuleWork work;
   RuleSteps rules;
   std::optional<double> turned_mm;  // height of a pot that stands upside down
+  ThrowSettings settings;
+  std::optional<ThrowSettings> settings_before;  // of the pot that was put on the wheel
+  bool thrown = true;                            // false: a pot, still as it was put on the wheel
   std::optional<Failure> failure;
   glm::dvec3 failure_hip{0.0};
   StepReport (*tick)(State&, const Pose&) noexcept = nullptr;
@@ -336,7 +339,9 @@ Result<Wheel> Wheel::build(const SceneSpec& scene) {
                                    lump.inner_radius_mm, max_rings_of(lump));
   if (!stack) return failure(stack.error().kind, "lump: " + stack.error().message);
   const Ledger ledger{.initial = stack->volume(), .added = 0, .trimmed = 0, .outside = 0};
-  return assemble(std::move(*plan), std::move(*stack), ledger, Rim{}, "lump");
+  auto wheel = assemble(std::move(*plan), std::move(*stack), ledger, Rim{}, "lump");
+  if (wheel) wheel->state_->settings = settings_of(scene);
+  return wheel;
 }
 
 Result<Wheel> Wheel::build(const SceneSpec& scene, const Pot& start) {
@@ -353,7 +358,12 @@ Result<Wheel> Wheel::build(const SceneSpec& scene, const Pot& start) {
                                      start.stack.crown(), lump.max_rings);
   if (!stack) return failure(stack.error().kind, "pot: " + stack.error().message);
   auto wheel = assemble(std::move(*plan), std::move(*stack), start.ledger, start.rim, "pot");
-  if (wheel && scene.clay) wheel->state_->motion = start.motion;
+  if (!wheel) return wheel;
+  State& state = *wheel->state_;
+  if (scene.clay) state.motion = start.motion;
+  state.settings = settings_of(scene);
+  state.settings_before = start.thrown_with;
+  state.thrown = false;
   return wheel;
 }
 
@@ -400,6 +410,7 @@ Result<Wheel> Wheel::assemble(StepPlan plan, ClayStack stack, const Ledger& ledg
 
 StepReport Wheel::step(const Pose& pose) noexcept {
   State& s = *state_;
+  s.thrown = true;
   return s.turned_mm ? turned(s.tick(s, turned(pose, *s.turned_mm))) : s.tick(s, pose);
 }
 StepReport Wheel::probe(const Pose& pose) noexcept {
@@ -416,6 +427,7 @@ Pot Wheel::pot() const {
   const State& s = *state_;
   Pot pot{s.stack, s.ledger, s.plan.model, s.plan.density_g_cm3, {}, {}, {}, s.motion};
   if (pot.model == Model::conserving) pot.rim = s.rim;
+  pot.thrown_with = s.thrown ? s.settings : s.settings_before;
   if (s.failure)
     pot.collapse = settle(s.stack, s.plan.density_g_cm3, *s.failure, s.failure_hip,
                           s.plan.stability.max_stress_kpa);

@@ -137,8 +137,8 @@ class RevolvedExport {
 
   Result<void> smooth(ProvedSection& section, double tolerance_mm) {
     const double lip_mm = lip_fillet_mm();
-    const bool fairing = options_.smooth_length_mm.value_or(0.0) != 0.0;
-    if (options_.smoothing == Smoothing::none && lip_mm == 0.0 && !fairing)
+    const double length_mm = smooth_length_mm();
+    if (options_.smoothing == Smoothing::none && lip_mm == 0.0 && length_mm == 0.0)
       section.no_smoothing = "not requested";
     else if (has_straight_walls(stack_) && lip_mm == 0.0)
       section.no_smoothing = "the walls are straight";
@@ -147,7 +147,7 @@ class RevolvedExport {
       return {};
     }
     SmoothingOptions how{options_.smoothing, tolerance_mm, {}, lip_mm, {}};
-    how.smooth_length_mm = smooth_length_mm();
+    how.smooth_length_mm = length_mm;
     if (prepared_.limit) how.min_wall_mm = prepared_.limit->min_wall_mm;
     return stages_.run("smooth", [&] { return smoothed_profile(stack_, steps_, how); })
         .map([&](SmoothedProfile smoothed) {

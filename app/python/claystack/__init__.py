@@ -180,7 +180,7 @@ def import_pot(path: Union[str, os.PathLike]) -> Pot:
 
 
 def export(pot: Pot, files: Sequence[Union[str, os.PathLike]], *, tolerance_mm: float = 0.02,
-           smoothing: str = "fair", smooth_length_mm: Optional[float] = 0.0,
+           smoothing: str = "fair", smooth_length_mm: Optional[float] = None,
            min_wall_mm: Optional[float] = None, process: Optional[str] = None,
            shrinkage: float = 0.0, certificates: bool = False) -> Export:
     """Proves the pot and writes all files, or none. The solids are those of `claystack export`.
@@ -196,7 +196,7 @@ def export(pot: Pot, files: Sequence[Union[str, os.PathLike]], *, tolerance_mm: 
 
 
 def mesh(pot: Pot, *, tolerance_mm: float = 0.02, smoothing: str = "fair",
-         smooth_length_mm: Optional[float] = 0.0) -> Mesh:
+         smooth_length_mm: Optional[float] = None) -> Mesh:
     """The solid of a pot, as a binary STL holds it. `smooth_length_mm` as for `export`."""
     return _mesh(_call(_native.mesh_of, pot._native,
                        _settings(tolerance_mm, smoothing, smooth_length_mm)))

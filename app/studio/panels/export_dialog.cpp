@@ -79,6 +79,13 @@ void draw_formats(const ViewModel& model, ExportChoices& choices) {
     choices.material = chosen->id;
 }
 
+/// Shows the length of the tool until another one is chosen.
+void choose_smooth_length(const Pot& pot, std::optional<double>& length_mm) {
+  double shown_mm = length_mm ? *length_mm : solid::tool_length_mm(pot);
+  if (form_length("Smoothing length", shown_mm, 0.0, kLongestFairingMm, LengthUnit::mm, "none"))
+    length_mm = shown_mm;
+}
+
 void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actions) {
   form_length("Tolerance", choices.tolerance_mm, kFinestMm, kCoarsestMm, LengthUnit::mm);
   constexpr std::array kSmooth = {solid::Smoothing::fair, solid::Smoothing::exact,
@@ -90,8 +97,7 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
   if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth); chosen >= 0)
     choices.smoothing = kSmooth[static_cast<std::size_t>(chosen)];
   if (choices.smoothing == solid::Smoothing::fair)
-    form_length("Smoothing length", choices.smooth_length_mm, 0.0, kLongestFairingMm,
-                LengthUnit::mm, "none");
+    choose_smooth_length(model.document.pot(), choices.smooth_length_mm);
   form_row("Process");
   (void)choose_process(model, "None", choices.process, actions);
   form_length("Minimum wall", choices.min_wall_mm, 0.0, kThickestDemandMm, model.settings.unit,

@@ -1,4 +1,3 @@
-#include "app/history/pot_scene.hpp"
 #include "claystack/engine/files.hpp"
 #include "tests/app/history/strokes.hpp"
 #include "tests/support/run_program.hpp"
@@ -25,7 +24,7 @@ TEST(ThrowWork, ReproducesTheThrownPotByteForByte) {
     const auto run = claystack("throw " + path + option + " -o " + pot);
     ASSERT_EQ(run.status, 0) << run.err;
     const SceneSpec scene = small_scene(node == 2 ? 5.0 : 8.0);
-    EXPECT_EQ(read_text(pot), write_pot(remembering(scene, **work.pot(node)), PotEncoding::json));
+    EXPECT_EQ(read_text(pot), write_pot(**work.pot(node), PotEncoding::json));
   }
   const auto list = claystack("throw " + path + " --list --json").json();
   ASSERT_EQ(list["nodes"].size(), 3u);
@@ -74,8 +73,7 @@ TEST(ThrowFrom, ContinuesAPot) {
   Work work = Work::begin(scene).value();
   (void)work.add(scene, press_stroke(1)).value();
   (void)work.add(scene, press_stroke(2)).value();
-  EXPECT_EQ(read_text(file("2.pot.json")),
-            write_pot(remembering(scene, **work.pot()), PotEncoding::json));
+  EXPECT_EQ(read_text(file("2.pot.json")), write_pot(**work.pot(), PotEncoding::json));
 
   const auto model = claystack(second + " --model paper --from " + file("1.pot.cbor"));
   EXPECT_EQ(model.status, 2);

@@ -44,11 +44,11 @@ class Package(unittest.TestCase):
         self.assertEqual(self.bytes_of("py.stl"), self.bytes_of("cli.stl"))
         self.assertEqual(report.files[0].bytes, len(self.bytes_of("py.stl")))
         self.assertTrue(report.sound)
-        claystack.export(pot, [self.file("tool.stl")], smooth_length_mm=None)
-        self.run_program("export", self.file("cli.pot.json"), self.file("cli_tool.stl"),
-                         "--smooth-length", "tool")
-        self.assertEqual(self.bytes_of("tool.stl"), self.bytes_of("cli_tool.stl"))
-        self.assertNotEqual(self.bytes_of("tool.stl"), self.bytes_of("py.stl"))
+        claystack.export(pot, [self.file("straight.stl")], smooth_length_mm=0.0)
+        self.run_program("export", self.file("cli.pot.json"), self.file("cli_straight.stl"),
+                         "--smooth-length", "0")
+        self.assertEqual(self.bytes_of("straight.stl"), self.bytes_of("cli_straight.stl"))
+        self.assertNotEqual(self.bytes_of("straight.stl"), self.bytes_of("py.stl"))
 
     def test_a_length_spreads_a_step_of_the_wall(self):
         step_mm, length_mm = 1.0, 9.0

@@ -38,8 +38,7 @@ class Pictures : public ::testing::Test {
   }
   /// Writes the pot of the window, and draws it by the command.
   std::string commanded(const std::string& options, const std::string& out) {
-    write_text(folder.file("p.pot.json"),
-               write_pot(state.document.pot_for_file(), PotEncoding::json));
+    write_text(folder.file("p.pot.json"), write_pot(state.document.pot(), PotEncoding::json));
     const auto ran =
         claystack("render -q " + folder.file("p.pot.json") + " " + options + folder.file(out));
     EXPECT_EQ(ran.status, 0) << ran.err;

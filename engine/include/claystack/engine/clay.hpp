@@ -191,7 +191,8 @@ struct Pot {
   std::optional<Rounding> rounding;
   Rim rim{};        ///< for the next stroke; zero in the model `paper`
   Motion motion{};  ///< for the next stroke; zero in scenes without clay rules
-  /// For the next stroke, in pots for files: the settings of the last one. A wheel leaves it empty.
+  /// The settings of the last stroke, for the next one. Empty: the pot was made otherwise, such as
+  /// from a drawing.
   std::optional<ThrowSettings> thrown_with{};
   friend bool operator==(const Pot&, const Pot&) = default;
 };

@@ -74,8 +74,8 @@ struct ExportOptions {
   double tolerance_mm = 0.02;
   Smoothing smoothing = Smoothing::fair;
   /// Length of the fairing on the pot, before it is enlarged for shrinkage [mm]; of a standing pot
-  /// (see `SmoothingOptions`). 0: none. Empty: `tool_length_mm`.
-  std::optional<double> smooth_length_mm = 0.0;
+  /// (see `SmoothingOptions`). 0: none. Empty: `tool_length_mm` with smoothing `fair`, else 0.
+  std::optional<double> smooth_length_mm;
   /// The limit that smoothing respects (see `SmoothingOptions`) and with which the report compares
   /// the walls.
   WallDemand walls;
