@@ -129,15 +129,16 @@ class RevolvedExport {
   }
 
   /// As requested, or of the tool, on the enlarged pot.
-  double smooth_length_mm() const {
-    const double usual =
-        options_.smoothing == Smoothing::fair ? tool_length_mm(prepared_.pot) : 0.0;
+  double smooth_length_mm(double tolerance_mm) const {
+    const bool of_tool =
+        options_.smoothing == Smoothing::fair && tolerance_mm <= kCoarsestUsualFairingMm;
+    const double usual = of_tool ? tool_length_mm(prepared_.pot) : 0.0;
     return options_.smooth_length_mm.value_or(usual) * enlargement(options_.shrinkage);
   }
 
   Result<void> smooth(ProvedSection& section, double tolerance_mm) {
     const double lip_mm = lip_fillet_mm();
-    const double length_mm = smooth_length_mm();
+    const double length_mm = smooth_length_mm(tolerance_mm);
     if (options_.smoothing == Smoothing::none && lip_mm == 0.0 && length_mm == 0.0)
       section.no_smoothing = "not requested";
     else if (has_straight_walls(stack_) && lip_mm == 0.0)

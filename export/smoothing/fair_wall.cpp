@@ -14,6 +14,9 @@ namespace clay::solid::inline smoothing {
 namespace {
 
 constexpr double kLeastShare = 0.5;  ///< of the smallest radius of a stretch
+/// Of the tolerance, for the chords of a curve; the rest is for leaving out their points. Few edges
+/// remain if that is most of it.
+constexpr double kChordShare = 0.125;
 
 class FairWallMaker {
  public:
@@ -59,7 +62,7 @@ class FairWallMaker {
   /// False if the curve comes too close to the axis.
   bool add_curve(const RunOfRings& stretch) {
     const FairedCurve curve(stretch, rings_.lengths_mm);
-    const Polygon points = curve.points(0.5 * rings_.tolerance_mm);
+    const Polygon points = curve.points(kChordShare * rings_.tolerance_mm);
     const auto begin = wall_.radius.begin();
     const double least = *std::min_element(begin + std::ptrdiff_t(stretch.first),
                                            begin + std::ptrdiff_t(stretch.end));
@@ -67,7 +70,7 @@ class FairWallMaker {
     for (std::size_t i = stretch.first, p = 0; p < points.size(); ++p) {
       while (i + 1 < stretch.end && piece_.level[i + 1] < points[p].y) ++i;
       const bool end = p == 0 || p + 1 == points.size();
-      add(points[p], end ? 0.0 : 0.5 * rings_.tolerances_mm[i]);
+      add(points[p], end ? 0.0 : (1.0 - kChordShare) * rings_.tolerances_mm[i]);
     }
     for (std::size_t i = stretch.first; i < stretch.end; ++i) {
       const double y = stretch.middle_mm(i), moved = std::abs(curve.at(y) - wall_.radius[i]);

@@ -124,6 +124,25 @@ TEST(ContinuedThrow, LumpAsAPotEqualsTheLump) {
     }
 }
 
+TEST(ContinuedThrow, APotRemembersTheSettingsOfTheLastStroke) {
+  const SceneSpec scene = scene_of(Model::conserving);
+  Wheel lump = Wheel::build(scene).value();
+  EXPECT_EQ(lump.pot().thrown_with, settings_of(scene));
+  lump.step({1000, kFree, false, 0.0});
+  SceneSpec other = scene;
+  other.tool.shape = SphereSpec{7.0};
+  Wheel wheel = Wheel::build(other, lump.pot()).value();
+  EXPECT_EQ(wheel.pot().thrown_with, settings_of(scene));  // no stroke yet
+  wheel.step({1000, kFree, false, 0.0});
+  EXPECT_EQ(wheel.pot().thrown_with, settings_of(other));
+  Pot drawn = lump.pot();
+  drawn.thrown_with.reset();
+  Wheel of_drawing = Wheel::build(scene, drawn).value();
+  EXPECT_FALSE(of_drawing.pot().thrown_with);
+  of_drawing.step({1000, kFree, false, 0.0});
+  EXPECT_EQ(of_drawing.pot().thrown_with, settings_of(scene));
+}
+
 TEST(ContinuedThrow, UsesTheRingsOfThePot) {
   Pot pot = Wheel::build(scene_of(Model::conserving)).value().pot();
   SceneSpec other = scene_of(Model::conserving);

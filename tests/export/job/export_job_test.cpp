@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -152,6 +153,32 @@ TEST(RunExport, ThinWallsAreSmoothedNoThinner) {
   // Of the steps, at the bulge: from the bore of a ring to the outside of its neighbour.
   const double steps = (40.0 + 3.9 * 0.995) - (39.7 + 4.1);
   EXPECT_GE(result->report.walls.min_wall_mm, steps * facets * (1.0 - 1e-9));
+}
+
+TEST(RunExport, WallsFollowTheToolUnlessALengthIsGiven) {
+  Pot pot = pot_of(shapes::vase(200));
+  const auto length_mm = [&](std::optional<double> asked_mm, Smoothing smoothing, double shrinkage,
+                             double tolerance_mm = 0.02) {
+    ExportOptions options;
+    options.tolerance_mm = tolerance_mm;
+    options.smooth_length_mm = asked_mm;
+    options.smoothing = smoothing;
+    options.shrinkage = shrinkage;
+    return exported(pot, {MeshFormat::stl_binary}, options)
+        .value()
+        .report.section.smoothed.fairing.length_mm;
+  };
+  EXPECT_EQ(length_mm({}, Smoothing::fair, 0.0), 0.0);  // not thrown
+  pot.thrown_with = ThrowSettings{};
+  pot.thrown_with->tool.shape = SphereSpec{7.0};
+  EXPECT_DOUBLE_EQ(length_mm({}, Smoothing::fair, 0.0), 7.0);
+  EXPECT_DOUBLE_EQ(length_mm({}, Smoothing::fair, 0.3), 10.0);
+  EXPECT_EQ(length_mm(0.0, Smoothing::fair, 0.0), 0.0);
+  EXPECT_EQ(length_mm(4.0, Smoothing::fair, 0.0), 4.0);
+  EXPECT_EQ(length_mm({}, Smoothing::fair, 0.0, 0.11), 0.0);
+  EXPECT_EQ(length_mm(4.0, Smoothing::fair, 0.0, 0.11), 4.0);
+  EXPECT_EQ(length_mm({}, Smoothing::exact, 0.0), 0.0);
+  EXPECT_EQ(length_mm({}, Smoothing::none, 0.0), 0.0);
 }
 
 TEST(RunExport, WallIsThatOfTheFacets) {

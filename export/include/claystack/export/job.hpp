@@ -69,12 +69,17 @@ Result<GoalReport> scaled_to(const Pot& pot, const Goal& goal, const ExportOptio
 
 // ---- request -------------------------------------------------------------------------
 
+/// Beyond this tolerance [mm], facets are coarser than the marks that fairing removes, and a mesh
+/// without it has fewer triangles.
+inline constexpr double kCoarsestUsualFairingMm = 0.1;
+
 struct ExportOptions {
   /// Maximum chordal error along the profile and around the axis, and vertex error of Draco.
   double tolerance_mm = 0.02;
   Smoothing smoothing = Smoothing::fair;
   /// Length of the fairing on the pot, before it is enlarged for shrinkage [mm]; of a standing pot
-  /// (see `SmoothingOptions`). 0: none. Empty: `tool_length_mm` with smoothing `fair`, else 0.
+  /// (see `SmoothingOptions`). 0: none. Empty: `tool_length_mm` with smoothing `fair` and a
+  /// tolerance of at most `kCoarsestUsualFairingMm`, else 0.
   std::optional<double> smooth_length_mm;
   /// The limit that smoothing respects (see `SmoothingOptions`) and with which the report compares
   /// the walls.
