@@ -118,6 +118,7 @@ int check(CheckCommand& command, Console& console) {
 
 /// What is required of the file.
 void add_demands(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
+  begin_group(*sub, "Demands");
   command->walls.add_to(*sub);
   sub->add_option("--wall-samples", command->wall_samples_asked,
                   "Number of rays that sample the walls of a mesh; they may "
@@ -135,6 +136,7 @@ void add_demands(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
 }
 
 void add_repair_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
+  begin_group(*sub, "Repair");
   sub->add_flag("--repair", command->repair,
                 "Repair the mesh until it is sound, and report what was repaired; where that is "
                 "not possible, report the reason and write nothing");
@@ -157,6 +159,7 @@ void add_repair_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& comm
 
 /// The changed mesh.
 void add_output_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
+  begin_group(*sub, "Output");
   sub->add_flag("--dry-run", command->dry_run, "Report the changes without writing a file");
   sub->add_option("--max-triangles", command->max_triangles,
                   "Maximum number of triangles: decimates a closed mesh after any repair, and "

@@ -282,6 +282,11 @@ void add_part(CLI::App* sub, const SharedCommand& command, const std::string& na
 /// Figures for weights and capacities.
 void add_clay_options(CLI::App* sub, const SharedCommand& command) {
   constexpr double kMost = 0.9;
+  begin_group(*sub, "Shrinkage, weight and capacity");
+  add_part(sub, command, "--shrinkage", solid::kMostShrinkage,
+           "Shrinkage in drying and firing, in percent of each length, such as 12%: the files are "
+           "enlarged so that the fired piece has the size of the pot (default: 0%)",
+           [](solid::ExportOptions& options) -> double& { return options.shrinkage; });
   add_part(sub, command, "--drying-shrinkage", solid::kMostShrinkage,
            "Part of --shrinkage that happens in drying, in percent of each length (default: half)",
            [](solid::ExportOptions& options) -> double& {
@@ -322,6 +327,7 @@ CLI::Option* add_quantity(CLI::App* sub, const std::string& name, std::optional<
 /// Sizes to which the pot is scaled.
 void add_goal_options(CLI::App* sub, const SharedCommand& command) {
   // A goal for a length is above 0, like those for volume and weight.
+  begin_group(*sub, "Size of the pot");
   const auto add_size = [&](const std::string& name, std::optional<double>& value,
                             const std::string& help) {
     add_quantity(sub, name, value, kLengthUnits, help)->type_name(kLengthName);
@@ -366,12 +372,12 @@ void add_smoothing_options(CLI::App* sub, const SharedCommand& command) {
 
 /// What the solid is like.
 void add_solid_options(CLI::App* sub, const SharedCommand& command) {
+  begin_group(*sub, "Surface");
   add_length(*sub, "--tolerance", command->request.options.tolerance_mm,
              "Maximum chordal error, vertex error in .drc and distance of curves in .step [mm]",
              1e-5, 10.0)
       ->capture_default_str();
   add_smoothing_options(sub, command);
-  add_finish_options(*sub, command->request.options, command->glaze_mm);
   sub->add_option("--segments", command->request.options.segments,
                   "Facets around the axis (default: chosen from the tolerance)")
       ->check(in_whole_range(3, 1 << 20));
@@ -379,32 +385,35 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
          "--max-triangles", command->request.options.max_triangles,
          "Maximum number of triangles (default: no limit); facets may then exceed the tolerance")
       ->check(in_whole_range(8, 20'000'000));
+  begin_group(*sub, "Finish");
+  add_finish_options(*sub, command->request.options, command->glaze_mm);
   add_length(*sub, "--drain", command->request.options.drain_mm,
              "Diameter of a hole along the axis that opens closed cavities [mm] (default: none)",
              1e-3, 1e4);
-  add_part(sub, command, "--shrinkage", solid::kMostShrinkage,
-           "Shrinkage in drying and firing, in percent of each length, such as 12%: the files are "
-           "enlarged so that the fired piece has the size of the pot (default: 0%)",
-           [](solid::ExportOptions& options) -> double& { return options.shrinkage; });
 }
 
-/// What is required of it, and what is written beside it.
-void add_file_options(CLI::App* sub, const SharedCommand& command) {
+/// What is required of it, and how that is proved.
+void add_demand_options(CLI::App* sub, const SharedCommand& command) {
+  begin_group(*sub, "Demands and proof");
   command->walls.add_to(*sub);
-  sub->add_flag("--measure-left-out", command->request.options.measure_left_out,
-                "Also run the skipped stages, and report the time [s] that skipping saves");
-  sub->add_option("--report", command->request.report_path,
-                  "File for the report: .html: a page to print; .json: what --json prints");
-  add_length(*sub, "--precision", command->precision_mm,
-             "Rounding of radii in pot files [mm] (default: exact); meshes keep the exact radii",
-             1e-5, 1.0);
-  sub->add_flag("--certificate", command->request.certificates,
-                "Write OUT.certificate.json beside each mesh, for claystack check --certificate");
+  sub->add_flag("--pieces", command->request.options.allow_pieces,
+                "Accept a pot of several pieces that do not touch");
   sub->add_option("--verify", command->verify,
                   "margins: prove the rounding, read the file back; full: also check the file "
                   "like any foreign mesh, with the exact self-intersection test")
       ->check(one_of({"margins", "full"}))
       ->capture_default_str();
+  sub->add_flag("--certificate", command->request.certificates,
+                "Write OUT.certificate.json beside each mesh, for claystack check --certificate");
+  sub->add_option("--report", command->request.report_path,
+                  "File for the report: .html: a page to print; .json: what --json prints");
+  sub->add_flag("--measure-left-out", command->request.options.measure_left_out,
+                "Also run the skipped stages, and report the time [s] that skipping saves");
+}
+
+/// What the formats leave open.
+void add_format_options(CLI::App* sub, const SharedCommand& command) {
+  begin_group(*sub, "Formats");
   sub->add_option("--step", command->step,
                   "Walls in a .step: spline: one smooth surface for each wall, within the "
                   "tolerance; lines: cones, exactly (default: spline)")
@@ -414,16 +423,17 @@ void add_file_options(CLI::App* sub, const SharedCommand& command) {
          "Mesh in a .glb: draco: compressed, within the tolerance; meshopt: compressed, larger, "
          "unpacked faster; core: plain, for readers without either (default: draco)")
       ->check(one_of({"draco", "meshopt", "core"}));
-  sub->add_flag("--wall-map", command->request.options.wall_map,
-                "Colour a .glb and a .3mf by the wall thickness, as the window does");
   sub->add_option("--material", command->material,
                   "Clay or glaze of a .glb, as for render (default: terracotta)")
       ->check(one_of(material_ids()));
+  sub->add_flag("--wall-map", command->request.options.wall_map,
+                "Colour a .glb and a .3mf by the wall thickness, as the window does");
   sub->add_flag("--ascii", command->ascii, "Write .stl as text");
   sub->add_flag("--normals", command->request.options.normals,
                 "Write .obj with normals, for shading");
-  sub->add_flag("--pieces", command->request.options.allow_pieces,
-                "Accept a pot of several pieces that do not touch");
+  add_length(*sub, "--precision", command->precision_mm,
+             "Rounding of radii in pot files [mm] (default: exact); meshes keep the exact radii",
+             1e-5, 1.0);
 }
 
 }  // namespace
@@ -442,7 +452,8 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   add_solid_options(sub, command);
   add_clay_options(sub, command);
   add_goal_options(sub, command);
-  add_file_options(sub, command);
+  add_demand_options(sub, command);
+  add_format_options(sub, command);
   sub->footer(
       "\nExamples:\n"
       "  claystack throw samples/bowl.scene.json -o bowl.pot.json\n"

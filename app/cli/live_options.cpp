@@ -53,6 +53,7 @@ void add_place_options(CLI::App& command, servo::MappingSettings& mapping) {
 
 void add_live_options(CLI::App& command, LiveOptions& options) {
   servo::LiveSettings& settings = options.settings;
+  begin_group(command, "Throw by hand");
   command
       .add_option("--device", options.device,
                   "Device to throw with: auto, falcon, bridge, spacemouse, simulated, or its place")
@@ -79,6 +80,7 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
                    "Lower force.stiffness_n_per_mm2 to what the arm can render (default); with "
                    "--no-soften, refuse a stiffer scene");
   command.add_flag("--wait", options.wait, "Wait for a disconnected device to return");
+  begin_group(command, "Device and workspace");
   add_falcon_options(command, options.falcon);
   add_place_options(command, settings.mapping);
   command.add_option(

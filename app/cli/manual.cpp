@@ -168,8 +168,12 @@ std::string manual_page(const CLI::App& app, const CLI::App* command) {
            << roff(one->get_description()) << '\n';
   }
   page << ".SH OPTIONS\n";
-  for (const bool positional : {true, false})
-    for (const CLI::Option* option : options_of(shown, positional)) add_option(page, *option);
+  for (const CLI::Option* option : options_of(shown, true)) add_option(page, *option);
+  for (const std::string& heading : shown.get_groups()) {
+    if (heading != "Options") page << ".SS " << roff(heading) << '\n';
+    for (const CLI::Option* option : options_of(shown, false))
+      if (option->get_group() == heading) add_option(page, *option);
+  }
   add_examples(page, shown.get_footer());
   if (!command) {
     page << ".SH FILES\n.TP\n\\fI" << roff(CLAYSTACK_DATA)

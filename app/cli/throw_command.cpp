@@ -333,6 +333,7 @@ void add_replay_options(CLI::App& command, ThrowOptions& options) {
       "scene", options.scene,
       "NAME.scene.json, or - for standard input; or NAME.work. Not needed with --from: "
       "the pot remembers its tool and clay");
+  begin_group(command, "Replay");
   command.add_option("-s,--session", options.session,
                      "Poses to play (default: NAME.session beside the scene)");
   command.add_option("-o,--output", options.pot, "Pot to write: .pot.json, or .pot.cbor (compact)");

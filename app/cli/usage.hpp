@@ -16,6 +16,11 @@ namespace clay::cli {
 /// Checks of the value of an option: an empty text, or what was expected and found.
 using ValueCheck = std::function<std::string(const std::string&)>;
 
+/// Help lists the options that are added from now on under this heading.
+inline void begin_group(CLI::App& command, const char* heading) {
+  command.option_defaults()->group(heading);
+}
+
 /// Accepts a finite number within the range; errors show the bounds in short form.
 [[nodiscard]] ValueCheck in_range(double low, double high);
 /// Accepts a whole number within the range.

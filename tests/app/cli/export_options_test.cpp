@@ -231,7 +231,7 @@ TEST_F(ExportOptions, SaysThatAFillLineIsBelowTheFloor) {
 }
 
 TEST_F(ExportOptions, ReportsTheFairing) {
-  EXPECT_EQ(run("--json").json().at("fairing").at("length_mm"), 9.0);  // the tool of the bowl
+  EXPECT_EQ(run("--json").json().at("fairing").at("length_mm"), 10.0);  // the tool of the bowl
   EXPECT_FALSE(run("--json --tolerance 0.11").json().contains("fairing"));
   EXPECT_FALSE(run("--json --smooth-length 0").json().contains("fairing"));
   const std::string page = folder.file("r.html");
