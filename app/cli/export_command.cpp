@@ -361,8 +361,8 @@ void add_smoothing_options(CLI::App* sub, const SharedCommand& command) {
          },
          "With --smooth fair: continuous curvature; what is shorter along the height than this is "
          "smoothed away, such as 9mm; tool: the radius of the pot's tool; 0: straight from ring to "
-         "ring (default: tool; 0 if the pot was not thrown, or for "
-         "a tolerance above 0.1 mm)")
+         "ring (default: tool; 0 without clay rules, "
+         "or for a tolerance above 0.1 mm)")
       ->type_name(std::string(kLengthName) + "|tool")
       ->check([](const std::string& text) {
         const auto length = smooth_length_of(text);

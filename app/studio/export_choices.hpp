@@ -31,7 +31,7 @@ struct ExportChoices {
   std::string folder, name;
   double tolerance_mm = 0.02;
   solid::Smoothing smoothing = solid::Smoothing::fair;
-  std::optional<double> smooth_length_mm;  ///< of `fair`; 0: none; empty: of the pot's tool
+  std::optional<double> smooth_length_mm;  ///< of `fair`; 0: none; empty: the usual one
   std::string process;                     ///< as for --process; empty: none
   double min_wall_mm = 0.0;                ///< 0: the limit of the process, if there is one
   double shrinkage_percent = 0.0;

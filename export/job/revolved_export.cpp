@@ -130,9 +130,9 @@ class RevolvedExport {
 
   /// As requested, or of the tool, on the enlarged pot.
   double smooth_length_mm(double tolerance_mm) const {
-    const bool of_tool =
-        options_.smoothing == Smoothing::fair && tolerance_mm <= kCoarsestUsualFairingMm;
-    const double usual = of_tool ? tool_length_mm(prepared_.pot) : 0.0;
+    const double usual = options_.smoothing == Smoothing::fair
+                             ? usual_smooth_length_mm(prepared_.pot, tolerance_mm)
+                             : 0.0;
     return options_.smooth_length_mm.value_or(usual) * enlargement(options_.shrinkage);
   }
 
@@ -266,6 +266,12 @@ double tool_length_mm(const Pot& pot) {
   if (!pot.thrown_with) return 0.0;
   const auto tool = Tool::build(pot.thrown_with->tool.shape);
   return tool ? std::min(tool->widest(), 0.5 * (tool->high() - tool->low())) : 0.0;
+}
+
+double usual_smooth_length_mm(const Pot& pot, double tolerance_mm) {
+  constexpr double kCoarsestMm = 0.1;
+  const bool ruled = pot.thrown_with && pot.thrown_with->clay;
+  return ruled && tolerance_mm <= kCoarsestMm ? tool_length_mm(pot) : 0.0;
 }
 
 Result<ExportReport> export_revolved(const PreparedPot& prepared,

@@ -79,9 +79,11 @@ void draw_formats(const ViewModel& model, ExportChoices& choices) {
     choices.material = chosen->id;
 }
 
-/// Shows the length of the tool until another one is chosen.
-void choose_smooth_length(const Pot& pot, std::optional<double>& length_mm) {
-  double shown_mm = length_mm ? *length_mm : solid::tool_length_mm(pot);
+/// Shows the usual length until another one is chosen.
+void choose_smooth_length(const Pot& pot, ExportChoices& choices) {
+  std::optional<double>& length_mm = choices.smooth_length_mm;
+  double shown_mm =
+      length_mm ? *length_mm : solid::usual_smooth_length_mm(pot, choices.tolerance_mm);
   if (form_length("Smoothing length", shown_mm, 0.0, kLongestFairingMm, LengthUnit::mm, "none"))
     length_mm = shown_mm;
 }
@@ -97,7 +99,7 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
   if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth); chosen >= 0)
     choices.smoothing = kSmooth[static_cast<std::size_t>(chosen)];
   if (choices.smoothing == solid::Smoothing::fair)
-    choose_smooth_length(model.document.pot(), choices.smooth_length_mm);
+    choose_smooth_length(model.document.pot(), choices);
   form_row("Process");
   (void)choose_process(model, "None", choices.process, actions);
   form_length("Minimum wall", choices.min_wall_mm, 0.0, kThickestDemandMm, model.settings.unit,

@@ -171,6 +171,8 @@ TEST(RunExport, WallsFollowTheToolUnlessALengthIsGiven) {
   EXPECT_EQ(length_mm({}, Smoothing::fair, 0.0), 0.0);  // not thrown
   pot.thrown_with = ThrowSettings{};
   pot.thrown_with->tool.shape = SphereSpec{7.0};
+  EXPECT_EQ(length_mm({}, Smoothing::fair, 0.0), 0.0);  // without clay rules
+  pot.thrown_with->clay = ClaySpec{};
   EXPECT_DOUBLE_EQ(length_mm({}, Smoothing::fair, 0.0), 7.0);
   EXPECT_DOUBLE_EQ(length_mm({}, Smoothing::fair, 0.3), 10.0);
   EXPECT_EQ(length_mm(0.0, Smoothing::fair, 0.0), 0.0);

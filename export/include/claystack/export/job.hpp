@@ -69,17 +69,13 @@ Result<GoalReport> scaled_to(const Pot& pot, const Goal& goal, const ExportOptio
 
 // ---- request -------------------------------------------------------------------------
 
-/// Beyond this tolerance [mm], facets are coarser than the marks that fairing removes, and a mesh
-/// without it has fewer triangles.
-inline constexpr double kCoarsestUsualFairingMm = 0.1;
-
 struct ExportOptions {
   /// Maximum chordal error along the profile and around the axis, and vertex error of Draco.
   double tolerance_mm = 0.02;
   Smoothing smoothing = Smoothing::fair;
   /// Length of the fairing on the pot, before it is enlarged for shrinkage [mm]; of a standing pot
-  /// (see `SmoothingOptions`). 0: none. Empty: `tool_length_mm` with smoothing `fair` and a
-  /// tolerance of at most `kCoarsestUsualFairingMm`, else 0.
+  /// (see `SmoothingOptions`). 0: none. Empty: `usual_smooth_length_mm` with smoothing `fair`, else
+  /// 0.
   std::optional<double> smooth_length_mm;
   /// The limit that smoothing respects (see `SmoothingOptions`) and with which the report compares
   /// the walls.
@@ -123,6 +119,10 @@ struct ExportOptions {
 /// A length for fairing that leaves what the tool was made for: the radius of the tool, or half of
 /// its height if that is less [mm]. 0 if the pot does not remember its tool.
 [[nodiscard]] double tool_length_mm(const Pot& pot);
+
+/// `tool_length_mm` of a pot that was thrown with clay rules, up to a tolerance of 0.1 mm; beyond,
+/// facets are coarser than the marks that fairing removes. Else 0.
+[[nodiscard]] double usual_smooth_length_mm(const Pot& pot, double tolerance_mm);
 
 enum class FileKind {
   mesh,
