@@ -78,8 +78,6 @@ std::string_view name_of(WallPart part) {
   return kNames.at(static_cast<std::size_t>(part));
 }
 
-namespace {
-
 WallPart part_of(const Profile& profile, const Wall& wall) {
   if (wall.compact) return WallPart::wall;
   const EdgeTree tree(profile, 1.0);
@@ -93,8 +91,6 @@ WallPart part_of(const Profile& profile, const Wall& wall) {
   }
   return part;
 }
-
-}  // namespace
 
 std::vector<PartWall> walls_by_part(const Profile& profile, const std::vector<WallSample>& field,
                                     const Wall& thinnest, double least_mm) {

@@ -32,4 +32,7 @@ class PartNames {
   double foot_arc_ = 0.0, rim_arc_ = 0.0;  ///< the outermost of the lowest and highest points
 };
 
+/// Of the disc of a minimum wall.
+[[nodiscard]] WallPart part_of(const Profile& profile, const Wall& wall);
+
 }  // namespace clay::solid::inline walls

@@ -1,6 +1,7 @@
 // Walls in words: the table of a section, and what is wrong with it.
 
 #include "claystack/export/walls.hpp"
+#include "export/walls/part_names.hpp"
 
 #include <fmt/format.h>
 
@@ -68,7 +69,11 @@ std::string thin_wall_text(const Profile& profile, double thinnest_mm, const Wal
     text += (i == 0 ? "; thinner: " : ", ") + text_of(stretches[i]);
   if (stretches.size() > kMostStretches)
     text += fmt::format(", and {} more", stretches.size() - kMostStretches);
-  return text;
+  if (!stretches.empty()) return text;
+  // Between two samples.
+  const Wall thinnest = min_wall(profile);
+  return text + fmt::format("; thinnest: {} at a height of {:.1f} mm",
+                            name_of(part_of(profile, thinnest)), thinnest.from.y);
 }
 
 std::string_view name_of(WallFace face) {

@@ -131,8 +131,11 @@ TEST(WallVerdict, OfAMeshWithACertificateIsThatOfTheCertificate) {
   EXPECT_EQ(parts[1].at("part"), "lip");
   EXPECT_EQ(parts[1].at("min_wall_mm"), wall);
   EXPECT_GT(parts[1].at("at_mm").at(1), 88.0);
-  const Ran thin = claystack("check --min-wall 0.45 " + pot);
+  const Ran thin = claystack("check --min-wall 1 " + pot);
   EXPECT_NE(thin.out.find("thinner: lip from 8"), std::string::npos) << thin.out;
+  const Ran thinnest = claystack("check --min-wall 0.45 " + pot);  // between two samples
+  EXPECT_NE(thinnest.out.find("; thinnest: lip at a height of 89."), std::string::npos)
+      << thinnest.out;
   const Ran sampled = claystack("check --json --min-wall 1 " + stl);
   EXPECT_EQ(sampled.status, 1);
   const auto least = sampled.json().at("wall_sampled");
