@@ -36,6 +36,10 @@ namespace clay {
 /// that kind, or of an unknown one, the reader's own error.
 [[nodiscard]] Error kind_error(Error error, std::string_view bytes, std::string_view name,
                                std::string_view expected);
+/// Whether the text ends in `ending`, which is in lower case; ASCII only, independent of the
+/// locale.
+[[nodiscard]] bool ends_ignoring_case(std::string_view text, std::string_view ending) noexcept;
+
 /// The text without a leading UTF-8 byte order mark.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text) noexcept;
 

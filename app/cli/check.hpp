@@ -9,6 +9,7 @@
 #include "claystack/export/formats.hpp"
 #include "claystack/export/proof.hpp"
 #include "claystack/export/repair.hpp"
+#include "claystack/export/walls.hpp"
 
 #include <optional>
 #include <string>
@@ -84,6 +85,7 @@ struct Verdict {
   bool examined = true;    ///< false: no mesh was made, `mesh` holds only problems
   std::vector<Finding> findings;
   std::optional<double> wall_mm;                   ///< of pots
+  std::vector<solid::PartWall> wall_parts;         ///< of pots
   std::optional<solid::SampledWall> wall_sampled;  ///< of meshes, if requested
   std::vector<std::string> notes;                  ///< sound, but noteworthy
   std::optional<RepairSummary> repair_summary;

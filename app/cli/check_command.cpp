@@ -17,7 +17,9 @@
 namespace clay::cli {
 namespace {
 
-bool is_pot(std::string_view path) { return path.ends_with(".json") || path.ends_with(".cbor"); }
+bool is_pot(std::string_view path) {
+  return ends_ignoring_case(path, ".json") || ends_ignoring_case(path, ".cbor");
+}
 
 /// Checks combinations of options.
 Result<void> check_usage(const CheckCommand& command, const Console& console) {

@@ -228,10 +228,11 @@ void verify(std::string_view bytes, MeshFormat format, const CheckCommand& comma
 void check_cavities(const CheckCommand& command, Verdict& verdict) {
   if (verdict.mesh.cavities == 0) return;
   const auto& process = command.walls.demand().process;
-  const bool fired = process && process->fired;
+  const bool fired = process && process->fired, one = verdict.mesh.cavities == 1;
   verdict.add(fired ? "process" : "geometry", fired ? Grade::fail : Grade::warn,
-              fmt::format("{} closed cavities, {:.4g} cm3 trapped: they need drain holes",
-                          verdict.mesh.cavities, verdict.mesh.trapped_mm3 / 1000.0));
+              fmt::format("{} closed {}, {:.4g} cm3 trapped: {}", verdict.mesh.cavities,
+                          one ? "cavity" : "cavities", verdict.mesh.trapped_mm3 / 1000.0,
+                          one ? "it needs a drain hole" : "they need drain holes"));
 }
 
 /// What the mesh encloses, and what the file holds besides the mesh.
@@ -254,6 +255,26 @@ Result<void> check_walls(const TriangleMesh& mesh, const glm::dvec3& size,
   verdict.add("walls", wall_mm >= limit->min_wall_mm ? Grade::pass : Grade::fail,
               "certified: " + solid::wall_text(wall_mm, *limit));
   return {};
+}
+
+/// Repairs if requested, and gives its verdict on the mesh, or on the result.
+Result<TriangleMesh> judged(TriangleMesh mesh, const CheckCommand& command, bool slicer_reads_less,
+                            Progress& progress, Verdict& verdict) {
+  progress.stage("checking");
+  if (command.changes_mesh()) {
+    RepairSummary& summary = verdict.repair_summary.emplace();
+    auto repaired = repair_and_write(std::move(mesh), command, summary, progress);
+    if (!repaired)
+      return failure(repaired.error().kind, command.file + ": " + repaired.error().message);
+    mesh = std::move(*repaired);
+    summary.before = as_sliced(summary.before, std::exchange(slicer_reads_less, false));
+  }
+  progress.stage("checking");
+  auto report = checked(mesh);
+  if (!report) return failure(report.error().kind, command.file + ": " + report.error().message);
+  verdict.mesh = std::move(*report);
+  verdict.state = as_sliced(state_of(mesh, verdict.mesh), slicer_reads_less);
+  return mesh;
 }
 
 /// A file that cannot be read no longer matches its certificate.
@@ -286,19 +307,8 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
       {.repair = command.repair, .notes = &verdict.notes, .slicer_reads_less = &slicer_reads_less});
   if (!mesh && mesh.error().kind == ErrorKind::bad_input && verdict.certificate)
     return unread_with_certificate(bytes, format, command, std::move(verdict));
+  if (mesh) mesh = judged(std::move(*mesh), command, slicer_reads_less, progress, verdict);
   if (!mesh) return tl::make_unexpected(mesh.error());
-  progress.stage("checking");
-  if (command.changes_mesh()) {
-    RepairSummary& summary = verdict.repair_summary.emplace();
-    mesh = repair_and_write(std::move(*mesh), command, summary, progress);
-    if (!mesh) return failure(mesh.error().kind, command.file + ": " + mesh.error().message);
-    summary.before = as_sliced(summary.before, std::exchange(slicer_reads_less, false));
-  }
-  progress.stage("checking");
-  auto report = checked(*mesh);
-  if (!report) return failure(report.error().kind, command.file + ": " + report.error().message);
-  verdict.mesh = std::move(*report);
-  verdict.state = as_sliced(state_of(*mesh, verdict.mesh), slicer_reads_less);
   check_contents(bytes, *mesh, format, command, verdict);
   progress.clear();
   const glm::dvec3 size = size_mm(*mesh);

@@ -47,6 +47,7 @@ Verdict verdict_on(const solid::ExportReport& report) {
   else
     verdict.examined = false;
   verdict.wall_mm = report.walls.min_wall_mm;
+  verdict.wall_parts = report.walls.parts;
   const auto& shapes = report.section.shapes();
   const auto& limit = report.walls.limit;
   if (limit && *verdict.wall_mm < limit->min_wall_mm)
@@ -94,6 +95,7 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command,
   solid::ExportOptions options;
   options.walls = command.walls.demand();
   options.allow_pieces = true;
+  options.wall_spacing_mm = solid::kWallTableSpacingMm;
   const auto report =
       solid::run_export(*pot, {}, options, [&](std::string_view stage) { progress.stage(stage); });
   if (!report) return not_examined(MeshState::will_not_print, "no solid", report.error().message);

@@ -1,4 +1,5 @@
 #include "app/cli/check.hpp"
+#include "app/cli/export_report.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>
@@ -196,7 +197,10 @@ Json verdict_json(const std::string& file, const Verdict& verdict, bool accept_p
                {"volume_mm3", mesh.volume_mm3},
                {"problems", problems_json(mesh.problems)},
                {"checks", findings_json(verdict.findings)}};
-  if (verdict.wall_mm) json["min_wall_mm"] = *verdict.wall_mm;
+  if (verdict.wall_mm) {
+    json["min_wall_mm"] = *verdict.wall_mm;
+    json["wall_parts"] = wall_parts_json(verdict.wall_parts);
+  }
   if (verdict.wall_sampled) json["wall_sampled"] = wall_json(*verdict.wall_sampled);
   if (verdict.certificate)
     json["certificate"] = certificate_json(*verdict.certificate, verdict.certificate_holds);
@@ -224,7 +228,9 @@ void print_verdict(const Console& console, const std::string& file, const Verdic
     console.print(fmt::format("  {}, {}, {:.3f} cm3", counted(mesh.triangles, "triangle"),
                               counted(mesh.components, "component"), mesh.volume_mm3 / 1000.0));
   }
-  if (verdict.wall_mm) console.print(fmt::format("  minimum wall {:.3f} mm", *verdict.wall_mm));
+  if (verdict.wall_mm)
+    console.print(fmt::format("  minimum wall {:.3f} mm ({})", *verdict.wall_mm,
+                              solid::text_of(verdict.wall_parts)));
   if (verdict.wall_sampled) print_wall(console, *verdict.wall_sampled);
   if (verdict.certificate_holds) print_certificate(console, *verdict.certificate);
   for (const auto& [check, grade, text] : verdict.findings)

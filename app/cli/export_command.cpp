@@ -152,7 +152,11 @@ Result<void> check_options(const ExportCommand& command) {
   return {};
 }
 
+/// Standard output gets a binary STL, as from `check -o -`.
 Result<FileRequest> file_of(const std::string& path, bool ascii) {
+  if (path == "-")
+    return FileRequest{path, FileKind::mesh,
+                       ascii ? MeshFormat::stl_ascii : MeshFormat::stl_binary};
   if (pot_encoding_of(path)) return FileRequest{path, FileKind::given};
   return solid::file_request(path)
       .map([&](FileRequest file) {
@@ -163,6 +167,22 @@ Result<FileRequest> file_of(const std::string& path, bool ascii) {
       .map_error([](const Error& error) {
         return Error{error.kind, error.message + ", .pot.json or .pot.cbor for the pot"};
       });
+}
+
+/// Files that take long to send or to slice are announced before they are written.
+std::function<void(const std::string&, std::size_t, std::uint64_t)> warning_of_size(
+    const Console& console, solid::Smoothing smoothing) {
+  return
+      [&console, smoothing](const std::string& name, std::size_t triangles, std::uint64_t bytes) {
+        constexpr std::uint64_t kLargeBytes = 50'000'000;
+        if (bytes < kLargeBytes) return;
+        const bool fair = smoothing == solid::Smoothing::fair;
+        console.warn(
+            fmt::format("{}: about {:.0f} MB, {} triangles; {} or --max-triangles makes it "
+                        "smaller",
+                        name, 1e-6 * static_cast<double>(bytes), triangles,
+                        fair ? "a larger --tolerance" : "--smooth fair"));
+      };
 }
 
 /// The request without the pot.
@@ -184,6 +204,7 @@ Result<void> complete_request(ExportCommand& command, const Console& console) {
   options.walls = command.walls.demand();
   options.name = std::filesystem::path(command.pot).stem().stem().string();
   options.source = command.pot;
+  options.announce_size = warning_of_size(console, options.smoothing);
   options.expect_memory = [](std::uint64_t bytes) { return expect_room("writing meshes", bytes); };
   return check_options(command);
 }
@@ -233,8 +254,25 @@ Result<void> check_tool_length(const Pot& pot, const ExportCommand& command) {
   return {};
 }
 
+/// Standard output holds the mesh alone. Returns true if it does.
+Result<bool> check_stream(const ExportCommand& command, const Console& console) {
+  const auto streams = std::ranges::count(command.outputs, "-");
+  if (streams == 0) return false;
+  const auto refuse = [](std::string_view what) {
+    return failure(ErrorKind::bad_input, fmt::format("-: expected {}", what));
+  };
+  if (streams > 1) return refuse("at most one output on standard output, found more");
+  if (console.json) return refuse("no --json with it, because both write to standard output");
+  if (command.request.certificates)
+    return refuse("no --certificate with it, because a certificate stands beside its file");
+  return true;
+}
+
 /// The exit status: done, or unsound if a wall is below the requested minimum.
-Result<int> export_pot(ExportCommand& command, const Console& console) {
+Result<int> export_pot(ExportCommand& command, Console console) {
+  const auto streams = check_stream(command, console);
+  if (!streams) return tl::make_unexpected(streams.error());
+  console.quiet = console.quiet || *streams;
   Progress progress(console, "exporting", 0);
   progress.stage("reading");
   const auto given = read_pot(command.pot, console);
@@ -447,7 +485,8 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       ->required();
   sub->add_option("out", command->outputs,
                   "Files to write: " + solid::format_endings(solid::FormatUse::write) + "; " +
-                      solid::section_endings() + "; .pot.json or .pot.cbor for the pot")
+                      solid::section_endings() +
+                      "; .pot.json or .pot.cbor for the pot; - for a binary STL on standard output")
       ->required();
   add_solid_options(sub, command);
   add_clay_options(sub, command);

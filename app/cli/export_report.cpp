@@ -14,6 +14,9 @@ using solid::ExportReport;
 using solid::FileKind;
 using solid::FileReport;
 
+/// The smallest --tolerance. A change of a wall by less is not worth a warning.
+constexpr double kLeastShownMm = 1e-5;
+
 std::string_view proof_of(const FileReport& file) {
   return file.proof == solid::Proof::margins
              ? "the margins of the profile exceed the rounding"
@@ -122,8 +125,12 @@ void print_collapse(const Console& console, const solid::CollapsedSolid& collaps
   if (collapsed.pieces > 1)
     console.warn(fmt::format("the file holds {} bodies that do not touch", collapsed.pieces));
   if (collapsed.voids > 0)
-    console.warn(fmt::format("{} closed cavities of {:.3g} cm3 in total: they need drain holes",
-                             collapsed.voids, cm3(collapsed.voids_mm3)));
+    console.warn(
+        collapsed.voids == 1
+            ? fmt::format("1 closed cavity of {:.3g} cm3: it needs a drain hole",
+                          cm3(collapsed.voids_mm3))
+            : fmt::format("{} closed cavities of {:.3g} cm3 in total: they need drain holes",
+                          collapsed.voids, cm3(collapsed.voids_mm3)));
 }
 
 /// What fairing moved, and where the walls made its length shorter.
@@ -162,7 +169,7 @@ void print_smoothing(const Console& console, const ExportReport& report) {
         "exact smoothing gives a wall of {:.3f} mm at height {:.1f} mm, where the "
         "unsmoothed wall is at least {:.3f} mm; --smooth none keeps the steps",
         report.walls.min_wall_mm, report.walls.thinnest.from.y, *report.walls.as_steps_mm));
-  if (report.section.smoothed.taken_mm > 0.0)
+  if (report.section.smoothed.taken_mm >= kLeastShownMm)
     console.warn(
         fmt::format("smoothing may have thinned walls by {:.2g} mm, because no other clay "
                     "was available to keep the volume",
@@ -293,6 +300,7 @@ Json solid_json(const ExportReport& report) {
   if (report.prepared.drilled_mm3 > 0.0) json["drilled_mm3"] = report.prepared.drilled_mm3;
   if (report.section.finish.any()) json["finish"] = finish_json(report);
   if (report.walls.as_steps_mm) json["wall_as_steps_mm"] = *report.walls.as_steps_mm;
+  if (!report.walls.parts.empty()) json["wall_parts"] = wall_parts_json(report.walls.parts);
   return json;
 }
 
@@ -351,6 +359,14 @@ std::string wall_row(const ExportReport& report) {
 }
 
 }  // namespace
+
+Json wall_parts_json(const std::vector<solid::PartWall>& parts) {
+  Json json = Json::array();
+  for (const auto& [part, thickness_mm, at] : parts)
+    json.push_back(
+        {{"part", solid::name_of(part)}, {"min_wall_mm", thickness_mm}, {"at_mm", {at.rho, at.y}}});
+  return json;
+}
 
 std::vector<std::pair<std::string, std::string>> finish_rows(const ExportReport& report) {
   const solid::FinishLedger& ledger = report.section.finish;

@@ -17,6 +17,9 @@ namespace clay::cli {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> finish_rows(
     const solid::ExportReport& report);
 
+/// Wall, lip and flange, each with its thinnest place.
+[[nodiscard]] Json wall_parts_json(const std::vector<solid::PartWall>& parts);
+
 /// `copies` describe those files of the report that are pots, in their order. Without a mesh there
 /// are no figures of a solid.
 [[nodiscard]] Json export_json(const solid::ExportReport& report,

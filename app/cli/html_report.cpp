@@ -231,9 +231,13 @@ class Page {
   void walls() {
     table("Walls and making", [&] {
       const solid::Wall& thinnest = report_.walls.thinnest;
-      row({"thinnest wall", fmt::format("{:.2f} mm at a height of {:.1f} mm", report_.thinnest_mm(),
-                                        thinnest.from.y)},
+      row({"minimum wall", fmt::format("{:.2f} mm at a height of {:.1f} mm", report_.thinnest_mm(),
+                                       thinnest.from.y)},
           "td", false);
+      for (const auto& [part, thickness_mm, at] : report_.walls.parts)
+        row({fmt::format("thinnest {}", solid::name_of(part)),
+             fmt::format("{:.2f} mm at a height of {:.1f} mm", thickness_mm, at.y)},
+            "td", false);
       if (const auto& limit = report_.walls.limit)
         row({"required", fmt::format("{:.2f} mm ({})", limit->min_wall_mm, limit->asked_by())},
             "td", false);

@@ -31,36 +31,30 @@ constexpr std::uint64_t kImportBytesPerTriangle = 100;
 
 Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-/// What the mesh encloses.
-struct Enclosed {
-  std::optional<double> mm3;          ///< empty if it has no inside
-  std::vector<std::string> warnings;  ///< of a mesh that is not closed or not oriented outward
-};
-
-Enclosed enclosed_by(const solid::TriangleMesh& mesh) {
-  const solid::MeshReport report = solid::check_mesh(mesh);
-  Enclosed result{std::abs(solid::signed_volume(mesh)), {}};
-  for (const auto& [what, where, count] : report.problems) {
-    if (what == "open edge")
-      result.warnings.push_back(fmt::format(
-          "expected a closed mesh, found {}, the first at {}; an open mesh has no volume",
-          counted(count, "open edge"), where));
-    else if (what == "edge between faces of opposite orientation")
-      result.warnings.push_back(fmt::format(
-          "expected triangles that all face outward, found {} between triangles of opposite "
-          "orientation, the first at {}; the mesh has no volume",
-          counted(count, "edge"), where));
-    else if (what == "inside out")
-      result.warnings.push_back(
-          "expected triangles that face outward, found them facing inward: read as reversed");
-    if (what == "open edge" || what == "edge between faces of opposite orientation")
-      result.mm3.reset();
-  }
-  return result;
+/// Of a mesh that is not closed or not oriented outward.
+std::vector<std::string> warnings_about(const solid::MeshEnclosure& found) {
+  const auto at = [](const glm::dvec3& p) {
+    return fmt::format("the first at ({}, {}, {}) mm", in_mm(p.x), in_mm(p.y), in_mm(p.z));
+  };
+  std::vector<std::string> warnings;
+  if (found.open_edges > 0)
+    warnings.push_back(
+        fmt::format("expected a closed mesh, found {}, {}; an open mesh has no volume",
+                    counted(found.open_edges, "open edge"), at(found.open_at)));
+  if (found.flipped_edges > 0)
+    warnings.push_back(
+        fmt::format("expected triangles that all face outward, found {} between triangles of "
+                    "opposite orientation, {}; the mesh has no volume",
+                    counted(found.flipped_edges, "edge"), at(found.flipped_at)));
+  if (found.inward())
+    warnings.emplace_back(
+        "expected triangles that face outward, found them facing inward: read as reversed");
+  return warnings;
 }
 
 Json summary(const std::string& name, const solid::TriangleMesh& mesh,
-             const std::optional<double>& mesh_mm3, const MeshPot& made) {
+             const std::optional<double>& mesh_mm3, const MeshPot& made,
+             const std::vector<std::string>& notes) {
   Json parts = Json::array();
   for (const MeshPart& part : made.parts)
     parts.push_back({{"azimuth_deg", {part.from_deg, part.to_deg}},
@@ -78,7 +72,8 @@ Json summary(const std::string& name, const solid::TriangleMesh& mesh,
           {"volume_mm3", stack.volume_mm3()},
           {"deviation_mm", made.deviation.mm},
           {"deviation_at_mm", {made.deviation.radius_mm, made.deviation.height_mm}},
-          {"not_of_revolution", std::move(parts)}};
+          {"not_of_revolution", std::move(parts)},
+          {"notes", notes}};
 }
 
 /// Without the sign of a negative zero.
@@ -119,19 +114,23 @@ Result<void> import_mesh(const std::string& path, const std::string& pot,
   if (!format) return tl::make_unexpected(format.error());
   Progress progress(console, "importing", 0);
   progress.stage("reading");
-  const auto mesh = MeshFile::open(path, *format).and_then([](MeshFile file) {
-    return file.read({"importing", kImportBytesPerTriangle});
+  std::vector<std::string> notes;
+  const auto mesh = MeshFile::open(path, *format).and_then([&](MeshFile file) {
+    return file.read({"importing", kImportBytesPerTriangle}, {.notes = &notes});
   });
   if (!mesh) return tl::make_unexpected(mesh.error());
   progress.stage("finding the axis and making rings");
   const auto made = mesh_pot(*mesh, settings, path);
   if (!made) return tl::make_unexpected(made.error());
+  const solid::MeshEnclosure enclosure = solid::enclosure_of(*mesh);
   const PotEncoding encoding = pot_encoding_of(pot).value_or(PotEncoding::json);
   if (auto done = publish(pot, write_pot(made->pot, encoding)); !done) return done;
-  const Enclosed enclosed = enclosed_by(*mesh);
-  if (console.json) print_json(summary(path, *mesh, enclosed.mm3, *made));
-  print_summary(console, *made, enclosed.mm3);
-  for (const std::string& warning : enclosed.warnings) console.warn(path + ": " + warning);
+  std::optional<double> mesh_mm3 = enclosure.volume_mm3;
+  if (mesh_mm3) mesh_mm3 = std::abs(*mesh_mm3);
+  if (console.json) print_json(summary(path, *mesh, mesh_mm3, *made, notes));
+  print_summary(console, *made, mesh_mm3);
+  for (const std::string& note : notes) console.print("note: " + note);
+  for (const std::string& warning : warnings_about(enclosure)) console.warn(path + ": " + warning);
   constexpr double kLeastPotMm = 10.0;
   if (const double height = made->pot.stack.height_mm(); height < kLeastPotMm)
     console.warn(

@@ -40,7 +40,8 @@ Result<void> fit_stiffness(SceneSpec& scene, const LiveOptions& options, const C
   if (!options.soften) {
     const auto checked = servo::check_stiffness(scene, options.settings);
     if (checked) return {};
-    return failure(checked.error().kind, checked.error().message + "; or no --no-soften");
+    return failure(checked.error().kind,
+                   checked.error().message + "; without --no-soften it is lowered for the throw");
   }
   const auto part = servo::soften(scene, options.settings);
   if (!part) return tl::make_unexpected(part.error());
@@ -80,7 +81,7 @@ Result<void> take_up_stroke(const LiveJob& job, LiveOptions& options, Stage& sta
 }
 
 PotEncoding encoding_of(const LiveJob& job) {
-  return job.pot_path.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
+  return pot_encoding_of(job.pot_path).value_or(PotEncoding::json);
 }
 
 std::string written_pot(const LiveJob& job, const Pot& pot) {

@@ -1,6 +1,7 @@
 #include "app/cli/output_files.hpp"
 
 #include "claystack/core/atomic_file.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,14 +23,8 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 5> kOwnEndings = {
     ".scene.json", ".pot.json", ".process.json", ".certificate.json", ".strokes.json"};
 
-bool ends_in(std::string_view path, std::string_view ending) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-  return path.size() >= ending.size() &&
-         std::ranges::equal(path.substr(path.size() - ending.size()), ending, {}, lower);
-}
-
 bool names_the_kind(const OutputFile& file) {
-  const auto ends = [&](std::string_view ending) { return ends_in(file.path, ending); };
+  const auto ends = [&](std::string_view ending) { return ends_ignoring_case(file.path, ending); };
   const auto own = std::ranges::find_if(kOwnEndings, ends);
   if (own != kOwnEndings.end()) return std::ranges::find(file.endings, *own) != file.endings.end();
   return std::ranges::any_of(file.endings, ends);

@@ -3,14 +3,15 @@
 #include "app/cli/memory_room.hpp"
 
 #include "claystack/engine/clay.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
 namespace clay::cli {
 
 std::optional<PotEncoding> pot_encoding_of(std::string_view path) {
-  if (path.ends_with(".pot.json")) return PotEncoding::json;
-  if (path.ends_with(".pot.cbor")) return PotEncoding::cbor;
+  if (ends_ignoring_case(path, ".pot.json")) return PotEncoding::json;
+  if (ends_ignoring_case(path, ".pot.cbor")) return PotEncoding::cbor;
   return std::nullopt;
 }
 

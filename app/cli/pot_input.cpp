@@ -2,6 +2,7 @@
 
 #include "app/cli/memory_room.hpp"
 #include "claystack/core/atomic_file.hpp"
+#include "core/text.hpp"
 #ifdef CLAYSTACK_EXPORT
 #include "claystack/engine/tick.hpp"
 #include "claystack/export/formats.hpp"
@@ -42,13 +43,7 @@ Result<void> expect_room_for_pot(std::string_view bytes, std::string_view name) 
 
 }  // namespace
 
-bool is_3mf(std::string_view path) {
-  static constexpr std::string_view kEnding = ".3mf";
-  return path.size() >= kEnding.size() &&
-         std::ranges::equal(path.substr(path.size() - kEnding.size()), kEnding, [](char a, char b) {
-           return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
-         });
-}
+bool is_3mf(std::string_view path) { return ends_ignoring_case(path, ".3mf"); }
 
 Result<Pot> pot_from(std::string_view bytes, std::string_view name) {
   if (!bytes.starts_with("PK"))

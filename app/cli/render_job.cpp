@@ -7,6 +7,7 @@
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/engine/tick.hpp"
+#include "core/text.hpp"
 #ifdef CLAYSTACK_EXPORT
 #include "app/render/wall_rows.hpp"
 #include "claystack/export/walls.hpp"
@@ -46,7 +47,7 @@ Result<void> check_usage(const RenderCommand& command, const Console& console) {
 Result<Pot> clay_of(const std::string& path) {
   const auto bytes = read_file(path);
   if (!bytes) return tl::make_unexpected(bytes.error());
-  if (!path.ends_with(".scene.json")) return pot_from(*bytes, path);
+  if (!ends_ignoring_case(path, ".scene.json")) return pot_from(*bytes, path);
   return parse_scene(*bytes, path).and_then([](const SceneSpec& scene) {
     const LumpSpec& lump = scene.lump;
     return ClayStack::cylinder(lump.rings, lump.ring_height_mm, lump.outer_radius_mm,

@@ -3,6 +3,7 @@
 #include "app/cli/export_report.hpp"
 #include "app/cli/html_report.hpp"
 #include "app/cli/packed_pot.hpp"
+#include "core/text.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,7 +12,7 @@ namespace clay::cli {
 
 void set_report(const Pot& pot, solid::ExportRequest& request, const std::vector<PotCopy>& copies) {
   if (request.report_path.empty()) return;
-  const bool page = request.report_path.ends_with(".html");
+  const bool page = ends_ignoring_case(request.report_path, ".html");
   const std::string picture = page ? picture_of(pot) : std::string();
   if (page && !pot.collapse) request.options.wall_spacing_mm = solid::kWallTableSpacingMm;
   request.report_text = [page, picture, copies,

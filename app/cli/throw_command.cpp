@@ -13,6 +13,7 @@
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -223,6 +224,12 @@ Result<void> check_names(const ThrowOptions& options, const Console& console) {
                        {options.scene, options.session, options.from}, console);
 }
 
+void warn_of(const ReplayStats& stats, const Console& console) {
+  if (stats.refused > 0)
+    console.warn(fmt::format("{} invalid poses were not played", stats.refused));
+  if (stats.ring_limit) console.warn("there is clay above the top ring: increase lump.max_rings");
+}
+
 Result<void> replay_pot(const ThrowOptions& options, Console console) {
   if (auto names = check_names(options, console); !names) return names;
   // Output to standard output must be the only one.
@@ -241,8 +248,7 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
     scene.model = options.model == "paper" ? Model::paper : Model::conserving;
   auto wheel = build_wheel(*start);
   if (!wheel) return tl::make_unexpected(wheel.error());
-  const PotEncoding encoding =
-      options.pot.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
+  const PotEncoding encoding = pot_encoding_of(options.pot).value_or(PotEncoding::json);
   if (auto room = expect_room_after_throw(*wheel, encoding, options.pot); !room) return room;
   auto outputs = open_outputs(options);
   if (!outputs) return tl::make_unexpected(outputs.error());
@@ -250,9 +256,7 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   std::optional<TraceWriter> trace;
   if (outputs->trace) trace.emplace(*outputs->trace);
   const ReplayStats stats = play(*wheel, *session, trace ? &*trace : nullptr, console);
-  if (stats.refused > 0)
-    console.warn(fmt::format("{} invalid poses were not played", stats.refused));
-  if (stats.ring_limit) console.warn("there is clay above the top ring: increase lump.max_rings");
+  warn_of(stats, console);
 
   const Pot pot = wheel->pot();
   if (auto written = write_outputs(*outputs, pot, encoding, trace, scene, *session, console);
@@ -300,7 +304,7 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
   if (options.scene.empty() && options.from.empty())
     return failure(ErrorKind::bad_input,
                    "expected a scene, a work, or a pot to start from (--from), found none");
-  if (options.scene.ends_with(".work")) return throw_work_file(options, console);
+  if (ends_ignoring_case(options.scene, ".work")) return throw_work_file(options, console);
   if (options.at || options.list)
     return failure(ErrorKind::bad_input,
                    "--at and --list: expected NAME.work, found " + options.scene);
@@ -386,7 +390,7 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
       "  claystack throw samples/mouse.work --at 3 -o early.pot.json");
   command->callback([options, &console, &exit] {
     if (options->session.empty() && !options->scene.empty() && options->scene != "-" &&
-        !options->scene.ends_with(".work"))
+        !ends_ignoring_case(options->scene, ".work"))
       options->session = session_beside(options->scene);
     const auto done = throw_pot(*options, console);
     exit = done ? kDone : report(done.error());

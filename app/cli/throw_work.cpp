@@ -1,5 +1,6 @@
 #include "app/cli/throw_work.hpp"
 #include "app/cli/json_output.hpp"
+#include "app/cli/pot_copy.hpp"
 
 #include "app/history/work.hpp"
 
@@ -63,6 +64,14 @@ Json pot_json(const Pot& pot) {
           {"collapsed", pot.collapse.has_value()}};
 }
 
+void print_pot(const Console& console, const history::Work& work, history::NodeId node,
+               const Json& json) {
+  console.print(fmt::format(
+      "node {} of {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay; volume error: {} quanta", node,
+      work.size() - 1, json["rings"].get<std::size_t>(), json["height_mm"].get<double>(),
+      json["volume_mm3"].get<double>() / 1000.0, json["volume_error_quanta"].dump()));
+}
+
 }  // namespace
 
 Result<void> throw_work(const WorkJob& job, Console console) {
@@ -93,16 +102,11 @@ Result<void> throw_work(const WorkJob& job, Console console) {
   if (!pot) return named(pot.error());
   json.update(pot_json(**pot));
   if (!job.pot_path.empty()) {
-    const PotEncoding encoding =
-        job.pot_path.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
+    const PotEncoding encoding = pot_encoding_of(job.pot_path).value_or(PotEncoding::json);
     if (auto written = publish(job.pot_path, write_pot(**pot, encoding)); !written) return written;
   }
   if (console.json) print_json(json);
-  console.print(fmt::format(
-      "node {} of {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay; volume "
-      "error: {} quanta",
-      node, work.size() - 1, json["rings"].get<std::size_t>(), json["height_mm"].get<double>(),
-      json["volume_mm3"].get<double>() / 1000.0, json["volume_error_quanta"].dump()));
+  print_pot(console, work, node, json);
   if (!job.pot_path.empty()) console.print("pot: " + job.pot_path);
   return {};
 }

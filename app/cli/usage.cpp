@@ -31,6 +31,17 @@ std::string_view before(std::string_view text, std::string_view mark) {
   return text.substr(0, text.find(mark));
 }
 
+/// An argument that the command does not have: the first option, of which others may be the values.
+std::string unknown_word(const CLI::App& command) {
+  const std::vector<std::string> words = command.remaining();
+  const auto is_option = [](const std::string& word) {
+    return word.size() > 1 && word.starts_with('-');
+  };
+  const auto option = std::ranges::find_if(words, is_option);
+  if (option != words.end()) return *option;
+  return words.empty() ? std::string() : words.front();
+}
+
 std::string unknown_argument(const CLI::App& command, std::string_view word) {
   if (!word.starts_with('-')) return fmt::format("unexpected argument {}", word);
   std::vector<std::string> names;
@@ -105,9 +116,12 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
     case CLI::ExitCodes::RequiredError:
       if (app.get_require_subcommand_min() > 0 && app.get_subcommands().empty())
         return "expected a command, found none";
+      // A typo in a required option leaves it unset.
+      if (const auto word = unknown_word(command_of(app)); word.starts_with("--"))
+        return unknown_argument(command_of(app), word);
       return fmt::format("expected {}, found none", before(text, " is required"));
     case CLI::ExitCodes::ExtrasError:
-      return unknown_argument(command_of(app), before(after(text, ": "), " "));
+      return unknown_argument(command_of(app), unknown_word(command_of(app)));
     case CLI::ExitCodes::ConversionError:
       return not_a_number(text);
     case CLI::ExitCodes::ArgumentMismatch:

@@ -240,6 +240,27 @@ Result<std::vector<Slab>> slabs_of(const std::vector<Edge>& edges, const std::st
   return slabs;
 }
 
+/// Gives one height to all points of nearly one height, and puts points near the axis on it. A
+/// horizontal that a program has turned or rounded is level no more, and would need very fine
+/// rings; a line beside the axis would be a bore.
+void straighten(std::vector<Line>& lines) {
+  constexpr double kLevelMm = 1e-4;
+  std::vector<double*> heights;
+  for (Line& line : lines)
+    for (glm::dvec2& p : line.points_mm) {
+      heights.push_back(&p.y);
+      if (std::abs(p.x) <= kLevelMm) p.x = 0.0;
+    }
+  std::sort(heights.begin(), heights.end(),
+            [](const double* a, const double* b) { return *a < *b; });
+  const double top = *heights.back();
+  for (std::size_t i = 0; i < heights.size();) {
+    const double low = *heights[i];
+    const double same = top - low <= kLevelMm ? top : low;  // the whole height stays
+    for (; i < heights.size() && *heights[i] - low <= kLevelMm; ++i) *heights[i] = same;
+  }
+}
+
 /// Sets the axis of the section, and removes axis lines from the drawing.
 Result<void> place_axis(HalfSection& section, Drawing& drawing, const HalfSectionSettings& settings,
                         const std::string& name) {
@@ -293,6 +314,7 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
   for (Line& line : drawing.lines)
     for (glm::dvec2& p : line.points_mm)
       p = scale * (p - glm::dvec2{section.axis_mm, bounds.low.y});
+  straighten(drawing.lines);
   if (auto closed = close(drawing.lines, name); !closed) return tl::make_unexpected(closed.error());
   auto slabs = slabs_of(edges_of(drawing.lines), name);
   if (!slabs) return tl::make_unexpected(slabs.error());

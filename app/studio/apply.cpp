@@ -9,6 +9,7 @@
 #include "app/studio/samples.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/export/walls.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -23,7 +24,7 @@ constexpr double kGapShareStep = 0.05;
 constexpr double kNoteS = 5.0, kSavedNoteS = 4.0;
 
 bool is_process(const std::filesystem::path& path) {
-  return path.string().ends_with(".process.json");
+  return ends_ignoring_case(path.string(), ".process.json");
 }
 
 /// Text for the log; null: the action does not change the work.

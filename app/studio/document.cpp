@@ -6,6 +6,7 @@
 #include "app/render/pot_view.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -16,11 +17,9 @@
 namespace clay::studio {
 namespace {
 
-bool is_pot(const std::string& name) {
-  return name.ends_with(".pot.json") || name.ends_with(".pot.cbor");
-}
+bool is_pot(const std::string& name) { return cli::pot_encoding_of(name).has_value(); }
 
-bool is_work(const std::string& name) { return name.ends_with(".work"); }
+bool is_work(const std::string& name) { return ends_ignoring_case(name, ".work"); }
 
 SceneSpec current_scene(const WorkRecord& record) {
   return record.scenes.at(record.nodes.at(record.at).scene);
@@ -116,13 +115,13 @@ Result<Document::Remark> Document::open(const std::filesystem::path& path) {
 Result<void> Document::save(const std::filesystem::path& path) {
   const std::string name = path.string();
   if (is_work(name)) return work_->save(name).map([&] { keep_file(path); });
-  if (!is_pot(name))
+  const auto encoding = cli::pot_encoding_of(name);
+  if (!encoding)
     return failure(
         ErrorKind::bad_input,
         fmt::format("{}: expected a name that ends in .work, .pot.json or .pot.cbor", name));
-  const auto encoding = name.ends_with(".cbor") ? PotEncoding::cbor : PotEncoding::json;
-  return cli::expect_room_to_write(pot_->stack.size(), encoding, name).and_then([&] {
-    return publish(path, write_pot(*pot_, encoding));
+  return cli::expect_room_to_write(pot_->stack.size(), *encoding, name).and_then([&] {
+    return publish(path, write_pot(*pot_, *encoding));
   });
 }
 

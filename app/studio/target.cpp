@@ -6,6 +6,7 @@
 #include "app/studio/importing.hpp"
 #include "app/studio/samples.hpp"
 #include "claystack/core/atomic_file.hpp"
+#include "core/text.hpp"
 
 #include <utility>
 
@@ -22,7 +23,7 @@ Result<Pot> pot_in(const std::filesystem::path& path) {
     return read_file(path)
         .and_then([&](const std::string& bytes) { return import_drawing(bytes, name, {}); })
         .map([](Imported&& made) { return std::move(made.pot); });
-  if (!name.ends_with(".work")) return cli::read_pot(name);
+  if (!ends_ignoring_case(name, ".work")) return cli::read_pot(name);
   return history::load(name).and_then([](history::Loaded&& loaded) -> Result<Pot> {
     return loaded.work.pot().map([](const history::SharedPot& pot) { return *pot; });
   });

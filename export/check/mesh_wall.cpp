@@ -1,16 +1,13 @@
 #include "claystack/export/check.hpp"
 
 #include "core/parallel_parts.hpp"
+#include "export/check/wall_ray.hpp"
 #include "export/solid/box_tree.hpp"
-#include "export/solid/cgal_versions.hpp"
 #include "export/solid/mesh_topology.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/intersections.h>
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <mutex>
@@ -23,9 +20,6 @@
 
 namespace clay::solid::inline check {
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
 
 /// Twice the area, as a vector along the outward normal.
 glm::dvec3 doubled_area(const TriangleMesh& mesh, std::uint32_t triangle) {
@@ -92,11 +86,25 @@ struct Shortest {
   }
 };
 
+/// The thickest place of a body in which every ray is close to an end.
+struct Thickest {
+  double room_mm = 0.0;  ///< twice the distance from the middle of the ray to the nearest face seen
+  double mm = 0.0;       ///< length of the ray
+  glm::dvec3 place{0.0};
+  std::uint32_t triangle = 0;
+  std::size_t sample = std::numeric_limits<std::size_t>::max();
+
+  void add(const Thickest& other) {
+    if (other.room_mm > room_mm || (other.room_mm == room_mm && other.sample < sample))
+      *this = other;
+  }
+};
+
 /// The result of some of the rays.
 struct Found {
   SampledWall wall;  ///< only its counts
   Shortest least;
-  Shortest at_an_end;  ///< with the end of the clay close on one side
+  Thickest at_an_end;  ///< where the clay ends close to the ray
 
   void add(const Found& other) {
     const SampledWall& found = other.wall;
@@ -107,142 +115,30 @@ struct Found {
     wall.escaped += found.escaped;
   }
 
-  /// A compact body ends close to every ray. It is as thick as they are long.
+  /// A compact body ends close to every ray. It is as thick as in its thickest place.
   [[nodiscard]] SampledWall result() const {
-    const Shortest& shortest = std::isinf(least.mm) ? at_an_end : least;
     SampledWall result = wall;
-    result.least_mm = shortest.mm;
-    result.place = shortest.place;
-    result.triangle = shortest.triangle;
+    const bool compact = std::isinf(least.mm) && at_an_end.mm > 0.0;
+    result.least_mm = compact ? at_an_end.mm : least.mm;
+    result.place = compact ? at_an_end.place : least.place;
+    result.triangle = compact ? at_an_end.triangle : least.triangle;
     return result;
   }
-};
-
-class WallRay {
- public:
-  WallRay(const TriangleMesh& mesh, const glm::dvec3& begin, const glm::dvec3& inward)
-      : mesh_(mesh),
-        begin_(begin),
-        inward_(inward),
-        ray_(point(begin), point(begin + inward)),
-        along_(begin + inward - begin) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (std::abs(along_[axis]) > std::abs(along_[longest_])) longest_ = axis;
-      // Not infinite, because infinity times 0 is NaN.
-      per_mm_[axis] = along_[axis] == 0.0 ? std::numeric_limits<double>::max() : 1.0 / along_[axis];
-    }
-  }
-
-  struct Hit {
-    std::uint32_t triangle = 0;
-    double facing = 0.0;       ///< cosine between its normal and the ray
-    std::optional<double> mm;  ///< empty if the ray lies in the triangle's plane
-  };
-
-  /// Finds the first back face. Decrements `steps` for each visited box and triangle; stops at 0.
-  std::optional<Hit> first_hit(const BoxTree& tree, std::size_t& steps) {
-    const auto step = [&] { steps -= steps > 0 ? 1 : 0; };
-    tree.for_each_near(
-        [&](const BoxTree::Box& box) {
-          step();
-          return entry(box);
-        },
-        [&] { return steps > 0 ? nearest_ : -1.0; },
-        [&](std::span<const std::uint32_t> triangles) {
-          for (const std::uint32_t t : triangles) {
-            step();
-            look_at(t);
-          }
-        });
-    return hit_;
-  }
-
- private:
-  static Point point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
-
-  [[nodiscard]] double entry(const BoxTree::Box& box) const {
-    const glm::dvec3 a = (box.low - begin_) * per_mm_, b = (box.high - begin_) * per_mm_;
-    const glm::dvec3 in = glm::min(a, b), out = glm::max(a, b);
-    double first = std::max({0.0, in.x, in.y, in.z});
-    double last = std::min({out.x, out.y, out.z});
-    if (!(first <= last)) return BoxTree::kNever;
-    const glm::dvec3 across(box.across);
-    const double rise = glm::dot(across, along_), begin = glm::dot(across, begin_);
-    // Nearly parallel to the planes, rounding decides on which side the ray meets them.
-    if (std::abs(rise) > 1e-6) {
-      const double from = (box.from - begin) / rise, to = (box.to - begin) / rise;
-      first = std::max(first, std::min(from, to));
-      last = std::min(last, std::max(from, to));
-    } else if (begin < box.from - 2e-6 * last || begin > box.to + 2e-6 * last) {
-      return BoxTree::kNever;
-    }
-    return first <= last ? first : BoxTree::kNever;
-  }
-
-  /// True if the line passes the triangle on one side by more than the rounding error.
-  [[nodiscard]] bool passes(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const {
-    const double farthest2 = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
-    const double margin = 1e-14 * farthest2;  // 90 roundings
-    const auto differ = [&](double x, double y) {
-      return std::max(x, y) > margin && std::min(x, y) < -margin;
-    };
-    const double ab = glm::dot(along_, glm::cross(a, b)), bc = glm::dot(along_, glm::cross(b, c));
-    if (differ(ab, bc)) return true;
-    const double ca = glm::dot(along_, glm::cross(c, a));
-    return differ(ab, ca) || differ(bc, ca);
-  }
-
-  void look_at(std::uint32_t triangle) {
-    const auto& [i, j, k] = mesh_.triangles[triangle];
-    const glm::dvec3 &a = mesh_.points[i], &b = mesh_.points[j], &c = mesh_.points[k];
-    // Both tests exclude most triangles from the exact tests, and decide no close case.
-    const glm::dvec3 normal = glm::cross(b - a, c - a);
-    const double size = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
-    if (glm::dot(inward_, normal) < -1e-12 * size) return;
-    if (passes(a - begin_, b - begin_, c - begin_)) return;
-    const double facing = glm::dot(inward_, glm::normalize(normal));
-    if (!(facing > 0.0)) return;  // a front face
-    const Kernel::Triangle_3 whole(point(a), point(b), point(c));
-    if (whole.is_degenerate()) return;
-    const auto met = CGAL::intersection(ray_, whole);
-    if (!met) return;
-    // A ray that is not in the plane of a triangle meets it in a point.
-    if (const auto* at = cgal::get_if<Point>(*met)) {
-      const glm::dvec3 place(at->x(), at->y(), at->z());
-      keep({triangle, facing, glm::length(place - begin_)}, share_of_ray(*at));
-    } else {
-      const auto& in_plane = *cgal::get_if<Kernel::Segment_3>(*met);
-      keep({triangle, facing, {}},
-           std::min(share_of_ray(in_plane.source()), share_of_ray(in_plane.target())));
-    }
-  }
-
-  [[nodiscard]] double share_of_ray(const Point& p) const {
-    return (p[longest_] - begin_[longest_]) / along_[longest_];
-  }
-
-  void keep(const Hit& hit, double share) {
-    if (share > nearest_ || (share == nearest_ && hit_ && hit_->triangle < hit.triangle)) return;
-    nearest_ = share;
-    hit_ = hit;
-  }
-
-  const TriangleMesh& mesh_;
-  glm::dvec3 begin_, inward_;
-  Kernel::Ray_3 ray_;
-  glm::dvec3 along_, per_mm_;
-  int longest_ = 0;
-  double nearest_ = std::numeric_limits<double>::max();
-  std::optional<Hit> hit_;
 };
 
 /// A ray that meets a face at less than 45 degrees grazes it: the sine of the angle.
 constexpr double kGrazing = std::numbers::sqrt2 / 2.0;
 
-/// Farther from the end of the clay than this, in thicknesses, the boundary around it is three
-/// thicknesses long, as `min_wall` requires, even if the clay ends in a wedge: 1.5, seen at 22.5
-/// degrees.
-constexpr double kEndThicknesses = 1.63;
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// The cosine of the bluntest wedge that `min_wall` counts as thin, 4 atan(1/6).
+constexpr double kWedge = 0.79;
+
+/// As for `min_wall`, a wall has three thicknesses of boundary, either way round; 2 % more, because
+/// the plane of a ray does not quite pass through the axis. Closer to the end than `kLeastEnd`, in
+/// thicknesses, it has less; farther than `kMostEnd`, even in a wedge it has more: 1.5, seen
+/// at 22.5 degrees.
+constexpr double kSpan = 3.06, kLeastEnd = 0.6, kMostEnd = 1.63;
 
 class WallProbe {
  public:
@@ -262,10 +158,13 @@ class WallProbe {
     one.wall.oblique = hit && hit->facing < kGrazing ? 1 : 0;
     if (hit && one.wall.oblique == 0 && hit->mm) {
       const Shortest ray{*hit->mm, begin, triangle, sample};
+      const Middle middle{begin + 0.5 * ray.mm * inward, inward, ray.mm, hit->facing};
       // The sides are worth looking at only where the wall would be the thinnest.
-      if (ray.mm < found.least.mm && ends_beside(begin, inward, ray.mm, steps)) {
+      const Beside beside = ray.mm < found.least.mm ? look_beside(middle, steps) : Beside{};
+      if (is_end(middle, beside, steps)) {
         one.wall.oblique = 1;
-        one.at_an_end = ray;
+        one.at_an_end = {std::min(ray.mm, 2.0 * beside.nearest_mm), ray.mm, begin, triangle,
+                         sample};
       } else {
         one.least = ray;
       }
@@ -274,32 +173,120 @@ class WallProbe {
   }
 
  private:
-  /// Whether the clay ends close to the middle of a wall, on one side of it only, as it does at the
-  /// end of a lip or of a flange. A rod ends on both sides alike.
-  [[nodiscard]] bool ends_beside(const glm::dvec3& begin, const glm::dvec3& inward,
-                                 double thickness_mm, std::size_t& steps) const {
-    const glm::dvec3 middle = begin + 0.5 * thickness_mm * inward;
+  /// The middle of a ray through a wall.
+  struct Middle {
+    glm::dvec3 place, inward;
+    double thickness_mm = 0.0, facing = 0.0;
+  };
+
+  /// The sides of a wall.
+  struct Beside {
+    double end = kFar;         ///< distance of the nearest end [thicknesses]
+    glm::dvec3 towards{0.0};   ///< the way to it, a unit vector
+    double nearest_mm = kFar;  ///< of any face
+  };
+
+  [[nodiscard]] std::optional<WallRay::Hit> hit_from(const glm::dvec3& from, const glm::dvec3& way,
+                                                     std::size_t& steps) const {
+    const auto hit = WallRay(mesh_, from, way).first_hit(tree_, steps);
+    return hit && hit->mm ? hit : std::nullopt;
+  }
+  [[nodiscard]] double mm_from(const glm::dvec3& from, const glm::dvec3& way,
+                               std::size_t& steps) const {
+    const auto hit = hit_from(from, way, steps);
+    return hit ? *hit->mm : kFar;
+  }
+
+  /// Looks for an end of the clay along some lines across the ray. The clay ends on one side of a
+  /// line only, as it does at the end of a lip or of a flange; a rod ends on both sides alike.
+  [[nodiscard]] Beside look_beside(const Middle& middle, std::size_t& steps) const {
+    const glm::dvec3& inward = middle.inward;
     const glm::dvec3 aside = std::abs(inward.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(inward, aside)), v = glm::cross(inward, u);
     struct Way {
-      double mm = std::numeric_limits<double>::infinity();
+      glm::dvec3 direction;
+      double mm = kFar;
       bool grazes = false;  // a leaning face, beside which the clay goes on
     };
     const auto way = [&](const glm::dvec3& direction) {
-      const auto hit = WallRay(mesh_, middle, direction).first_hit(tree_, steps);
-      return hit && hit->mm ? Way{*hit->mm, hit->facing < kGrazing} : Way{};
+      const auto hit = hit_from(middle.place, direction, steps);
+      return hit ? Way{direction, *hit->mm, hit->facing < kGrazing} : Way{direction};
     };
     constexpr int kLines = 4;
+    Beside beside;
     for (int k = 0; k < kLines; ++k) {
       const double angle = std::numbers::pi * k / kLines;
       const glm::dvec3 direction = std::cos(angle) * u + std::sin(angle) * v;
       Way nearer = way(direction), farther = way(-direction);
       if (nearer.mm > farther.mm) std::swap(nearer, farther);
-      if (nearer.mm < kEndThicknesses * thickness_mm &&
-          (farther.mm >= thickness_mm || farther.grazes))
-        return true;
+      beside.nearest_mm = std::min(beside.nearest_mm, nearer.mm);
+      const double end = nearer.mm / middle.thickness_mm;
+      if (end < beside.end && (farther.mm >= middle.thickness_mm || farther.grazes))
+        beside.end = end, beside.towards = nearer.direction;
     }
-    return false;
+    return beside;
+  }
+
+  [[nodiscard]] bool is_end(const Middle& middle, const Beside& beside, std::size_t& steps) const {
+    if (beside.end >= kMostEnd) return false;
+    if (beside.end < kLeastEnd || middle.facing < kWedge) return true;
+    const glm::dvec3 towards = nearest_way(middle, beside.towards, steps);
+    return boundary_around(middle, towards, steps) < kSpan * middle.thickness_mm;
+  }
+
+  /// The shortest way to the end, near one of the lines.
+  [[nodiscard]] glm::dvec3 nearest_way(const Middle& middle, glm::dvec3 way,
+                                       std::size_t& steps) const {
+    double least = mm_from(middle.place, way, steps);
+    for (double turn = std::numbers::pi / 16.0; turn > 0.02; turn *= 0.5) {
+      const glm::dvec3 across = glm::cross(middle.inward, way);
+      for (const double side : {-turn, turn}) {
+        const glm::dvec3 turned = std::cos(side) * way + std::sin(side) * across;
+        const double mm = mm_from(middle.place, turned, steps);
+        if (mm < least) least = mm, way = turned;
+      }
+    }
+    return way;
+  }
+
+  /// A point of the boundary as seen from the middle; the angle is 0 towards the end.
+  struct Seen {
+    double angle = 0.0;
+    glm::dvec3 at{0.0};
+  };
+
+  /// The length of the boundary around the end, in the plane of the ray and the way to the end:
+  /// that of a line through points of it, as seen from the middle, and so a lower bound.
+  [[nodiscard]] double boundary_around(const Middle& middle, const glm::dvec3& towards,
+                                       std::size_t& steps) const {
+    constexpr int kParts = 8;
+    const auto seen = [&](double angle) {
+      const glm::dvec3 way = std::cos(angle) * towards + std::sin(angle) * middle.inward;
+      return Seen{angle, mm_from(middle.place, way, steps) * way};
+    };
+    const glm::dvec3 half = 0.5 * middle.thickness_mm * middle.inward;
+    Seen last{-0.5 * std::numbers::pi, -half};
+    double length = 0.0;
+    for (int k = 1; k <= kParts; ++k) {
+      Seen next{0.5 * std::numbers::pi, half};
+      if (k < kParts) next = seen(std::numbers::pi * (static_cast<double>(k) / kParts - 0.5));
+      if (!std::isfinite(next.at.x)) continue;  // along a triangle
+      length += length_between(last, next, seen, middle.thickness_mm / 8.0);
+      last = next;
+    }
+    return length;
+  }
+
+  /// Through more points where two are farther apart than `fine_mm`.
+  template <class See>
+  [[nodiscard]] static double length_between(const Seen& a, const Seen& b, const See& seen,
+                                             double fine_mm, int halvings = 6) {
+    const double straight = glm::length(b.at - a.at);
+    if (straight <= fine_mm || halvings == 0) return straight;
+    const Seen middle = seen(0.5 * (a.angle + b.angle));
+    if (!std::isfinite(middle.at.x)) return straight;
+    return length_between(a, middle, seen, fine_mm, halvings - 1) +
+           length_between(middle, b, seen, fine_mm, halvings - 1);
   }
 
   const TriangleMesh& mesh_;

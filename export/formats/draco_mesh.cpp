@@ -1,6 +1,7 @@
 #include "export/formats/draco_mesh.hpp"
 
 #include "core/cancel.hpp"
+#include "core/text.hpp"
 #include "export/formats/mesh_limits.hpp"
 
 #include <array>
@@ -42,9 +43,8 @@ Result<void> append_points(const draco::PointAttribute& positions, std::string_v
 
 tl::unexpected<Error> bad_face(std::string_view name, std::size_t face, std::size_t count,
                                std::string_view noun, std::uint32_t found) {
-  std::string what = "face " + std::to_string(face + 1) + ": expected one of ";
-  what.append(std::to_string(count)).append(" ").append(noun);
-  return bad_file(name, what.append(", found ").append(std::to_string(found)));
+  return bad_file(name, "face " + std::to_string(face + 1) + ": " +
+                            expected_number(noun, 0, count) + ", found " + std::to_string(found));
 }
 
 Result<void> append_triangles(const draco::Mesh& mesh, const draco::PointAttribute& positions,
@@ -57,11 +57,11 @@ Result<void> append_triangles(const draco::Mesh& mesh, const draco::PointAttribu
     for (std::size_t i = 0; i < 3; ++i) {
       const draco::PointIndex point = mesh.face(draco::FaceIndex(face))[i];
       if (point.value() >= mesh.num_points()) {
-        return bad_face(name, face, mesh.num_points(), "points", point.value());
+        return bad_face(name, face, mesh.num_points(), "a point", point.value());
       }
       triangle[i] = positions.mapped_index(point).value();
       if (triangle[i] >= positions.size()) {
-        return bad_face(name, face, positions.size(), "positions", triangle[i]);
+        return bad_face(name, face, positions.size(), "a position", triangle[i]);
       }
     }
   }

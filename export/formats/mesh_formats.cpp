@@ -113,7 +113,7 @@ Result<TriangleMesh> decode_as(MeshFormat format, std::string_view bytes, std::s
     case MeshFormat::ply:
       return decode_ply(bytes, name, options);
     case MeshFormat::off:
-      return decode_off(bytes, name);
+      return decode_off(bytes, name, options);
     case MeshFormat::three_mf:
       return decode_3mf(bytes, name, options);
     case MeshFormat::three_mf_model:

@@ -71,6 +71,10 @@ class ObjReader {
     // library is another file, which a mesh must not make the program open.
     static constexpr std::array<std::string_view, 7> kPassedOver = {"o",      "g", "s", "mtllib",
                                                                     "usemtl", "l", "p"};
+    const bool mesh = keyword == "v" || keyword == "f" || keyword == "vt" || keyword == "vn";
+    if (mesh && trailing_.count > 0)
+      return scanner_.fail_at(trailing_.first,
+                              "expected a statement of a polygon mesh, found " + trailing_word_);
     if (keyword == "v") {
       read_point();
     } else if (keyword == "f") {
@@ -90,11 +94,24 @@ class ObjReader {
     }
   }
 
-  /// Lines of text that a program put before the mesh.
+  /// Lines of text that a program put before or after the mesh.
   void read_unknown(std::string_view keyword) {
-    if (points_.count + textures_.count + normals_.count + mesh_.triangles.size() > 0)
+    const bool begun =
+        points_.count + textures_.count + normals_.count + mesh_.triangles.size() > 0;
+    // Curves and surfaces: without them, the mesh is not all that the file holds.
+    static constexpr std::array<std::string_view, 14> kFreeForm = {
+        "vp",   "cstype", "deg",  "bmat", "step", "curv", "curv2",
+        "surf", "parm",   "trim", "hole", "scrv", "sp",   "con"};
+    const auto is = [&](std::string_view word) { return equal_ignoring_case(keyword, word); };
+    const bool surface = std::ranges::find(kFreeForm, keyword) != kFreeForm.end() || is("v") ||
+                         is("f") || is("vt") || is("vn");
+    if (begun && (surface || mesh_.triangles.empty()))
       return scanner_.fail_expected("a statement of a polygon mesh", keyword);
-    if (header_lines_++ == 0) header_line_ = scanner_.line();
+    StrayLines& lines = begun ? trailing_ : header_;
+    if (lines.count++ == 0) {
+      lines.first = scanner_.line();
+      if (begun) trailing_word_ = shown_word(keyword);
+    }
     scanner_.skip_line();
   }
 
@@ -184,7 +201,10 @@ class ObjReader {
     const auto note = [this](std::size_t line, std::string what) {
       options_.notes->push_back("line " + std::to_string(line) + ": " + std::move(what));
     };
-    if (header_lines_ > 0) options_.notes->push_back(stray_lines_note(header_line_, header_lines_));
+    if (header_.count > 0)
+      options_.notes->push_back(stray_lines_note(header_.first, header_.count, "before"));
+    if (trailing_.count > 0)
+      options_.notes->push_back(stray_lines_note(trailing_.first, trailing_.count, "after"));
     for (const VertexList* list : {&textures_, &normals_}) {
       const bool beyond = list->highest_used > list->count;
       if (list->bad_line == 0 && !beyond) continue;
@@ -202,7 +222,12 @@ class ObjReader {
   ReadOptions options_;
   /// Faces that PrusaSlicer 2.5 passes over without a message; the first.
   std::size_t odd_faces_ = 0, odd_face_line_ = 0;
-  std::size_t header_lines_ = 0, header_line_ = 0;  ///< unknown statements; the first
+  /// Unknown statements, and the line of the first.
+  struct StrayLines {
+    std::size_t count = 0, first = 0;
+  };
+  StrayLines header_, trailing_;
+  std::string trailing_word_;  ///< the first of them, for a message
   VertexList points_{"v"};
   VertexList textures_{"vt"};
   VertexList normals_{"vn"};

@@ -17,12 +17,12 @@ constexpr std::size_t kLeastPointBytes = 6, kLeastFaceBytes = 8;
 
 class OffReader {
  public:
-  OffReader(ByteStream& text, std::string_view name)
-      : scanner_(text, name, LineRule::plain), name_(name), size_(text.size()) {}
+  OffReader(ByteStream& text, std::string_view name, std::vector<std::string>* notes)
+      : scanner_(text, name, LineRule::plain), name_(name), size_(text.size()), notes_(notes) {}
 
   Result<TriangleMesh> read() {
-    read_keyword(word());
-    const std::string_view first = word();
+    const std::string_view begin = word();
+    const std::string_view first = read_keyword(begin) ? word() : begin;
     if (first == "BINARY") scanner_.fail("expected OFF as text, found binary OFF");
     const std::size_t points = count(first, kLeastPointBytes, "vertices");
     const std::size_t faces = count(word(), kLeastFaceBytes, "faces");
@@ -53,12 +53,20 @@ class OffReader {
     return found.substr(0, end);
   }
 
-  /// [ST][C][N]OFF. A 4 or an n before it adds dimensions.
-  void read_keyword(std::string_view found) {
+  /// [ST][C][N]OFF. A 4 or an n before it adds dimensions. Returns false if the file begins with
+  /// its counts: the keyword is optional.
+  bool read_keyword(std::string_view found) {
+    if (!found.empty() && found.find_first_not_of("0123456789") == found.npos) {
+      if (notes_ != nullptr)
+        notes_->push_back("line " + std::to_string(scanner_.line()) +
+                          ": the file begins without the keyword OFF");
+      return false;
+    }
     std::string_view rest = found;
     for (const std::string_view part : {"ST", "C", "N"})
       if (rest.starts_with(part)) rest.remove_prefix(part.size());
-    if (rest != "OFF") return scanner_.fail_expected("OFF, COFF, NOFF or STOFF", found);
+    if (rest != "OFF") scanner_.fail_expected("OFF, COFF, NOFF or STOFF", found);
+    return true;
   }
 
   /// A count whose lines the file has room for.
@@ -115,6 +123,7 @@ class OffReader {
   TextScanner scanner_;
   std::string_view name_;
   std::uint64_t size_;
+  std::vector<std::string>* notes_;
   TriangleMesh mesh_;
   std::vector<std::uint32_t> corners_;
   bool in_comment_ = false;  // the rest of this line is one
@@ -122,12 +131,13 @@ class OffReader {
 
 }  // namespace
 
-Result<TriangleMesh> decode_off(std::string_view bytes, std::string_view name) {
+Result<TriangleMesh> decode_off(std::string_view bytes, std::string_view name,
+                                const ReadOptions& options) {
   return check_file_size(bytes, name).and_then([&] {
     return guarded(name, [&] {
       const ByteSource source = source_of(bytes);
       ByteStream stream(source);
-      return OffReader(stream, name).read();
+      return OffReader(stream, name, options.notes).read();
     });
   });
 }

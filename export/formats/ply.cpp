@@ -284,7 +284,8 @@ Result<TriangleMesh> decode_ply(std::string_view bytes, std::string_view name,
     return guarded(name, [&] {
       return ply::read_header(bytes, name).and_then([&](const ply::Header& header) {
         if (header.stray_lines > 0 && options.notes != nullptr)
-          options.notes->push_back(stray_lines_note(header.stray_line, header.stray_lines));
+          options.notes->push_back(
+              stray_lines_note(header.stray_line, header.stray_lines, "before"));
         return ply::check_elements(header, name).and_then([&] {
           return ply::read_body(bytes, header, name);
         });

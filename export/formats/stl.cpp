@@ -36,8 +36,8 @@ TriangleMesh mesh_with_room_for(std::size_t facets) {
 
 class StlTextReader {
  public:
-  StlTextReader(ByteStream& text, std::string_view name)
-      : scanner_(text, name, LineRule::plain), name_(name) {}
+  StlTextReader(ByteStream& text, std::string_view name, const ReadOptions& options)
+      : scanner_(text, name, LineRule::plain), name_(name), options_(options) {}
 
   Result<TriangleMesh> read() {
     while (read_solid()) {
@@ -58,10 +58,11 @@ class StlTextReader {
     return !scanner_.fault();
   }
 
-  /// Returns false after "endsolid" or a fault.
+  /// Returns false after "endsolid" or a fault, and for repairs at the end of the file.
   bool read_facet() {
     const std::string_view keyword = scanner_.word();
     if (equal_ignoring_case(keyword, "endsolid")) return false;
+    if (keyword.empty() && !scanner_.fault() && !mesh_.triangles.empty()) return end_without_word();
     if (!equal_ignoring_case(keyword, "facet")) {
       scanner_.fail_expected("facet or endsolid", keyword);
       return false;
@@ -83,6 +84,17 @@ class StlTextReader {
     return true;
   }
 
+  /// The file may have been cut off between two facets.
+  bool end_without_word() {
+    if (!options_.repair)
+      scanner_.fail("expected facet or endsolid, found the end of the file; --repair reads the " +
+                    counted(mesh_.triangles.size(), "facet") + " that are there");
+    else if (options_.notes != nullptr)
+      options_.notes->push_back("line " + std::to_string(scanner_.line()) +
+                                ": the file ends without endsolid, so facets may be missing");
+    return false;
+  }
+
   void add(const Corners& corners) {
     auto& triangle = mesh_.triangles.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) triangle[i] = welder_.index_of(corners[i]);
@@ -90,6 +102,7 @@ class StlTextReader {
 
   TextScanner scanner_;
   std::string_view name_;
+  ReadOptions options_;
   TriangleMesh mesh_;
   VertexWelder welder_{mesh_.points, 0};
 };
@@ -189,7 +202,7 @@ Result<TriangleMesh> read_either(const ByteSource& source, std::string_view name
     return read_binary(source, stream, there, name);
   }
   return check_text_size(source, kUsualTextFacetBytes, name).and_then([&] {
-    return StlTextReader(stream, name).read();
+    return StlTextReader(stream, name, options).read();
   });
 }
 

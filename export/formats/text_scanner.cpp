@@ -16,15 +16,6 @@ bool is_blank(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-/// Shortens a word for a message and removes terminal control characters.
-std::string shown(std::string_view word) {
-  constexpr std::size_t kLongest = 32;
-  if (word.empty()) return "the end of the line or file";
-  std::string text = "'";
-  for (const char c : word.substr(0, kLongest)) text += c > ' ' && c <= '~' ? c : '?';
-  return text + (word.size() > kLongest ? "...'" : "'");
-}
-
 /// from_chars accepts no '+', but text files contain it.
 std::string_view without_plus(std::string_view word) noexcept {
   const bool plain_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
@@ -51,9 +42,19 @@ std::optional<float> parse_float(std::string_view word) noexcept {
   return std::nullopt;
 }
 
-std::string stray_lines_note(std::size_t first_line, std::size_t count) {
-  return "line " + std::to_string(first_line) + ": " + counted(count, "line") +
-         " before the mesh " + (count == 1 ? "was" : "were") + " not read";
+/// Also removes the control characters of terminals.
+std::string shown_word(std::string_view word) {
+  constexpr std::size_t kLongest = 32;
+  if (word.empty()) return "the end of the line or file";
+  std::string text = "'";
+  for (const char c : word.substr(0, kLongest)) text += c > ' ' && c <= '~' ? c : '?';
+  return text + (word.size() > kLongest ? "...'" : "'");
+}
+
+std::string stray_lines_note(std::size_t first_line, std::size_t count, std::string_view where) {
+  return ("line " + std::to_string(first_line) + ": " + counted(count, "line") + " ")
+      .append(where)
+      .append(count == 1 ? " the mesh was not read" : " the mesh were not read");
 }
 
 bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept {
@@ -181,7 +182,7 @@ long long TextScanner::whole_number(std::string_view word) {
 }
 
 void TextScanner::fail_expected(std::string_view what, std::string_view found) {
-  fail(std::string("expected ").append(what).append(", found ").append(shown(found)));
+  fail(std::string("expected ").append(what).append(", found ").append(shown_word(found)));
 }
 
 void TextScanner::fail_at(std::size_t line, std::string_view what) {

@@ -65,8 +65,12 @@ class TextScanner {
 /// float32 by the shortest way; values too small for it are 0. Empty: not a number, or too large.
 [[nodiscard]] std::optional<float> parse_float(std::string_view word) noexcept;
 
-/// "line 3: 2 lines before the mesh were not read".
-[[nodiscard]] std::string stray_lines_note(std::size_t first_line, std::size_t count);
+/// A word for a message: in quotes, shortened; if it is empty, "the end of the line or file".
+[[nodiscard]] std::string shown_word(std::string_view word);
+
+/// "line 3: 2 lines before the mesh were not read"; `where` is "before" or "after".
+[[nodiscard]] std::string stray_lines_note(std::size_t first_line, std::size_t count,
+                                           std::string_view where);
 
 /// ASCII only, independent of the locale.
 [[nodiscard]] bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept;

@@ -190,6 +190,7 @@ class RevolvedExport {
     // As rounded in a binary STL, so that a pot has one wall before and after it is written.
     measure_walls(with_rounding(claims, rule, float_rounding_mm(rule)).wall_lower_mm);
     report_.maker = numbers();
+    announce_sizes();
     if (auto room = expect_memory(); !room) return room;
     RevolveFiles files(rule, claims, options_, stages_);
     for (const Output& output : outputs_) {
@@ -201,6 +202,13 @@ class RevolvedExport {
     report_.left_out =
         left_out(stack_, report_.section.no_smoothing, rule, files.made_mesh(), outputs_, options_);
     return {};
+  }
+
+  void announce_sizes() const {
+    if (!options_.announce_size) return;
+    for (const Output& output : outputs_)
+      options_.announce_size(output.name, report_.size.triangles,
+                             usual_file_bytes(output.format, options_, report_.size.triangles));
   }
 
   /// The files are made one after the other, and each is released.
@@ -235,9 +243,11 @@ class RevolvedExport {
     if (report_.section.smoothing == Smoothing::exact &&
         wall_as_steps_mm_ > walls.thinnest.thickness_mm)
       walls.as_steps_mm = wall_as_steps_mm_;
-    if (options_.wall_spacing_mm)
+    if (options_.wall_spacing_mm) {
       walls.field =
           stages_.run("wall_field", [&] { return wall_field(profile, *options_.wall_spacing_mm); });
+      walls.parts = walls_by_part(profile, walls.field, walls.thinnest, min_wall_mm);
+    }
     walls.limit = options_.walls.for_size(2.0 * report_.size.diameter_mm + report_.size.height_mm);
     report_.process.limits = options_.walls.process;
     report_.process.overhang = steepest_overhang(profile);

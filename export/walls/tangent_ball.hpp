@@ -16,6 +16,7 @@ namespace clay::solid::inline walls {
 struct Ball {
   double diameter = std::numeric_limits<double>::infinity();
   Vec2 from{0.0}, to{0.0};  ///< points of contact
+  double to_arc = -1.0;     ///< of `to`, from `PlaceSearch`; negative across the axis
   /// Diameter of the smallest ball that was met and has too little boundary, see `kSpan`.
   double excluded = std::numeric_limits<double>::infinity();
 };

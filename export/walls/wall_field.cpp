@@ -1,4 +1,5 @@
 #include "claystack/export/walls.hpp"
+#include "export/walls/part_names.hpp"
 #include "export/walls/wall_search.hpp"
 
 #include <algorithm>
@@ -13,7 +14,8 @@ namespace {
 /// lowest vertices to the outermost of the highest.
 class FaceNames {
  public:
-  explicit FaceNames(const Polygon& polygon) : count_(polygon.size()) {
+  explicit FaceNames(const Polygon& polygon)
+      : count_(polygon.size()), bore_(polygon.size(), WallFace::bore) {
     const auto higher = [](const ProfilePoint& a, const ProfilePoint& b) {
       return a.y != b.y ? a.y < b.y : a.rho < b.rho;
     };
@@ -25,6 +27,7 @@ class FaceNames {
     foot_ = static_cast<std::size_t>(foot - polygon.begin());
     rim_ = static_cast<std::size_t>(rim - polygon.begin());
     low_ = foot->y, high_ = rim->y;
+    name_floors_and_lids(polygon);
   }
 
   [[nodiscard]] WallFace of(const Edge& edge, std::size_t vertex) const {
@@ -32,13 +35,29 @@ class FaceNames {
     if (edge.from.y == high_ && edge.to.y == high_) return WallFace::rim;
     if ((vertex + count_ - foot_) % count_ < (rim_ + count_ - foot_) % count_)
       return WallFace::outer;
-    if (std::abs(edge.inward.y) <= std::abs(edge.inward.x)) return WallFace::bore;
-    return edge.inward.y < 0.0 ? WallFace::floor : WallFace::lid;
+    return bore_[vertex];
   }
 
  private:
+  /// Edges within 45 degrees of level, from the axis on: the inside of a rim may look up, too.
+  void name_floors_and_lids(const Polygon& polygon) {
+    const auto next = [&](std::size_t i) { return i + 1 == count_ ? 0 : i + 1; };
+    const auto before = [&](std::size_t i) { return i == 0 ? count_ - 1 : i - 1; };
+    /// Towards the axis above clay, or away from it below clay.
+    const auto level = [&](std::size_t i, double sign) {
+      const double across = sign * (polygon[next(i)].rho - polygon[i].rho);
+      return across > std::abs(polygon[next(i)].y - polygon[i].y);
+    };
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (polygon[i].rho > 0.0) continue;
+      for (std::size_t k = before(i); level(k, -1.0); k = before(k)) bore_[k] = WallFace::floor;
+      for (std::size_t k = i; level(k, 1.0); k = next(k)) bore_[k] = WallFace::lid;
+    }
+  }
+
   std::size_t count_, foot_ = 0, rim_ = 0;
   double low_ = 0.0, high_ = 0.0;
+  std::vector<WallFace> bore_;  ///< by edge, as if all were of the bore
 };
 
 ProfilePoint place(const Vec2& v) { return {v.x, v.y}; }
@@ -53,7 +72,7 @@ class Field {
     std::size_t node = 0;
     for (std::uint32_t piece = 0; piece < tree_.piece_count(); ++piece) {
       const AxisClay axis(tree_, piece);
-      const FaceNames names(profile_.pieces[piece]);
+      const Names names{FaceNames(profile_.pieces[piece]), PartNames(tree_, piece)};
       arc_mm_ = 0.0;
       for (; node < tree_.nodes().size(); ++node) {
         const EdgeNode& leaf = tree_.nodes()[node];
@@ -67,6 +86,11 @@ class Field {
   }
 
  private:
+  struct Names {
+    FaceNames face;
+    PartNames part;
+  };
+
   [[nodiscard]] std::size_t parts(const Edge& edge) const {
     const double count = std::ceil(glm::length(edge.to - edge.from) / spacing_mm_);
     return static_cast<std::size_t>(std::clamp(count, 1.0, kMostParts));
@@ -83,15 +107,16 @@ class Field {
     return std::max<std::size_t>(count, 1);
   }
 
-  void add_samples(const Face& face, const AxisClay& axis, const FaceNames& names) {
+  void add_samples(const Face& face, const AxisClay& axis, const Names& names) {
     const Vec2 along = face.edge.to - face.edge.from;
     const std::size_t count = parts(face.edge);
     for (std::size_t k = 0; k < count; ++k) {
       if (met_++ % stride_ != 0) continue;
       const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
-      add_sample(face, t, axis);
+      add_sample(face, t, axis, names.part);
       samples_.back().arc_mm = arc_mm_ + t * glm::length(along);
-      samples_.back().face = names.of(face.edge, face.edge.index - tree_.first_edge(face.piece));
+      samples_.back().face =
+          names.face.of(face.edge, face.edge.index - tree_.first_edge(face.piece));
     }
     arc_mm_ += glm::length(along);
   }
@@ -114,17 +139,20 @@ class Field {
       const WallSample& nearest = samples_[distance(low) <= distance(above) ? low : above];
       samples_[i].thickness_mm = nearest.thickness_mm;
       samples_[i].opposite = nearest.opposite;
+      samples_[i].part = nearest.part;
     }
     piece_begin_ = end;
   }
 
-  void add_sample(const Face& face, double t, const AxisClay& axis) {
+  void add_sample(const Face& face, double t, const AxisClay& axis, const PartNames& parts) {
     const Ball ball = PlaceSearch(tree_, face, t).run(axis);
     at_end_.push_back(ball.excluded < ball.diameter);
     const Vec2 at = face.edge.from + t * (face.edge.to - face.edge.from);
     const bool found = std::isfinite(ball.diameter);
-    samples_.push_back(
-        {ball.diameter, place(at), place(found ? ball.to : at), 0.0, face.piece, WallFace::outer});
+    samples_.push_back({ball.diameter, place(at), place(found ? ball.to : at), 0.0, face.piece});
+    const double from_arc = face.arc_begin + t * (face.arc_end - face.arc_begin);
+    if (found && ball.to_arc >= 0.0)
+      samples_.back().part = parts.of(from_arc, ball.to_arc, ball.diameter);
   }
 
   static constexpr double kMostParts = 1e9;  // of one edge: keeps the total count exact

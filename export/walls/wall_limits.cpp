@@ -150,7 +150,7 @@ Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view fil
 }
 
 Result<ProcessLimits> read_process(const std::string& name) {
-  if (!name.ends_with(".json")) return process_named(name);
+  if (!ends_ignoring_case(name, ".json")) return process_named(name);
   return read_file(name, kMaxProcessBytes).and_then([&](const std::string& bytes) {
     return parse_process(bytes, name);
   });

@@ -97,7 +97,10 @@ void PlaceSearch::leaves(const EdgeNode&, const EdgeNode& leaf) {
     if (other.edge.index == face_.edge.index) continue;
     const Ball ball = least_ball_at(face_, place_, other, tree_.perimeter(face_.piece), best());
     const double excluded = std::min(least_.excluded, ball.excluded);
-    if (ball.diameter < best()) least_ = ball;
+    if (ball.diameter < best()) {
+      least_ = ball;
+      least_.to_arc = other.arc_begin + glm::length(ball.to - other.edge.from);
+    }
     least_.excluded = excluded;
   }
 }

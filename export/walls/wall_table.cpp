@@ -1,6 +1,7 @@
 // Walls in words: the table of a section, and what is wrong with it.
 
 #include "claystack/export/walls.hpp"
+#include "export/walls/part_names.hpp"
 
 #include <fmt/format.h>
 
@@ -16,18 +17,23 @@ constexpr std::size_t kMostStretches = 4;  // of a long list, people read the fi
 
 struct Stretch {
   std::size_t piece = 0;
-  WallFace face = WallFace::outer;
+  std::string_view name;
   double low_mm = 0.0, high_mm = 0.0;
 };
+
+/// The face, or the part where that says more: the face of a sharp lip may look up like a floor.
+std::string_view name_of(const WallSample& sample) {
+  return sample.part == WallPart::wall ? name_of(sample.face) : name_of(sample.part);
+}
 
 std::vector<Stretch> thin_stretches(const Profile& profile, double min_wall_mm) {
   std::vector<Stretch> stretches;
   bool open = false;
   for (const WallSample& s : wall_field(profile, kWallTableSpacingMm)) {
     const bool thin = s.thickness_mm < min_wall_mm;
-    if (open && (stretches.back().face != s.face || stretches.back().piece != s.piece))
+    if (open && (stretches.back().name != name_of(s) || stretches.back().piece != s.piece))
       open = false;
-    if (thin && !open) stretches.push_back({s.piece, s.face, s.at.y, s.at.y});
+    if (thin && !open) stretches.push_back({s.piece, name_of(s), s.at.y, s.at.y});
     if (thin) {
       stretches.back().low_mm = std::min(stretches.back().low_mm, s.at.y);
       stretches.back().high_mm = std::max(stretches.back().high_mm, s.at.y);
@@ -41,9 +47,8 @@ std::vector<Stretch> thin_stretches(const Profile& profile, double min_wall_mm) 
 std::string text_of(const Stretch& stretch) {
   const std::string low = fmt::format("{:.1f}", stretch.low_mm);
   const std::string high = fmt::format("{:.1f}", stretch.high_mm);
-  return low == high
-             ? fmt::format("{} at a height of {} mm", name_of(stretch.face), low)
-             : fmt::format("{} from {} to {} mm of height", name_of(stretch.face), low, high);
+  return low == high ? fmt::format("{} at a height of {} mm", stretch.name, low)
+                     : fmt::format("{} from {} to {} mm of height", stretch.name, low, high);
 }
 
 }  // namespace
@@ -64,7 +69,11 @@ std::string thin_wall_text(const Profile& profile, double thinnest_mm, const Wal
     text += (i == 0 ? "; thinner: " : ", ") + text_of(stretches[i]);
   if (stretches.size() > kMostStretches)
     text += fmt::format(", and {} more", stretches.size() - kMostStretches);
-  return text;
+  if (!stretches.empty()) return text;
+  // Between two samples.
+  const Wall thinnest = min_wall(profile);
+  return text + fmt::format("; thinnest: {} at a height of {:.1f} mm",
+                            name_of(part_of(profile, thinnest)), thinnest.from.y);
 }
 
 std::string_view name_of(WallFace face) {

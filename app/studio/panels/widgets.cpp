@@ -1,6 +1,7 @@
 #include "app/studio/panels/widgets.hpp"
 
 #include "app/studio/panels/panels.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <imgui_stdlib.h>
@@ -306,7 +307,7 @@ namespace {
 
 /// "workshop.process.json" is shown as workshop.
 std::string title_of(const std::string& process) {
-  if (!process.ends_with(".json")) return process_title(process);
+  if (!ends_ignoring_case(process, ".json")) return process_title(process);
   const std::filesystem::path stem = std::filesystem::path(process).stem();
   return (stem.extension() == ".process" ? stem.stem() : stem).string();
 }

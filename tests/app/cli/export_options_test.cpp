@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <numbers>
@@ -382,6 +383,31 @@ TEST_F(ExportOptions, JsonReplacesInvalidUtf8InNames) {
   const Ran check = claystack("check --json " + odd);
   EXPECT_EQ(check.status, 0) << check.err;
   EXPECT_TRUE(check.json().at("sound"));
+}
+
+TEST_F(ExportOptions, WritesABinaryStlToStandardOutput) {
+  ASSERT_EQ(run("").status, 0);
+  const Ran streamed = claystack("export " + pot + " -");
+  EXPECT_EQ(streamed.status, 0) << streamed.err;
+  EXPECT_EQ(streamed.out, read_text(stl));
+  const Ran text = claystack("export --ascii " + pot + " -");
+  EXPECT_TRUE(text.out.starts_with("solid ")) << text.out.substr(0, 100);
+  for (const char* with : {" - --json", " - --certificate", " - -"}) {
+    const Ran refused = claystack("export " + pot + with);
+    EXPECT_EQ(refused.status, 2) << with;
+    EXPECT_NE(refused.err.find("claystack: -: expected "), std::string::npos) << refused.err;
+  }
+}
+
+TEST_F(ExportOptions, WarnsOfLargeFilesBeforeTheyAreWritten) {
+  EXPECT_EQ(run("").err, "");
+  const Ran large = run("--smooth none --segments 600");
+  EXPECT_EQ(large.status, 0);
+  const auto size = static_cast<double>(std::filesystem::file_size(stl));
+  ASSERT_GT(size, 50e6);
+  const std::string megabytes = std::to_string(std::lround(1e-6 * size));
+  EXPECT_NE(large.err.find(stl + ": about " + megabytes + " MB, "), std::string::npos) << large.err;
+  EXPECT_NE(large.err.find("--smooth fair or --max-triangles makes it smaller"), std::string::npos);
 }
 
 }  // namespace

@@ -37,6 +37,59 @@ TEST(Import, MakesAPrintablePot) {
   EXPECT_NEAR(revolved / drawn, 1.0, 1e-3);
 }
 
+TEST(Import, AcceptsNamesInUpperCase) {
+  const ScratchFolder folder;
+  const std::string json = folder.file("JUG.POT.JSON"), cbor = folder.file("JUG.POT.CBOR");
+  const std::string drawing = sample("drawings/jug.svg");
+  for (const std::string& pot : {json, cbor}) {
+    const Ran made = claystack("import " + drawing + " -o " + pot);
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_EQ(claystack("check " + pot).status, 0);
+  }
+  EXPECT_EQ(read_text(json).front(), '{');
+  EXPECT_NE(read_text(cbor).front(), '{');
+  EXPECT_EQ(claystack("export -q " + json + " " + folder.file("again.Pot.Cbor")).status, 0);
+}
+
+TEST(Import, ShowsWhatTheReaderPassedOver) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("b.pot.json"), obj = folder.file("b.obj");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  ASSERT_EQ(claystack("export -q " + pot + " " + obj).status, 0);
+  write_text(obj, read_text(obj) + "end of file\n");
+  const Ran made = claystack("import " + obj + " -o " + folder.file("again.pot.json"));
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("1 line after the mesh was not read"));
+  const auto notes = claystack("check --json " + obj).json().at("notes");
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_THAT(notes[0].get<std::string>(), HasSubstr("1 line after the mesh was not read"));
+}
+
+// Rounding in a rotation tilts horizontals by 1e-14 mm, rounding in a file by 1e-5.
+TEST(Import, NearlyLevelLinesAreLevel) {
+  const ScratchFolder folder;
+  const std::string svg = folder.file("cup.svg"), pot = folder.file("cup.pot.json");
+  const auto imported = [&](const std::string& transform, const std::string& floor) {
+    write_text(svg,
+               "<svg xmlns='http://www.w3.org/2000/svg' width='200mm' height='300mm' "
+               "viewBox='0 0 200 300'><path transform='" +
+                   transform + "' d='M0,100 H40 V0 H34 V94 L0," + floor + " Z'/></svg>");
+    const Ran made = claystack("import --json --axis left " + svg + " -o " + pot);
+    EXPECT_EQ(made.status, 0) << made.err;
+    EXPECT_EQ(made.err, "");
+    return made.json();
+  };
+  for (const char* transform : {"scale(2)", "rotate(360) scale(2)", "rotate(360, 30, 70) scale(2)",
+                                "rotate(90) rotate(-90) scale(2)"})
+    for (const char* floor : {"94", "94.00001", "93.99999"}) {
+      const auto json = imported(transform, floor);
+      EXPECT_EQ(json.at("rings"), 300) << transform << floor;
+      EXPECT_LT(json.at("deviation_mm"), 1e-3);
+      EXPECT_NEAR(json.at("height_mm").get<double>(), 200.0, 1e-9);
+      EXPECT_NEAR(json.at("volume_mm3").get<double>(), 1'290'214.4, 1.0);
+    }
+}
+
 TEST(Import, SampleDrawingsAreTrueAndPassStoneware) {
   const ScratchFolder folder;
   for (const char* drawing : {"jug.svg", "bowl.dxf", "tumbler.csv --wall 6"}) {

@@ -79,6 +79,18 @@ TEST(Usage, SuggestsTheNearestCommandAndOption) {
   EXPECT_NE(
       claystack("export a.pot.json a.stl --tolerence 1").err.find("did you mean --tolerance?"),
       std::string::npos);
+  // Among other words, and in a required option.
+  for (const auto& [typo, name] :
+       {std::pair{"check --acept prints a.stl", "--accept"},
+        std::pair{"check a.stl --acept prints", "--accept"},
+        std::pair{"import a.svg --outptu b.pot.json", "--output"},
+        std::pair{"strokes a.strokes.json --ouput b.session", "--output"},
+        std::pair{"render a.pot.json -o b.png --materail glaze", "--material"},
+        std::pair{"plan a.scene.json --jsno", "--json"}, std::pair{"doctor --jsno", "--json"},
+        std::pair{"throw --form a.pot.json", "--from"}})
+    EXPECT_NE(claystack(typo).err.find("did you mean " + std::string(name) + "?"),
+              std::string::npos)
+        << claystack(typo).err;
   EXPECT_EQ(claystack("zzzz").err.find("did you mean"), std::string::npos);
 }
 

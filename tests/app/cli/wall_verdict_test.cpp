@@ -103,7 +103,7 @@ TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
   EXPECT_GE(2 * failed, pots());
 }
 
-// A lip that tapers to 0.23 mm: rays do not see its edge.
+// A lip that tapers to 0.23 mm.
 TEST(WallVerdict, OfAMeshWithACertificateIsThatOfTheCertificate) {
   const ScratchFolder folder;
   const std::string svg = folder.file("p.svg"), pot = folder.file("p.pot.json"),
@@ -122,6 +122,26 @@ TEST(WallVerdict, OfAMeshWithACertificateIsThatOfTheCertificate) {
       const Ran checked = claystack("check --json --min-wall " + std::string(limit) + " " + file);
       EXPECT_EQ(checked.status, status) << file << checked.out;
     }
+  // The lip of the pot is named, and not its face. Without a certificate, rays see it nearly as
+  // thin.
+  const auto parts = claystack("check --json " + pot).json().at("wall_parts");
+  ASSERT_EQ(parts.size(), 2u) << parts;
+  EXPECT_EQ(parts[0].at("part"), "wall");
+  EXPECT_NEAR(parts[0].at("min_wall_mm").get<double>(), 6.0, 0.05);
+  EXPECT_EQ(parts[1].at("part"), "lip");
+  EXPECT_EQ(parts[1].at("min_wall_mm"), wall);
+  EXPECT_GT(parts[1].at("at_mm").at(1), 88.0);
+  const Ran thin = claystack("check --min-wall 1 " + pot);
+  EXPECT_NE(thin.out.find("thinner: lip from 8"), std::string::npos) << thin.out;
+  const Ran thinnest = claystack("check --min-wall 0.45 " + pot);  // between two samples
+  EXPECT_NE(thinnest.out.find("; thinnest: lip at a height of 89."), std::string::npos)
+      << thinnest.out;
+  const Ran sampled = claystack("check --json --min-wall 1 " + stl);
+  EXPECT_EQ(sampled.status, 1);
+  const auto least = sampled.json().at("wall_sampled");
+  EXPECT_GT(least.at("least_mm"), wall - 1e-4);
+  EXPECT_LT(least.at("least_mm"), wall + 0.3);
+  EXPECT_GT(least.at("at_mm").at(2), 88.0);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST_F(DracoMesh, ReadsNegativeZeroAsZero) {
 
 TEST_F(DracoMesh, RefusesFacesOfMissingPoints) {
   mesh_->SetFace(FaceIndex(2), {PointIndex(1), PointIndex(4), PointIndex(3)});
-  EXPECT_EQ(message(), "pot.drc: face 3: expected one of 4 points, found 4");
+  EXPECT_EQ(message(), "pot.drc: face 3: expected the number of a point, from 0 to 3, found 4");
 }
 
 TEST_F(DracoMesh, RefusesFacesOutsideThePointMap) {
@@ -57,7 +57,8 @@ TEST_F(DracoMesh, RefusesFacesOutsideThePointMap) {
     positions().SetPointMapEntry(PointIndex(i), AttributeValueIndex(i));
   }
   mesh_->SetFace(FaceIndex(0), {PointIndex(0), PointIndex(1), PointIndex(1u << 30)});
-  EXPECT_EQ(message(), "pot.drc: face 1: expected one of 4 points, found 1073741824");
+  EXPECT_EQ(message(),
+            "pot.drc: face 1: expected the number of a point, from 0 to 3, found 1073741824");
 }
 
 TEST_F(DracoMesh, RefusesMissingPositions) {
@@ -65,7 +66,7 @@ TEST_F(DracoMesh, RefusesMissingPositions) {
   for (std::uint32_t i = 0; i < 4; ++i) {
     positions().SetPointMapEntry(PointIndex(i), AttributeValueIndex(i + 1));
   }
-  EXPECT_EQ(message(), "pot.drc: face 2: expected one of 4 positions, found 4");
+  EXPECT_EQ(message(), "pot.drc: face 2: expected the number of a position, from 0 to 3, found 4");
 }
 
 TEST_F(DracoMesh, RefusesTruncatedMapsAndBuffers) {

@@ -217,7 +217,8 @@ TEST(ReadDrc, FlippedBytesNeverGiveAnIndexOutOfRange) {
         if (mesh) {
           EXPECT_TRUE(in_range(*mesh)) << "bit " << bit << " of byte " << at;
         } else {
-          named |= mesh.error().message.find("expected one of 4 points") != std::string::npos;
+          named |= mesh.error().message.find("expected the number of a point, from 0 to 3") !=
+                   std::string::npos;
         }
       }
     }

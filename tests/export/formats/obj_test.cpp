@@ -146,6 +146,10 @@ TEST(Obj, ErrorsNameTheLine) {
             "pot.obj:2: expected a statement of a polygon mesh, found 'curv'"},
            {kSquare + "f 1 2 3\nF 2 3 4\n",
             "pot.obj:6: expected a statement of a polygon mesh, found 'F'"},
+           {kSquare + "f 1 2 3\nsurf 0 1 0 1 1 2 3\n",
+            "pot.obj:6: expected a statement of a polygon mesh, found 'surf'"},
+           {kSquare + "f 1 2 3\nhello\nvn 0 0 1\n",
+            "pot.obj:6: expected a statement of a polygon mesh, found 'hello'"},
            {"vn 0 0 1\nhello\n", "pot.obj:2: expected a statement of a polygon mesh"},
            {"hello\n", "pot.obj: expected 1 to 20000000 triangles, found 0"},
            {kSquare + "f 1/x 2 3\n", "pot.obj:5: expected a whole number, found 'x'"},
@@ -182,6 +186,8 @@ TEST(Obj, PassesOverWhatIsNoPartOfTheSurfaceWithANote) {
            {kSquare + "vn 0 0 1\nf 1/9/2 2//1 3//1\n", {"line 6: " + no_vt, "line 6: " + no_vn}},
            {"# a\nMade by hand\n\nVersion 1.0 \\\n f\n" + kSquare + "f 1 2 3\n",
             {"line 2: 2 lines before the mesh were not read"}},
+           {kSquare + "f 1 2 3\n<!-- end -->\n# a\ng b\nPK of something\n",
+            {"line 6: 2 lines after the mesh were not read"}},
        }) {
     std::vector<std::string> notes;
     bool reads_less = false;

@@ -24,6 +24,15 @@ TEST(Off, ReadsCommentsColoursAndNormals) {
     EXPECT_EQ(decode_off(file, "x").value(), tetrahedron()) << file;
 }
 
+TEST(Off, ReadsAFileWithoutKeywordWithANote) {
+  std::vector<std::string> notes;
+  const char* const file =
+      "# points\n4 4 0\n0 0 0\n10 0 0\n0 10 0\n0 0 10\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  EXPECT_EQ(decode_off(file, "x", {.notes = &notes}).value(), tetrahedron());
+  EXPECT_EQ(notes, std::vector<std::string>{"line 2: the file begins without the keyword OFF"});
+  EXPECT_TRUE(decode_off(file, "x"));
+}
+
 TEST(Off, ReadsPolygonsAsFans) {
   const auto mesh = decode_off("OFF\n4 1 0\n0 0 0 1 0 0 1 1 0 0 1 0\n4 0 1 2 3\n", "x");
   EXPECT_FALSE(mesh);  // the rest of a vertex's line is its colour
@@ -40,6 +49,8 @@ TEST(Off, RefusesOtherKindsAndBadValues) {
   expect("", "p.off:1: expected OFF");
   expect("4OFF\n3 1 0\n", "expected OFF, COFF, NOFF or STOFF, found '4OFF'");
   expect("OFF BINARY\n", "found binary OFF");
+  expect("1.5 4 0\n", "expected OFF, COFF, NOFF or STOFF, found '1.5'");
+  expect("4 1 0\n0 0 0\n10 0 0\n0 10 0\n", "expected a coordinate");
   expect("OFF\n3 0 0\n" + points, "triangles, found 0");
   expect("OFF\n3 1 0\n" + points + "3 0 1 3\n",
          "p.off:6: expected the number of a vertex, from 0 to 2, found 3");

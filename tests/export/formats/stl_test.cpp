@@ -292,6 +292,21 @@ TEST(Stl, RepairReadsTheWholeFacetsThatAreThere) {
   EXPECT_FALSE(decode_stl("\x89PNG\r\n\x1a\n" + whole, "pot.stl", {true, nullptr}));
 }
 
+TEST(Stl, RepairsTextWithoutEndsolid) {
+  const std::string whole = encode_stl_ascii(tetrahedron(), "pot");
+  const std::string cut = whole.substr(0, whole.rfind("endsolid"));
+  EXPECT_EQ(decode_stl(cut, "pot.stl").error().message,
+            "pot.stl:29: expected facet or endsolid, found the end of the file; --repair reads the "
+            "4 facets that are there");
+  std::vector<std::string> notes;
+  EXPECT_EQ(decode_stl(cut, "pot.stl", {.repair = true, .notes = &notes}).value(),
+            decode_stl(whole, "pot.stl").value());
+  EXPECT_EQ(notes, std::vector<std::string>{
+                       "line 29: the file ends without endsolid, so facets may be missing"});
+  // Inside a facet, it is not complete.
+  EXPECT_FALSE(decode_stl(cut.substr(0, cut.rfind("endfacet")), "pot.stl", {.repair = true}));
+}
+
 TEST(Stl, RefusesBinaryOfAnyOtherSize) {
   const std::string whole = encode_stl_binary(tetrahedron());
   for (std::size_t size = 0; size < whole.size(); ++size) {

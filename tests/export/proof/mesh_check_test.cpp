@@ -206,5 +206,41 @@ TEST(SignedVolume, IsTranslationInvariant) {
   EXPECT_EQ(signed_volume({}), 0.0);
 }
 
+TEST(MeshEnclosure, CountsEdgesAndMeasuresTheVolume) {
+  const MeshEnclosure whole = enclosure_of(cube(2.0));
+  EXPECT_EQ(whole.open_edges, 0u);
+  EXPECT_EQ(whole.flipped_edges, 0u);
+  EXPECT_DOUBLE_EQ(whole.volume_mm3.value(), 8.0);
+  EXPECT_FALSE(whole.inward());
+  EXPECT_TRUE(enclosure_of(inverted(cube(2.0))).inward());
+  // Two cubes that intersect are not sound, but they enclose a volume.
+  const MeshEnclosure two = enclosure_of(together(cube(2.0), moved(cube(2.0), {1.0, 1.0, 1.0})));
+  EXPECT_DOUBLE_EQ(two.volume_mm3.value(), 16.0);
+}
+
+TEST(MeshEnclosure, NamesTheFirstOpenAndTheFirstFlippedEdge) {
+  const auto on_edge = [](const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle,
+                          const glm::dvec3& at) {
+    bool found = false;
+    for (std::size_t i = 0; i < 3; ++i)
+      found |= at == 0.5 * (mesh.points[triangle[i]] + mesh.points[triangle[(i + 1) % 3]]);
+    return found;
+  };
+  TriangleMesh open = cube(2.0);
+  const auto lost = open.triangles.back();
+  open.triangles.pop_back();
+  const MeshEnclosure holed = enclosure_of(open);
+  EXPECT_EQ(holed.open_edges, 3u);
+  EXPECT_TRUE(on_edge(open, lost, holed.open_at));
+  EXPECT_FALSE(holed.volume_mm3);
+
+  TriangleMesh turned = cube(2.0);
+  std::swap(turned.triangles[5][0], turned.triangles[5][1]);
+  const MeshEnclosure flipped = enclosure_of(turned);
+  EXPECT_EQ(flipped.flipped_edges, 3u);
+  EXPECT_TRUE(on_edge(turned, turned.triangles[5], flipped.flipped_at));
+  EXPECT_FALSE(flipped.volume_mm3);
+}
+
 }  // namespace
 }  // namespace clay::solid

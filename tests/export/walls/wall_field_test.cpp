@@ -52,6 +52,48 @@ TEST(WallField, ContinuesAWallToItsLip) {
   EXPECT_GT(samples, 180u);
 }
 
+TEST(WallParts, ACylindricalCupHasAWallAndALipOfOneThickness) {
+  const Profile cup{{{{0, 0}, {40, 0}, {40, 60}, {36, 60}, {36, 6}, {0, 6}}}};
+  const auto parts = walls_by_part(cup, wall_field(cup, 0.5), min_wall(cup), 4.0);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].part, WallPart::wall);
+  EXPECT_NEAR(parts[0].thickness_mm, 4.0, 1e-9);
+  EXPECT_EQ(parts[1].part, WallPart::lip);
+  EXPECT_NEAR(parts[1].thickness_mm, 4.0, 1e-9);
+  // Nine diameters of boundary: 36 mm, of which 4 are the flat rim and 16 the wall on each side.
+  for (const WallSample& s : wall_field(cup, 0.5))
+    EXPECT_EQ(s.part == WallPart::lip, s.at.y > 44.0) << s.at.rho << ", " << s.at.y;
+}
+
+TEST(WallParts, AFlangeOutsideAndAThinLipHaveTheirOwnFigures) {
+  // A wall of 6 mm, a flange of 2 mm that is 12 mm wide, and a lip of 3 mm that is 20 mm high.
+  const Polygon pot{{0, 0},   {40, 0},  {40, 28}, {52, 28}, {52, 30}, {40, 30},
+                    {40, 60}, {37, 60}, {37, 80}, {34, 80}, {34, 6},  {0, 6}};
+  const Profile profile{{pot}};
+  const Wall thinnest = min_wall(profile);
+  EXPECT_NEAR(thinnest.thickness_mm, 2.0, 1e-9);
+  const auto parts = walls_by_part(profile, wall_field(profile, 0.5), thinnest, 1.99);
+  ASSERT_EQ(parts.size(), 3u);
+  EXPECT_NEAR(parts[0].thickness_mm, 3.0, 0.1);  // the lip below its last 12 mm is wall
+  EXPECT_EQ(parts[1].part, WallPart::lip);
+  EXPECT_NEAR(parts[1].thickness_mm, 3.0, 1e-9);
+  EXPECT_GT(parts[1].at.y, 68.0);
+  EXPECT_EQ(parts[2].part, WallPart::flange);
+  EXPECT_EQ(parts[2].thickness_mm, 1.99);
+  EXPECT_NEAR(parts[2].at.y, 29.0, 1.0 + 1e-9);
+  EXPECT_NE(thin_wall_text(profile, 1.99, {1e9, 2.5, "test", {}}).find("thinner: flange"),
+            std::string::npos);
+}
+
+TEST(WallParts, TheUpwardFaceOfALipIsNoFloor) {
+  // A lip of 30 degrees that leans outwards ends in an edge; its inside looks up.
+  const Profile profile{
+      {{{0, 0}, {40, 0}, {40, 50}, {70, 60}, {70, 60.5}, {36, 54}, {36, 6}, {0, 6}}}};
+  const std::string text = thin_wall_text(profile, 0.5, {1e9, 1.5, "test", {}});
+  EXPECT_NE(text.find("lip from"), std::string::npos) << text;
+  EXPECT_EQ(text.find("floor"), std::string::npos) << text;
+}
+
 RC_GTEST_PROP(WallField, ConvergesToTheMinimumWall, ()) {
   auto random = *samples::random_engine();
   // Walls that change slowly, without sharp edges.

@@ -32,7 +32,7 @@ struct SampledWall {
   std::uint32_t triangle = 0;  ///< the triangle it started on
   std::size_t rays = 0;        ///< rays followed to their ends
   /// At an edge, not a wall: hit a surface turned by more than 45 degrees; or thinner than all
-  /// before, with the end of the clay close on one side.
+  /// before, with too little boundary around the end of the clay.
   std::size_t oblique = 0;
   std::size_t escaped = 0;  ///< hit nothing: the mesh is open there
 };
@@ -49,8 +49,10 @@ inline constexpr std::size_t kMostWallSamples = 10'000'000;
 /// within them; deterministic). Front faces are passed: the ray's own triangle, and neighbours that
 /// rounding puts in its way. If the back face is turned by more than 45 degrees against the ray, as
 /// beside the edge of a rim, the distance is not a wall thickness and is not counted. Neither is it
-/// where the clay ends within 1.6 thicknesses of the ray's middle on one side only: ends of lips
-/// and flanges are no walls for `min_wall` either.
+/// where the clay ends on one side only within so little that the boundary around the end is
+/// shorter than three thicknesses: such ends of lips and flanges are no walls for `min_wall`
+/// either. In a body where that holds for every ray, the one through the thickest place is
+/// reported.
 ///
 /// If the work exceeds `most_steps`, fewer rays are followed, still evenly distributed; `rays`
 /// holds their number. `progress` is called with the number of rays done or skipped, up to

@@ -185,7 +185,8 @@ Result<TriangleMesh> read_obj(const ByteSource& source, std::string_view name,
                               const ReadOptions& options = {});
 
 /// A file of exactly the size that its count requires is binary, whatever its first word; any other
-/// file must be complete text from "solid" to "endsolid". The solids of a text file make one mesh.
+/// file must be complete text from "solid" to "endsolid"; for repairs, the last endsolid may be
+/// missing. The solids of a text file make one mesh.
 /// Corners with equal float32 coordinates are welded. Normals are not used: binary ones and
 /// attributes are ignored, text ones must be finite.
 Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name,
@@ -195,7 +196,7 @@ Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name,
 /// usemtl, l, p and comments, and opens no other file. Indices are kept: coincident points stay
 /// separate. Passed over with a note: texture coordinates and normals that a face names and the
 /// file does not define ("f 1/ 2/ 3/" names none), and unknown statements before the first v, vt,
-/// vn or f; any later one is an error.
+/// vn or f or after the last. One between them, or one of a free-form surface, is an error.
 Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name,
                                 const ReadOptions& options = {});
 
@@ -216,8 +217,10 @@ Result<TriangleMesh> decode_ply(std::string_view bytes, std::string_view name,
                                 const ReadOptions& options = {});
 
 /// OFF as text, also with colours, normals or texture coordinates (COFF, NOFF, STOFF and their
-/// combinations), which are passed over. Binary OFF, and points of 4 or n dimensions, are refused.
-Result<TriangleMesh> decode_off(std::string_view bytes, std::string_view name);
+/// combinations), which are passed over, and with a note without the keyword. Binary OFF, and
+/// points of 4 or n dimensions, are refused.
+Result<TriangleMesh> decode_off(std::string_view bytes, std::string_view name,
+                                const ReadOptions& options = {});
 
 /// The build of a 3MF package (core specification 1.3), with all items, components and transforms,
 /// in mm. Strict: refuses what the specification forbids, other start parts than one model, DTDs,

@@ -111,6 +111,10 @@ struct ExportOptions {
   /// Called before each stage and every few milliseconds, also by several threads at once. If it
   /// returns true, the job ends with an error (io). Only a running Draco encoder finishes first.
   std::function<bool()> cancelled;
+  /// Called for each mesh of a standing pot before any is written, with its name, the number of
+  /// triangles and the size of the file: exact for a binary STL, else an estimate. May be empty.
+  std::function<void(const std::string& name, std::size_t triangles, std::uint64_t bytes)>
+      announce_size;
   /// Called before meshes are held in memory, with the estimate [bytes]; an error ends the job. A
   /// binary STL and drawings need none; a collapsed pot has too few triangles to matter.
   std::function<Result<void>(std::uint64_t bytes)> expect_memory;
@@ -219,6 +223,7 @@ struct WallReport {
   /// Smoothing `exact`: the minimum wall of the steps, if overshoot made a thinner edge.
   std::optional<double> as_steps_mm;
   std::vector<WallSample> field;   ///< of the section, if requested
+  std::vector<PartWall> parts;     ///< wall, lip and flange, with the field
   std::optional<WallLimit> limit;  ///< the requested limit for a solid of this size
 };
 

@@ -62,8 +62,15 @@ struct WallBounds {
                                      double greatest_scale);
 
 /// The kind of a boundary point, in the order of the polygon: the outer wall rises from the foot to
-/// the rim, the rest belongs to the bore. Floors face up and lids face down, within 45 degrees.
+/// the rim, the rest belongs to the bore. A floor and a lid are its faces within 45 degrees of
+/// level that reach the axis.
 enum class WallFace : std::uint8_t { foot, outer, rim, bore, floor, lid };
+
+/// The part of a section to which a wall belongs, by what its disc cuts off: the shorter way along
+/// the boundary between its two points, without the axis. A lip is cut off with the rim and without
+/// the foot, by a disc of which nine diameters are at least as long as that way; a flange is cut
+/// off with neither. All else is wall: floors, feet and stems too.
+enum class WallPart : std::uint8_t { wall, lip, flange };
 
 struct WallSample {
   double thickness_mm = 0.0;  ///< infinite if no point is opposite
@@ -72,6 +79,7 @@ struct WallSample {
   double arc_mm = 0.0;    ///< from the first vertex of the polygon, without edges on the axis
   std::size_t piece = 0;
   WallFace face = WallFace::outer;
+  WallPart part = WallPart::wall;
 };
 
 inline constexpr std::size_t kMaxWallSamples = 100'000;
@@ -85,6 +93,23 @@ inline constexpr std::size_t kMaxWallSamples = 100'000;
 
 /// "outer", "bore", ...
 [[nodiscard]] std::string_view name_of(WallFace face);
+/// "wall", "lip" or "flange".
+[[nodiscard]] std::string_view name_of(WallPart part);
+
+/// The thinnest place of a part.
+struct PartWall {
+  WallPart part = WallPart::wall;
+  double thickness_mm = 0.0;
+  ProfilePoint at;
+};
+
+/// Of each part that the section has, in the order of WallPart. The part of `thinnest` has
+/// `least_mm`, the minimum wall of the solid; the others have that of their thinnest sample.
+[[nodiscard]] std::vector<PartWall> walls_by_part(const Profile& profile,
+                                                  const std::vector<WallSample>& field,
+                                                  const Wall& thinnest, double least_mm);
+/// "wall 4.800 mm at a height of 128.8 mm, lip 5.112 mm at a height of 187.2 mm".
+[[nodiscard]] std::string text_of(const std::vector<PartWall>& parts);
 
 /// Maximum distance of consecutive samples in a table, along an edge.
 inline constexpr double kWallTableSpacingMm = 0.5;
@@ -182,8 +207,8 @@ inline constexpr double kOverhangLengthMm = 2.0;
 /// "3.440 mm, expected at least 3.000 mm (SOURCE)".
 [[nodiscard]] std::string wall_text(double thinnest_mm, const WallLimit& limit);
 
-/// The same with the first few parts of the section's faces that are too thin: "...; thinner: bore
-/// from 64.0 to 137.2 mm of height, ...".
+/// The same with the first few stretches of the section's faces that are too thin: "...; thinner:
+/// bore from 64.0 to 137.2 mm of height, lip from 180.1 to 188.5 mm of height, ...".
 [[nodiscard]] std::string thin_wall_text(const Profile& profile, double thinnest_mm,
                                          const WallLimit& limit);
 
