@@ -25,12 +25,15 @@ double speed_into(Side side, const Motion& motion) noexcept {
 
 /// A ring that is touched moves by its part of what it gives way itself, at least.
 void move_touched(TouchedRings& rings, double share, std::size_t first,
-                  std::span<double> by) noexcept {
+                  std::span<float> by) noexcept {
   const std::size_t end = std::min(first + by.size(), rings.to());
   rings.each_slice(std::max(first, rings.from()), end, [=](const TouchedRings::Slice& slice) {
     in_lanes([=, give = &slice.rows.give[slice.begin], to = &by[slice.ring - first],
               count = slice.size()]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count; ++k) to[k] = greater(to[k], share * give[k]);
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto least = static_cast<float>(share * give[k]);
+        to[k] = to[k] > least ? to[k] : least;
+      }
     });
   });
 }
@@ -87,11 +90,11 @@ void bend(const RulePress& press, const ClayStack& stack, Contact& contact, bool
           RuleWork& work) noexcept {
   const Band& band = work.bands[0];
   const double min_wall = press.plan.removal.min_wall_mm;
-  const Shell shell = shell_at(stack, band, min_wall, press.motion.upward_mm_s,
+  const Shell shell = shell_at(stack, work.walls, band, min_wall, press.motion.upward_mm_s,
                                speed_into(contact.side, press.motion));
   if (!(shell.share > 0.0)) return;
-  work.shift.lay(stack, band, shell, {contact.side == Side::expansive, hoop, min_wall},
-                 [&](std::size_t first, std::span<double> by) {
+  work.shift.lay(stack, work.walls, band, shell, {contact.side == Side::expansive, hoop, min_wall},
+                 [&](std::size_t first, std::span<float> by) {
                    move_touched(contact.rings, shell.share, first, by);
                    hold_foot(shell, stack.ring_height_mm(), first, by);
                  });
@@ -103,6 +106,7 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
   const StepPlan& plan = press.plan;
   const double hip_y = press.tool.hip_mm.y, dt_s = press.tool.dt_s;
   work.shift.clear();
+  work.walls.begin(removals.front().contact.bottom);
   const Squeeze squeeze{plan.removal.min_wall_mm, plan.clay.floor_rings,
                         (rules & kShift) ? &work.shift : nullptr};
   const bool two = removals.size() == 2;
@@ -115,7 +119,7 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
     }
   if (two) {
     if ((rules & kShift) && !press.trim)
-      centre(plan, stack, press.tool, work.bands, removals, work.over, work.shift);
+      centre(plan, stack, press.tool, work.bands, removals, work.walls, work.over, work.shift);
     compute_pinch_removal<Model::conserving>(plan.removal, stack, press.tool.gap_mm, dt_s,
                                              removals[0], removals[1], &squeeze);
   } else {
@@ -153,8 +157,8 @@ std::int64_t inside_share(const StepPlan& plan, const ClayStack& stack, const Co
 
 /// Lays what one tool squeezed aside beside it. Returns what becomes height.
 template <unsigned rules>
-WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removals,
-                    const RuleWork& work, WideQuanta amount, ClayStack& stack, Rim* rim) noexcept {
+WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removals, RuleWork& work,
+                    WideQuanta amount, ClayStack& stack, Rim* rim) noexcept {
   const StepPlan& plan = press.plan;
   const std::size_t at = removals[0].contact.rings.empty() ? removals.size() - 1 : 0;
   const Contact& contact = removals[at].contact;
@@ -167,11 +171,13 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
       for (WideQuanta left = part; left > 0;) {
         const auto piece = static_cast<Quanta>(std::min(left, WideQuanta{kLargestHeap}));
         const auto inside = static_cast<Quanta>(inside_part(piece, share, stack));
-        const Quanta over = heave(plan.tool, stack, press.tool.hip_mm.y, contact, work.bands[at],
-                                  {inside, piece - inside, up, work.reach_mm[at]}, writer);
+        const Quanta over =
+            heave(plan.tool, stack, work.walls, press.tool.hip_mm.y, contact, work.bands[at],
+                  {inside, piece - inside, up, work.reach_mm[at]}, writer);
         writer.gain(piece - over);
         rest += over;
         left -= piece;
+        if (left > 0) work.walls.begin(contact.bottom);
       }
       return rest;
     } else {
@@ -208,7 +214,7 @@ void smear_surfaces(const RulePress& press, std::span<const ToolRemoval> removal
 }
 
 template <unsigned rules>
-Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, const RuleWork& work,
+Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, RuleWork& work,
                ClayStack& stack, Ledger& ledger, Rim& all_rim) noexcept {
   const StepPlan& plan = press.plan;
   Rim* const rim = (rules & kRim) ? nullptr : &all_rim;
@@ -251,8 +257,8 @@ void yield_to_sponge(const RulePress& press, const ClayStack& stack,
   reach_of<kSmear | kLift>(press, stack, removals, work);
 }
 
-Flow smooth_clay(const RulePress& press, std::span<const ToolRemoval> removals,
-                 const RuleWork& work, ClayStack& stack, Ledger&, Rim&) noexcept {
+Flow smooth_clay(const RulePress& press, std::span<const ToolRemoval> removals, RuleWork& work,
+                 ClayStack& stack, Ledger&, Rim&) noexcept {
   const StepPlan& plan = press.plan;
   StackWriter writer(stack);
   smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.dt_s, removals[0].contact, work.bands[0],
@@ -284,6 +290,7 @@ void follow(Motion& motion, const ToolState& tool) noexcept {
 void RuleWork::reserve(const Tool& tool, const ClayStack& stack) {
   const double reach = tool.high() - tool.low() + 3.0 * kLongestShellMm;
   const double rings = reach / stack.ring_height_mm() + 8.0;
+  walls.reserve(tool, stack);
   shoulders = shoulders_of(tool);
   over.reserve(most_contacts(tool, stack.ring_height_mm(), stack.max_rings()));
   shift.reserve(static_cast<std::size_t>(std::min(rings, static_cast<double>(stack.max_rings()))));
