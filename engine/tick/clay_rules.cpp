@@ -51,7 +51,6 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
   const std::size_t top = stack.size() - 1;
   work.lowest = contact.bottom;
   work.highest = contact.top;
-  if (press.trim) return;
   const auto widen = [&](double low_mm, double high_mm) {
     const double h = stack.ring_height_mm(), last = static_cast<double>(top);
     work.lowest =
@@ -67,18 +66,21 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
   for (std::size_t k = 0; k < removals.size(); ++k) {
     const Band& band = work.bands[k];
     if (removals[k].contact.rings.empty()) continue;
-    const double c = band.height_mm();
-    if constexpr (rules & kSmear) widen(band.low_mm - c, band.high_mm + c);
     if constexpr (rules & kHeave) {
       if (work.cones[k][0].meets) widen(band.low_mm - kReliefMm, band.high_mm);
       if (work.cones[k][1].meets) widen(band.low_mm, band.high_mm + kReliefMm);
+    }
+    if (press.trim) continue;
+    const double c = band.height_mm();
+    if constexpr (rules & kSmear) widen(band.low_mm - c, band.high_mm + c);
+    if constexpr (rules & kHeave) {
       if (!lifts) {
         const double reach = work.reach_mm[k] = heave_reach(press.plan.tool, stack, band);
         widen(band.low_mm - 2.0 * reach, band.high_mm + 2.0 * reach);
       }
     }
   }
-  if (!lifts && !(rules & kHeave)) {
+  if (!press.trim && !lifts && !(rules & kHeave)) {
     const std::size_t reach = flow_reach(press.plan.kernel);
     work.lowest = std::min(work.lowest, contact.bottom - std::min(contact.bottom, reach));
     work.highest = std::max(work.highest, std::min(top, contact.top + reach));
@@ -128,7 +130,6 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
     squeeze_out(squeeze, stack, contact, removals[0].removed);
   }
   if constexpr (rules & kHeave)
-    if (!press.trim)
       for (std::size_t k = 0; k < removals.size(); ++k)
         if (!removals[k].contact.rings.empty())
           work.cones[k] = relieve_touched(plan, work.shoulders, stack, press.tool, work.bands[k],
@@ -201,13 +202,13 @@ WideQuanta relieve(const RulePress& press, std::span<const ToolRemoval> removals
   return removed;
 }
 
-/// Smears what each tool presses.
+/// Smears what each tool presses, once in a period.
 void smear_surfaces(const RulePress& press, std::span<const ToolRemoval> removals,
                     const RuleWork& work, const ClayStack& stack, StackWriter& writer) noexcept {
   const StepPlan& plan = press.plan;
   for (std::size_t k = 0; k < removals.size(); ++k)
     if (!removals[k].contact.rings.empty())
-      smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.dt_s, removals[k].contact,
+      smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.slow_s, removals[k].contact,
             work.bands[k],
             {plan.clay.surface_per_s, plan.removal.yield_depth_mm, plan.removal.min_wall_mm},
             writer);
@@ -225,8 +226,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
     writer.put_on_crown(work.shift.raised());
   }
   WideQuanta removed = remove_clay(removals, stack, rim);
-  if constexpr (rules & kHeave)
-    if (!press.trim) removed += relieve(press, removals, work, stack, writer);
+  if constexpr (rules & kHeave) removed += relieve(press, removals, work, stack, writer);
   if (press.trim)
     ledger.trimmed += removed;
   else if ((rules & kLift) && removals.size() == 2)
@@ -234,7 +234,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
   else
     writer.put_on_crown(displace<rules>(press, removals, work, removed, stack, rim));
   if constexpr (rules & kSmear)
-    if (!press.trim) smear_surfaces(press, removals, work, stack, writer);
+    if (!press.trim && press.tool.slow_s > 0.0) smear_surfaces(press, removals, work, stack, writer);
   Flow flow;
   flow.lowest = work.lowest;
   flow.highest = work.highest;

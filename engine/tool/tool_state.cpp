@@ -7,6 +7,12 @@ namespace clay {
 namespace {
 
 constexpr std::int64_t kLongestStepUs = 50'000;
+constexpr std::int64_t kPeriodUs = 3'000;
+
+/// Periods that have ended by a time, from some other time on.
+std::int64_t periods_by(std::int64_t time_us) noexcept {
+  return time_us / kPeriodUs - (time_us % kPeriodUs < 0 ? 1 : 0);
+}
 
 // Not (|x| > limit): NaN must fail.
 bool within(double mm) noexcept { return std::abs(mm) <= kFarthestMm; }
@@ -26,6 +32,9 @@ ToolState ToolTracker::advance(const Pose& pose, double widest_gap_mm) noexcept 
     state.dt_clamped = elapsed > static_cast<std::uint64_t>(kLongestStepUs);
     state.dt_s =
         1e-6 * static_cast<double>(std::min(elapsed, static_cast<std::uint64_t>(kLongestStepUs)));
+    constexpr std::int64_t kMostPeriods = kLongestStepUs / kPeriodUs;
+    const std::int64_t periods = periods_by(pose.time_us) - periods_by(last_.time_us);
+    state.slow_s = 1e-6 * static_cast<double>(kPeriodUs * std::min(periods, kMostPeriods));
     state.moved_mm = p - last_.position_mm;
     if (state.moved_mm.y != 0.0) upward_ = state.moved_mm.y > 0.0;
   }
