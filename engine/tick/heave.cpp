@@ -15,6 +15,9 @@ constexpr std::size_t kRows = 64;
 // Of a bore, which a share leaves open, and of the largest radius, to which it does not come.
 constexpr float kMostOfBore = 0.5f, kMostOfRadius = 0.999f;
 
+// A bore of radius r moves by no more than this part of x / r, if x of r^2 is filled, x <= r^2 / 2.
+constexpr double kBoreMoves = 0.586;
+
 /// What a heap is to some neighbouring rings.
 struct Block {
   static constexpr std::size_t kAll = kRows + kWidestFloats;
@@ -79,7 +82,7 @@ CLAYSTACK_INLINE inline void divide(Block& b, const Rows& rows, std::size_t coun
     const F outside = kMm2 * floats(outsides[0], outsides[1]);
     const F inside = kMm2 * floats(insides[0], insides[1]);
     const F outer = load_floats<n>(rows.outer + k), inner = load_floats<n>(rows.inner + k);
-    const F moved = 0.5f * outside / outer + inside / (inner + 1e-20f);
+    const F moved = 0.5f * outside / outer + static_cast<float>(kBoreMoves) * inside / (inner + 1e-20f);
     const float* const wall = rows.wall + k;
     const F thinner = lesser(load_floats<n>(wall - rows.apart), load_floats<n>(wall + rows.apart));
     const F slope = thinner + rows.spare - load_floats<n>(wall);
@@ -251,7 +254,8 @@ class Heaving {
     };
     const double out_part = presses_outside ? std::min(part, clear / out) : part;
     const double in_part = presses_outside ? part : std::min(part, clear / in);
-    const Quanta inside = writer_.put_inside(i, part_of(in_part, carry_.inside));
+    const Quanta inside =
+        writer_.put_inside(i, std::min(part_of(in_part, carry_.inside), ring.inner2 / 2));
     const Quanta outside = writer_.put_outside(i, part_of(out_part, carry_.outside));
     carry_.inside -= inside;
     carry_.outside -= outside;
