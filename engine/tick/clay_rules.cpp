@@ -130,18 +130,28 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
     squeeze_out(squeeze, stack, contact, removals[0].removed);
   }
   if constexpr (rules & kHeave)
-      for (std::size_t k = 0; k < removals.size(); ++k)
-        if (!removals[k].contact.rings.empty())
-          work.cones[k] = relieve_touched(plan, work.shoulders, stack, press.tool, work.bands[k],
-                                          squeeze, removals, k);
+    for (std::size_t k = 0; k < removals.size(); ++k)
+      if (!removals[k].contact.rings.empty())
+        work.cones[k] = relieve_touched(plan, work.shoulders, stack, press.tool, work.bands[k],
+                                        squeeze, removals, k);
   reach_of<rules>(press, stack, removals, work);
 }
 
-/// The part of an amount that flows up, continuous in the speed.
-WideQuanta upward_part(WideQuanta amount, const Motion& motion) noexcept {
+/// The part of an amount that flows up, continuous in the speed. In turns: in each period the clay
+/// first flows up for that part of the time, then down, so that a tick seldom lays it to both
+/// sides.
+WideQuanta upward_part(WideQuanta amount, const Motion& motion, const ToolState& tool) noexcept {
   const double v = motion.upward_mm_s;
   const double up = 0.5 * (1.0 + v / std::sqrt(v * v + kSlowMmS * kSlowMmS));
-  return (amount * static_cast<std::int64_t>(up * 0x1p30)) >> 30;
+  if (!(tool.dt_s > 0.0)) return (amount * static_cast<std::int64_t>(up * 0x1p30)) >> 30;
+  // Periods that have been upward by a moment.
+  const auto upward_by = [up](double periods) {
+    const double whole = std::floor(periods);
+    return whole * up + std::min(periods - whole, up);
+  };
+  const double now = tool.phase_s / ToolState::kPeriodS, took = tool.dt_s / ToolState::kPeriodS;
+  const double part = std::clamp((upward_by(now) - upward_by(now - took)) / took, 0.0, 1.0);
+  return (amount * static_cast<std::int64_t>(part * 0x1p30)) >> 30;
 }
 
 /// What of the clay that one tool squeezes aside goes inside: the scene's share. Of what a tool
@@ -185,7 +195,7 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
       return flow_by_kernel(plan, part, up, removals.front().contact, rim, stack);
     }
   };
-  const WideQuanta up = upward_part(amount, press.motion);
+  const WideQuanta up = upward_part(amount, press.motion, press.tool);
   return flow(up + flow(amount - up, false), true);
 }
 
@@ -234,7 +244,8 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
   else
     writer.put_on_crown(displace<rules>(press, removals, work, removed, stack, rim));
   if constexpr (rules & kSmear)
-    if (!press.trim && press.tool.slow_s > 0.0) smear_surfaces(press, removals, work, stack, writer);
+    if (!press.trim && press.tool.slow_s > 0.0)
+      smear_surfaces(press, removals, work, stack, writer);
   Flow flow;
   flow.lowest = work.lowest;
   flow.highest = work.highest;

@@ -82,7 +82,8 @@ CLAYSTACK_INLINE inline void divide(Block& b, const Rows& rows, std::size_t coun
     const F outside = kMm2 * floats(outsides[0], outsides[1]);
     const F inside = kMm2 * floats(insides[0], insides[1]);
     const F outer = load_floats<n>(rows.outer + k), inner = load_floats<n>(rows.inner + k);
-    const F moved = 0.5f * outside / outer + static_cast<float>(kBoreMoves) * inside / (inner + 1e-20f);
+    const F moved =
+        0.5f * outside / outer + static_cast<float>(kBoreMoves) * inside / (inner + 1e-20f);
     const float* const wall = rows.wall + k;
     const F thinner = lesser(load_floats<n>(wall - rows.apart), load_floats<n>(wall + rows.apart));
     const F slope = thinner + rows.spare - load_floats<n>(wall);

@@ -7,11 +7,12 @@ namespace clay {
 namespace {
 
 constexpr std::int64_t kLongestStepUs = 50'000;
-constexpr std::int64_t kPeriodUs = 3'000;
+constexpr std::int64_t kSlowUs = 3'000;
+constexpr auto kPeriodUs = static_cast<std::int64_t>(1e6 * ToolState::kPeriodS + 0.5);
 
 /// Periods that have ended by a time, from some other time on.
 std::int64_t periods_by(std::int64_t time_us) noexcept {
-  return time_us / kPeriodUs - (time_us % kPeriodUs < 0 ? 1 : 0);
+  return time_us / kSlowUs - (time_us % kSlowUs < 0 ? 1 : 0);
 }
 
 // Not (|x| > limit): NaN must fail.
@@ -32,14 +33,15 @@ ToolState ToolTracker::advance(const Pose& pose, double widest_gap_mm) noexcept 
     state.dt_clamped = elapsed > static_cast<std::uint64_t>(kLongestStepUs);
     state.dt_s =
         1e-6 * static_cast<double>(std::min(elapsed, static_cast<std::uint64_t>(kLongestStepUs)));
-    constexpr std::int64_t kMostPeriods = kLongestStepUs / kPeriodUs;
+    constexpr std::int64_t kMostPeriods = kLongestStepUs / kSlowUs;
     const std::int64_t periods = periods_by(pose.time_us) - periods_by(last_.time_us);
-    state.slow_s = 1e-6 * static_cast<double>(kPeriodUs * std::min(periods, kMostPeriods));
+    state.slow_s = 1e-6 * static_cast<double>(kSlowUs * std::min(periods, kMostPeriods));
     state.moved_mm = p - last_.position_mm;
     if (state.moved_mm.y != 0.0) upward_ = state.moved_mm.y > 0.0;
   }
   last_ = pose;
   has_last_ = true;
+  state.phase_s = 1e-6 * static_cast<double>(pose.time_us % kPeriodUs);
   state.hip_mm = p;
   state.upward = upward_;
   state.trim = pose.trim;

@@ -9,11 +9,13 @@ inline constexpr double kFarthestMm = 1e6;
 
 /// A valid pose, with the data derived from its predecessors.
 struct ToolState {
+  static constexpr double kPeriodS = 0.009;  ///< of `phase_s`
   glm::dvec3 hip_mm{0.0};
   double dt_s = 0.0;  ///< since the last pose; 0 for the first, at most 0.05
   /// Whole periods of 3 ms that have ended since then, counted on the clock of the poses: effects
   /// that are slow take place once in a period, with no state that a pot would have to keep.
   double slow_s = 0.0;
+  double phase_s = 0.0;  ///< of the pose, on its clock, in a period of 9 ms
   /// Since the last pose [mm]; zero for the first.
   glm::dvec3 moved_mm{0.0};
   bool upward = true;  ///< direction of clay flow (section 5.1)
