@@ -149,7 +149,8 @@ WideQuanta upward_part(WideQuanta amount, const Motion& motion, const ToolState&
     const double whole = std::floor(periods);
     return whole * up + std::min(periods - whole, up);
   };
-  const double now = tool.phase_s / ToolState::kPeriodS, took = tool.dt_s / ToolState::kPeriodS;
+  constexpr double kPerPeriod = 1e6 / static_cast<double>(kClockPeriodUs);
+  const double now = tool.phase_s * kPerPeriod, took = tool.dt_s * kPerPeriod;
   const double part = std::clamp((upward_by(now) - upward_by(now - took)) / took, 0.0, 1.0);
   return (amount * static_cast<std::int64_t>(part * 0x1p30)) >> 30;
 }
