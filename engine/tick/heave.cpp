@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kSteepest = 0.5;  // of a growth over the way along the wall
 constexpr std::size_t kRows = 64;
-// Of a bore, which a share leaves open, and of the largest radius, to which it does not come.
-constexpr float kMostOfBore = 0.5f, kMostOfRadius = 0.999f;
+constexpr float kMostOfRadius = 0.999f;  // of the largest; a share does not come to it
+// No bore becomes narrower than this radius, or a hole would close and enclose a cavity.
+constexpr double kLeastBoreMm = 0.1;
 
 // A bore of radius r moves by no more than this part of x / r, if x of r^2 is filled, x <= r^2 / 2.
 constexpr double kBoreMoves = 0.586;
@@ -68,6 +69,7 @@ CLAYSTACK_INLINE inline void divide(Block& b, const Rows& rows, std::size_t coun
   using D = Doubles<n>;
   using F = TwiceFloats<n>;
   constexpr auto kMm2 = static_cast<float>(kMm2PerQuantum);
+  constexpr auto kLeastBore2 = static_cast<float>(kLeastBoreMm * kLeastBoreMm);
   constexpr auto kLargest = kMostOfRadius * static_cast<float>(kMaxRadiusMm);
   for (std::size_t k = 0; k <= in_packs_of(count); k += 2 * n) way.lay_faces<n>(b, k);
   F first_lack = F{} + static_cast<float>(count), last_lack = F{} - 1.0f;
@@ -88,7 +90,8 @@ CLAYSTACK_INLINE inline void divide(Block& b, const Rows& rows, std::size_t coun
     const F thinner = lesser(load_floats<n>(wall - rows.apart), load_floats<n>(wall + rows.apart));
     const F slope = thinner + rows.spare - load_floats<n>(wall);
     const F over = moved - lesser(slope, load_floats<n>(b.clear + k));
-    const F bore = inside - kMostOfBore * inner * inner, wide = outer - kLargest;
+    const F bore = inside > 0.0f ? inside - 0.5f * (inner * inner - kLeastBore2) : F{};
+    const F wide = outer - kLargest;
     const F lacks = greater(over, greater(bore, wide));
     const F lack = moved > 0.0f ? lacks : F{}, row = load_floats<n>(&kFloatLevels[k]);
     first_lack = lesser(first_lack, F(lack > 0.0f ? row : first_lack));
@@ -240,8 +243,8 @@ class Heaving {
     const Ring& ring = stack_.rings()[i];
     if (ring.inner2 == 0) carry_ = {0, carry_.inside + carry_.outside};
     float* const wall = walls_.thickness(i);
-    const float least = std::min(*(wall - walls_.apart()), wall[walls_.apart()]);
-    const double room = least + steepest_mm_ - *wall;
+    const float thinner = std::min(*(wall - walls_.apart()), wall[walls_.apart()]);
+    const double room = thinner + steepest_mm_ - *wall;
     if (!(room > 0.0)) return;
     // No more than these, however small the radii are.
     const double out =
@@ -255,8 +258,10 @@ class Heaving {
     };
     const double out_part = presses_outside ? std::min(part, clear / out) : part;
     const double in_part = presses_outside ? part : std::min(part, clear / in);
+    static const Quanta least = quanta_from_radius(kLeastBoreMm);
+    const Quanta room_inside = std::max<Quanta>(ring.inner2 - least, 0) / 2;
     const Quanta inside =
-        writer_.put_inside(i, std::min(part_of(in_part, carry_.inside), ring.inner2 / 2));
+        writer_.put_inside(i, std::min(part_of(in_part, carry_.inside), room_inside));
     const Quanta outside = writer_.put_outside(i, part_of(out_part, carry_.outside));
     carry_.inside -= inside;
     carry_.outside -= outside;
