@@ -133,7 +133,7 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
     for (std::size_t k = 0; k < removals.size(); ++k)
       if (!removals[k].contact.rings.empty())
         work.cones[k] = relieve_touched(plan, work.shoulders, stack, press.tool, work.bands[k],
-                                        squeeze, removals, k);
+                                        squeeze, removals, k, press.trim);
   reach_of<rules>(press, stack, removals, work);
 }
 
