@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMinSpeedUp = 5.0;   // over the paper as printed
 constexpr double kMaxGrowth = 1.5;    // from 200 rings to a million
-constexpr double kMaxRules = 3.3;     // of a tick with all clay rules, over one without
+constexpr double kMaxRules = 2.6;     // of a tick with all clay rules, over one without
 constexpr double kMaxTwoLanes = 2.0;  // of such a tick without AVX2, over one with
 constexpr int kFewTicks = 20;         // enough for ticks of 100 us
 

@@ -25,6 +25,12 @@ alignas(64) inline constexpr auto kLevels = [] {
   return levels;
 }();
 
+alignas(64) inline constexpr auto kFloatLevels = [] {
+  std::array<float, kLevels.size()> levels{};
+  for (std::size_t k = 0; k < levels.size(); ++k) levels[k] = static_cast<float>(k);
+  return levels;
+}();
+
 /// The halves of a whole number behind these exponents are 2^52 + low and 2^84 + 2^32 high.
 inline constexpr std::uint64_t kLowExponent = std::bit_cast<std::uint64_t>(0x1p52);
 inline constexpr std::uint64_t kHighExponent = std::bit_cast<std::uint64_t>(0x1p84);

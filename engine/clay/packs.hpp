@@ -7,6 +7,7 @@
 #include "claystack/engine/clay.hpp"
 #include "engine/clay/lanes.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -52,13 +53,14 @@ template <class Vector>
 inline constexpr std::size_t kRowsOf = sizeof(Vector) / sizeof(double);
 
 inline constexpr std::size_t kWidestPack = 4;
+inline constexpr std::size_t kWidestFloats = 2 * kWidestPack;
 /// Arrays that packs go over begin on this many bytes: a pack that lies in two lines of the cache
 /// takes twice as long.
 inline constexpr std::size_t kPackBytes = 64;
 
 /// Rows that loops of packs go over: whole packs of any width.
 [[nodiscard]] constexpr std::size_t in_packs_of(std::size_t rows) noexcept {
-  return (rows + kWidestPack - 1) / kWidestPack * kWidestPack;
+  return (rows + kWidestFloats - 1) / kWidestFloats * kWidestFloats;
 }
 
 /// Calls loop(n) with the number of rows of a pack, a constant of the type. The loop is inline, as
@@ -121,10 +123,14 @@ CLAYSTACK_INLINE inline Vector greater(Vector a, double b) noexcept {
 }
 
 template <class Vector>
-CLAYSTACK_INLINE inline double least_of(Vector x) noexcept {
-  double least = x[0];
-  for (std::size_t k = 1; k < kRowsOf<Vector>; ++k) least = lesser(least, double{x[k]});
+CLAYSTACK_INLINE inline auto least_of(Vector x) noexcept {
+  auto least = x[0];
+  for (std::size_t k = 1; k < sizeof x / sizeof x[0]; ++k) least = x[k] < least ? x[k] : least;
   return least;
+}
+template <class Vector>
+CLAYSTACK_INLINE inline auto most_of(Vector x) noexcept {
+  return -least_of(Vector(-x));
 }
 template <class Vector>
 CLAYSTACK_INLINE inline Quanta sum_of(Vector x) noexcept {
@@ -178,6 +184,15 @@ CLAYSTACK_INLINE inline Floats<n> high_half(TwiceFloats<n> x) noexcept {
     return __builtin_shufflevector(x, x, 4, 5, 6, 7);
   else
     return __builtin_shufflevector(x, x, 2, 3);
+}
+template <std::size_t n>
+CLAYSTACK_INLINE inline TwiceFloats<n> load_floats(const float* from) noexcept {
+  return load<TwiceFloats<n>>(from);
+}
+/// The lower and the upper half of 2 n floats, as doubles.
+template <std::size_t n>
+CLAYSTACK_INLINE inline std::array<Doubles<n>, 2> halves(TwiceFloats<n> x) noexcept {
+  return {doubles<n>(low_half<n>(x)), doubles<n>(high_half<n>(x))};
 }
 /// As the `rough_root` of one.
 template <std::size_t n>

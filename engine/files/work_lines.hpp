@@ -7,6 +7,7 @@
 #include "core/json/object_reader.hpp"
 #include "engine/files/pot_json.hpp"
 #include "engine/files/text_codes.hpp"
+#include "engine/tool/tool_state.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -38,10 +39,13 @@ inline std::uint64_t hash_of(const std::optional<Pot>& start) {
   return hash.value();
 }
 
-/// Shifts the times so that the first pose is at time 0.
+/// Shifts the times so that the first pose is in the first period of the clock: the throw stays the
+/// same.
 inline void to_zero(std::span<Pose> poses) {
-  const std::int64_t first_us = poses.empty() ? 0 : poses.front().time_us;
-  for (Pose& pose : poses) pose.time_us -= first_us;
+  if (poses.empty()) return;
+  const std::int64_t rest = poses.front().time_us % kClockPeriodUs;
+  const std::int64_t by = poses.front().time_us - (rest < 0 ? rest + kClockPeriodUs : rest);
+  for (Pose& pose : poses) pose.time_us -= by;
 }
 
 struct WorkHeader {};

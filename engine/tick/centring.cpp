@@ -120,24 +120,25 @@ void PushOver::measure(const Tool& tool, const ClayStack& stack, double hip_y,
 }
 
 void centre(const StepPlan& plan, const ClayStack& stack, const ToolState& tool,
-            const std::array<Band, 2>& bands, std::span<ToolRemoval> removals, PushOver& over,
-            Shift& shift) noexcept {
+            const std::array<Band, 2>& bands, std::span<ToolRemoval> removals, Walls& walls,
+            PushOver& over, Shift& shift) noexcept {
   over.measure(plan.tool, stack, tool.hip_mm.y, removals);
   Band band = both(bands, removals);
   bool outward = false;
   if (!find_push(stack, removals, over, band, outward)) return;
   const double min_wall = plan.removal.min_wall_mm;
   // Two tools hold the wall, so their motion does not bend it: both speeds are 0.
-  const Shell shell = shell_at(stack, band, min_wall, 0.0, 0.0);
+  const Shell shell = shell_at(stack, walls, band, min_wall, 0.0, 0.0);
   if (!(shell.share > 0.0)) return;
   const bool hoop = (plan.clay.rules & kHoop) != 0;
-  shift.lay(
-      stack, band, shell, {outward, hoop, min_wall}, [&](std::size_t first, std::span<double> by) {
-        const std::size_t end = std::min(first + by.size(), over.to());
-        for (std::size_t i = std::max(first, over.from()); i < end; ++i)
-          by[i - first] = std::min(by[i - first], outward ? over.outward_mm(i) : over.inward_mm(i));
-        hold_foot(shell, stack.ring_height_mm(), first, by);
-      });
+  shift.lay(stack, walls, band, shell, {outward, hoop, min_wall},
+            [&](std::size_t first, std::span<float> by) {
+              const std::size_t end = std::min(first + by.size(), over.to());
+              for (std::size_t i = std::max(first, over.from()); i < end; ++i)
+                by[i - first] = static_cast<float>(std::min<double>(
+                    by[i - first], outward ? over.outward_mm(i) : over.inward_mm(i)));
+              hold_foot(shell, stack.ring_height_mm(), first, by);
+            });
   for (std::size_t side = 0; side < 2; ++side) {
     TouchedRings& rings = removals[side].contact.rings;
     for (std::size_t i = rings.from(); i < rings.to(); ++i) {

@@ -25,12 +25,15 @@ double speed_into(Side side, const Motion& motion) noexcept {
 
 /// A ring that is touched moves by its part of what it gives way itself, at least.
 void move_touched(TouchedRings& rings, double share, std::size_t first,
-                  std::span<double> by) noexcept {
+                  std::span<float> by) noexcept {
   const std::size_t end = std::min(first + by.size(), rings.to());
   rings.each_slice(std::max(first, rings.from()), end, [=](const TouchedRings::Slice& slice) {
     in_lanes([=, give = &slice.rows.give[slice.begin], to = &by[slice.ring - first],
               count = slice.size()]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count; ++k) to[k] = greater(to[k], share * give[k]);
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto least = static_cast<float>(share * give[k]);
+        to[k] = to[k] > least ? to[k] : least;
+      }
     });
   });
 }
@@ -48,7 +51,6 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
   const std::size_t top = stack.size() - 1;
   work.lowest = contact.bottom;
   work.highest = contact.top;
-  if (press.trim) return;
   const auto widen = [&](double low_mm, double high_mm) {
     const double h = stack.ring_height_mm(), last = static_cast<double>(top);
     work.lowest =
@@ -64,18 +66,21 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
   for (std::size_t k = 0; k < removals.size(); ++k) {
     const Band& band = work.bands[k];
     if (removals[k].contact.rings.empty()) continue;
-    const double c = band.height_mm();
-    if constexpr (rules & kSmear) widen(band.low_mm - c, band.high_mm + c);
     if constexpr (rules & kHeave) {
       if (work.cones[k][0].meets) widen(band.low_mm - kReliefMm, band.high_mm);
       if (work.cones[k][1].meets) widen(band.low_mm, band.high_mm + kReliefMm);
+    }
+    if (press.trim) continue;
+    const double c = band.height_mm();
+    if constexpr (rules & kSmear) widen(band.low_mm - c, band.high_mm + c);
+    if constexpr (rules & kHeave) {
       if (!lifts) {
         const double reach = work.reach_mm[k] = heave_reach(press.plan.tool, stack, band);
         widen(band.low_mm - 2.0 * reach, band.high_mm + 2.0 * reach);
       }
     }
   }
-  if (!lifts && !(rules & kHeave)) {
+  if (!press.trim && !lifts && !(rules & kHeave)) {
     const std::size_t reach = flow_reach(press.plan.kernel);
     work.lowest = std::min(work.lowest, contact.bottom - std::min(contact.bottom, reach));
     work.highest = std::max(work.highest, std::min(top, contact.top + reach));
@@ -87,11 +92,11 @@ void bend(const RulePress& press, const ClayStack& stack, Contact& contact, bool
           RuleWork& work) noexcept {
   const Band& band = work.bands[0];
   const double min_wall = press.plan.removal.min_wall_mm;
-  const Shell shell = shell_at(stack, band, min_wall, press.motion.upward_mm_s,
+  const Shell shell = shell_at(stack, work.walls, band, min_wall, press.motion.upward_mm_s,
                                speed_into(contact.side, press.motion));
   if (!(shell.share > 0.0)) return;
-  work.shift.lay(stack, band, shell, {contact.side == Side::expansive, hoop, min_wall},
-                 [&](std::size_t first, std::span<double> by) {
+  work.shift.lay(stack, work.walls, band, shell, {contact.side == Side::expansive, hoop, min_wall},
+                 [&](std::size_t first, std::span<float> by) {
                    move_touched(contact.rings, shell.share, first, by);
                    hold_foot(shell, stack.ring_height_mm(), first, by);
                  });
@@ -103,6 +108,7 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
   const StepPlan& plan = press.plan;
   const double hip_y = press.tool.hip_mm.y, dt_s = press.tool.dt_s;
   work.shift.clear();
+  work.walls.begin(removals.front().contact.bottom);
   const Squeeze squeeze{plan.removal.min_wall_mm, plan.clay.floor_rings,
                         (rules & kShift) ? &work.shift : nullptr};
   const bool two = removals.size() == 2;
@@ -115,7 +121,7 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
     }
   if (two) {
     if ((rules & kShift) && !press.trim)
-      centre(plan, stack, press.tool, work.bands, removals, work.over, work.shift);
+      centre(plan, stack, press.tool, work.bands, removals, work.walls, work.over, work.shift);
     compute_pinch_removal<Model::conserving>(plan.removal, stack, press.tool.gap_mm, dt_s,
                                              removals[0], removals[1], &squeeze);
   } else {
@@ -124,19 +130,29 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
     squeeze_out(squeeze, stack, contact, removals[0].removed);
   }
   if constexpr (rules & kHeave)
-    if (!press.trim)
-      for (std::size_t k = 0; k < removals.size(); ++k)
-        if (!removals[k].contact.rings.empty())
-          work.cones[k] = relieve_touched(plan, work.shoulders, stack, press.tool, work.bands[k],
-                                          squeeze, removals, k);
+    for (std::size_t k = 0; k < removals.size(); ++k)
+      if (!removals[k].contact.rings.empty())
+        work.cones[k] = relieve_touched(plan, work.shoulders, stack, press.tool, work.bands[k],
+                                        squeeze, removals, k, press.trim);
   reach_of<rules>(press, stack, removals, work);
 }
 
-/// The part of an amount that flows up, continuous in the speed.
-WideQuanta upward_part(WideQuanta amount, const Motion& motion) noexcept {
+/// The part of an amount that flows up, continuous in the speed. In turns: in each period the clay
+/// first flows up for that part of the time, then down, so that a tick seldom lays it to both
+/// sides.
+WideQuanta upward_part(WideQuanta amount, const Motion& motion, const ToolState& tool) noexcept {
   const double v = motion.upward_mm_s;
   const double up = 0.5 * (1.0 + v / std::sqrt(v * v + kSlowMmS * kSlowMmS));
-  return (amount * static_cast<std::int64_t>(up * 0x1p30)) >> 30;
+  if (!(tool.dt_s > 0.0)) return (amount * static_cast<std::int64_t>(up * 0x1p30)) >> 30;
+  // Periods that have been upward by a moment.
+  const auto upward_by = [up](double periods) {
+    const double whole = std::floor(periods);
+    return whole * up + std::min(periods - whole, up);
+  };
+  constexpr double kPerPeriod = 1e6 / static_cast<double>(kClockPeriodUs);
+  const double now = tool.phase_s * kPerPeriod, took = tool.dt_s * kPerPeriod;
+  const double part = std::clamp((upward_by(now) - upward_by(now - took)) / took, 0.0, 1.0);
+  return (amount * static_cast<std::int64_t>(part * 0x1p30)) >> 30;
 }
 
 /// What of the clay that one tool squeezes aside goes inside: the scene's share. Of what a tool
@@ -153,8 +169,8 @@ std::int64_t inside_share(const StepPlan& plan, const ClayStack& stack, const Co
 
 /// Lays what one tool squeezed aside beside it. Returns what becomes height.
 template <unsigned rules>
-WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removals,
-                    const RuleWork& work, WideQuanta amount, ClayStack& stack, Rim* rim) noexcept {
+WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removals, RuleWork& work,
+                    WideQuanta amount, ClayStack& stack, Rim* rim) noexcept {
   const StepPlan& plan = press.plan;
   const std::size_t at = removals[0].contact.rings.empty() ? removals.size() - 1 : 0;
   const Contact& contact = removals[at].contact;
@@ -167,18 +183,20 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
       for (WideQuanta left = part; left > 0;) {
         const auto piece = static_cast<Quanta>(std::min(left, WideQuanta{kLargestHeap}));
         const auto inside = static_cast<Quanta>(inside_part(piece, share, stack));
-        const Quanta over = heave(plan.tool, stack, press.tool.hip_mm.y, contact, work.bands[at],
-                                  {inside, piece - inside, up, work.reach_mm[at]}, writer);
+        const Quanta over =
+            heave(plan.tool, stack, work.walls, press.tool.hip_mm.y, contact, work.bands[at],
+                  {inside, piece - inside, up, work.reach_mm[at]}, writer);
         writer.gain(piece - over);
         rest += over;
         left -= piece;
+        if (left > 0) work.walls.begin(contact.bottom);
       }
       return rest;
     } else {
       return flow_by_kernel(plan, part, up, removals.front().contact, rim, stack);
     }
   };
-  const WideQuanta up = upward_part(amount, press.motion);
+  const WideQuanta up = upward_part(amount, press.motion, press.tool);
   return flow(up + flow(amount - up, false), true);
 }
 
@@ -195,20 +213,20 @@ WideQuanta relieve(const RulePress& press, std::span<const ToolRemoval> removals
   return removed;
 }
 
-/// Smears what each tool presses.
+/// Smears what each tool presses, once in a period.
 void smear_surfaces(const RulePress& press, std::span<const ToolRemoval> removals,
                     const RuleWork& work, const ClayStack& stack, StackWriter& writer) noexcept {
   const StepPlan& plan = press.plan;
   for (std::size_t k = 0; k < removals.size(); ++k)
     if (!removals[k].contact.rings.empty())
-      smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.dt_s, removals[k].contact,
+      smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.slow_s, removals[k].contact,
             work.bands[k],
             {plan.clay.surface_per_s, plan.removal.yield_depth_mm, plan.removal.min_wall_mm},
             writer);
 }
 
 template <unsigned rules>
-Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, const RuleWork& work,
+Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, RuleWork& work,
                ClayStack& stack, Ledger& ledger, Rim& all_rim) noexcept {
   const StepPlan& plan = press.plan;
   Rim* const rim = (rules & kRim) ? nullptr : &all_rim;
@@ -219,8 +237,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, co
     writer.put_on_crown(work.shift.raised());
   }
   WideQuanta removed = remove_clay(removals, stack, rim);
-  if constexpr (rules & kHeave)
-    if (!press.trim) removed += relieve(press, removals, work, stack, writer);
+  if constexpr (rules & kHeave) removed += relieve(press, removals, work, stack, writer);
   if (press.trim)
     ledger.trimmed += removed;
   else if ((rules & kLift) && removals.size() == 2)
@@ -228,7 +245,8 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, co
   else
     writer.put_on_crown(displace<rules>(press, removals, work, removed, stack, rim));
   if constexpr (rules & kSmear)
-    if (!press.trim) smear_surfaces(press, removals, work, stack, writer);
+    if (!press.trim && press.tool.slow_s > 0.0)
+      smear_surfaces(press, removals, work, stack, writer);
   Flow flow;
   flow.lowest = work.lowest;
   flow.highest = work.highest;
@@ -251,8 +269,8 @@ void yield_to_sponge(const RulePress& press, const ClayStack& stack,
   reach_of<kSmear | kLift>(press, stack, removals, work);
 }
 
-Flow smooth_clay(const RulePress& press, std::span<const ToolRemoval> removals,
-                 const RuleWork& work, ClayStack& stack, Ledger&, Rim&) noexcept {
+Flow smooth_clay(const RulePress& press, std::span<const ToolRemoval> removals, RuleWork& work,
+                 ClayStack& stack, Ledger&, Rim&) noexcept {
   const StepPlan& plan = press.plan;
   StackWriter writer(stack);
   smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.dt_s, removals[0].contact, work.bands[0],
@@ -284,6 +302,7 @@ void follow(Motion& motion, const ToolState& tool) noexcept {
 void RuleWork::reserve(const Tool& tool, const ClayStack& stack) {
   const double reach = tool.high() - tool.low() + 3.0 * kLongestShellMm;
   const double rings = reach / stack.ring_height_mm() + 8.0;
+  walls.reserve(tool, stack);
   shoulders = shoulders_of(tool);
   over.reserve(most_contacts(tool, stack.ring_height_mm(), stack.max_rings()));
   shift.reserve(static_cast<std::size_t>(std::min(rings, static_cast<double>(stack.max_rings()))));

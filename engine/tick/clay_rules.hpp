@@ -10,6 +10,7 @@
 #include "engine/tick/relief.hpp"
 #include "engine/tick/removal.hpp"
 #include "engine/tick/shift.hpp"
+#include "engine/tick/walls.hpp"
 #include "engine/tool/tool_state.hpp"
 
 #include <array>
@@ -23,6 +24,7 @@ void follow(Motion& motion, const ToolState& tool) noexcept;
 
 /// Data that the stages of one part of a tick pass on. Storage is reserved once.
 struct RuleWork {
+  Walls walls;
   Shift shift;
   PushOver over;                             ///< of a pinch
   std::array<Band, 2> bands;                 ///< of each tool
@@ -49,7 +51,7 @@ struct RuleSteps {
   void (*yield)(const RulePress&, const ClayStack&, std::span<ToolRemoval>,
                 RuleWork&) noexcept = nullptr;
   /// Moves the clay.
-  Flow (*move)(const RulePress&, std::span<const ToolRemoval>, const RuleWork&, ClayStack&, Ledger&,
+  Flow (*move)(const RulePress&, std::span<const ToolRemoval>, RuleWork&, ClayStack&, Ledger&,
                Rim&) noexcept = nullptr;
 };
 [[nodiscard]] RuleSteps rule_steps(unsigned rules) noexcept;

@@ -2,6 +2,7 @@
 
 #include "engine/clay/packs.hpp"
 #include "engine/tick/beside_tool.hpp"
+#include "engine/tick/shell.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,171 +11,110 @@ namespace clay {
 namespace {
 
 constexpr double kSteepest = 0.5;  // of a growth over the way along the wall
-// The slope is that over such a way at least, or the limit would depend on the height of rings.
-constexpr double kSlopeWayMm = 0.17;
-constexpr std::size_t kMostApart = 64;  // rings
 constexpr std::size_t kRows = 64;
+constexpr float kMostOfRadius = 0.999f;  // of the largest; a share does not come to it
+// No bore becomes narrower than this radius, or a hole would close and enclose a cavity.
+constexpr double kLeastBoreMm = 0.1;
 
-/// Some neighbouring rings, and the walls beside them that their slope is measured to.
+// A bore of radius r moves by no more than this part of x / r, if x of r^2 is filled, x <= r^2 / 2.
+constexpr double kBoreMoves = 0.586;
+
+/// What a heap is to some neighbouring rings.
 struct Block {
-  static constexpr std::size_t kAll = kRows + 2 * kWidestPack;
-  alignas(kPackBytes) double outer2[kAll], inner2[kAll];       ///< [quanta]
-  alignas(kPackBytes) float per_outer[kAll], per_inner[kAll];  ///< [1/mm]
-  alignas(kPackBytes) double walls[kAll + 2 * kMostApart];     ///< [mm]; see `wall`
+  static constexpr std::size_t kAll = kRows + kWidestFloats;
   alignas(kPackBytes) double outside_to[kAll],
       inside_to[kAll];                         ///< whole quanta that lie up to a ring's lower face
   alignas(kPackBytes) RawRings<kAll> changes;  ///< of R^2 and r^2, by a ring's share
-  alignas(kPackBytes) double clear[kAll];      ///< of the tool [mm]
-  double lack[kAll];                           ///< above 0: does not take its share
+  alignas(kPackBytes) float clear[kAll];       ///< of the tool [mm]
+  float lack[kAll];                            ///< above 0: does not take its share
   std::size_t first_lack, lacks_end;           ///< outside of these rings all take their shares
-
-  /// Of the first ring; those of up to kMostApart rings lie before it, and after the last.
-  [[nodiscard]] double* wall() noexcept { return walls + kMostApart; }
 };
 
-/// Rings from..last and, beyond the last, the last again.
-template <std::size_t n>
-CLAYSTACK_INLINE inline RingPack<n> load_up_to(const Ring* rings, std::size_t from,
-                                               std::size_t last) noexcept {
-  const std::size_t i = from < last ? from : last;
-  return load_rings<n>(rings + i, last + 1 - i);
-}
-
-template <std::size_t n>
-CLAYSTACK_INLINE inline Doubles<n> thickness(Floats<n> outer, Floats<n> inner) noexcept {
-  return doubles<n>(outer) - doubles<n>(inner);
-}
-
-/// Walls of the rings from `first` on, as `measure` has them.
-template <std::size_t n>
-CLAYSTACK_INLINE inline void measure_walls(double* walls, const Ring* rings, std::size_t first,
-                                           std::size_t last, std::size_t count) noexcept {
-  for (std::size_t k = 0; k < count; k += n) {
-    const RingPack<n> pack = load_up_to<n>(rings, first + k, last);
-    const Doubles<n> outer2 = doubles_of(pack.outer2) * kMm2PerQuantum;
-    const Doubles<n> inner2 = doubles_of(pack.inner2) * kMm2PerQuantum;
-    store(walls + k, thickness<n>(root(floats(outer2)), root(floats(inner2))));
-  }
-}
-
-/// Lengths of the rings from `first` on to single precision, of which a machine takes twice as many
-/// at once. Beyond an end of the stack a wall is compared with that of the end ring.
-template <std::size_t n>
-CLAYSTACK_INLINE inline void measure(Block& b, const Ring* rings, std::size_t first,
-                                     std::size_t last, std::size_t count,
-                                     std::size_t apart) noexcept {
-  const std::size_t before = apart < first ? apart : first;
-  measure_walls<n>(b.wall() - before, rings, first - before, last, before);
-  for (std::size_t k = 0; k < count; k += 2 * n) {
-    const RingPack<n> low = load_up_to<n>(rings, first + k, last);
-    const RingPack<n> high = load_up_to<n>(rings, first + k + n, last);
-    const auto low_outer2 = doubles_of(low.outer2), high_outer2 = doubles_of(high.outer2);
-    const auto low_inner2 = doubles_of(low.inner2), high_inner2 = doubles_of(high.inner2);
-    const TwiceFloats<n> outer = root(
-        floats(Doubles<n>(low_outer2 * kMm2PerQuantum), Doubles<n>(high_outer2 * kMm2PerQuantum)));
-    const TwiceFloats<n> inner = root(
-        floats(Doubles<n>(low_inner2 * kMm2PerQuantum), Doubles<n>(high_inner2 * kMm2PerQuantum)));
-    store(b.outer2 + k, low_outer2);
-    store(b.outer2 + k + n, high_outer2);
-    store(b.inner2 + k, low_inner2);
-    store(b.inner2 + k + n, high_inner2);
-    store(b.wall() + k, thickness<n>(low_half<n>(outer), low_half<n>(inner)));
-    store(b.wall() + k + n, thickness<n>(high_half<n>(outer), high_half<n>(inner)));
-    store(b.per_outer + k, TwiceFloats<n>(1.0f / outer));
-    store(b.per_inner + k, TwiceFloats<n>(1.0f / (inner + 1e-30f)));
-  }
-  measure_walls<n>(b.wall() + count, rings, first + count, last, apart);
-  for (std::size_t k = before; k < apart; ++k)
-    b.wall()[-1 - static_cast<std::ptrdiff_t>(k)] = b.wall()[-static_cast<std::ptrdiff_t>(before)];
-}
+/// The first of some rings: radii, and the walls that their slope is measured to.
+struct Rows {
+  const float *outer, *inner, *wall;
+  std::size_t apart;
+  float spare;  ///< growth over them
+};
 
 /// A heap on its way from the band: what of it lies up to each face of a ring, in whole quanta. Up
 /// to a distance t of the reach, from 0 to 1, it is the part t^3 (10 - 15 t + 6 t^2); each half
 /// from its own end, so that rounding cannot make it fall.
 struct Way {
-  double start, step, last;  ///< of the faces, in parts of the reach: below 0 downward; last face
-  double outside, inside;
+  float start, step;       ///< of the faces, in parts of the reach: below 0 downward
+  float first, last;       ///< face of the block and its last one, counted from that of `start`
+  double outside, inside;  ///< below 0 downward
 
+  /// Of the 2 n faces from the block's k-th on.
   template <std::size_t n>
-  struct Faces {
-    Doubles<n> outside_to, inside_to;
-  };
-  template <std::size_t n>
-  CLAYSTACK_INLINE Faces<n> faces(std::size_t k) const noexcept {
-    using D = Doubles<n>;
-    const D x = start + lesser(load<D>(&kLevels[k]), last) * step;
-    const D t = lesser(greater(x, 0.0), 1.0), far = 1.0 - t, s = lesser(t, far);
-    const D half = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
-    const D part = t < far ? half : 1.0 - half;
-    return {nearest(D(outside * part)), nearest(D(inside * part))};
+  CLAYSTACK_INLINE void lay_faces(Block& b, std::size_t k) const noexcept {
+    using F = TwiceFloats<n>;
+    const F face = lesser(F(load_floats<n>(&kFloatLevels[k]) + first), F(F{} + last));
+    const F x = start + face * step, t = lesser(F(x > 0.0f ? x : F{}), F(F{} + 1.0f));
+    const F far = 1.0f - t, s = lesser(t, far);
+    const F half = s * s * s * (10.0f - 15.0f * s + 6.0f * s * s);
+    const auto parts = halves<n>(t < far ? half : F(1.0f - half));
+    for (std::size_t i = 0; i < 2; ++i) {
+      store(b.outside_to + k + i * n, nearest(Doubles<n>(outside * parts[i])));
+      store(b.inside_to + k + i * n, nearest(Doubles<n>(inside * parts[i])));
+    }
   }
 };
 
-/// Rows moved by one, the last from the next rows. In registers: a load of rows that have just been
-/// written apart would wait until the writes are done.
-template <class Vector>
-CLAYSTACK_INLINE inline Vector after(Vector pack, Vector next) noexcept {
-  if constexpr (kRowsOf<Vector> == 4)
-    return __builtin_shufflevector(pack, next, 1, 2, 3, 4);
-  else
-    return __builtin_shufflevector(pack, next, 1, 2);
-}
-
 /// Each ring's share, the difference of its two faces, and which rings do not take it: without a
-/// root, by what is more than each surface moves. A share leaves a bore open.
+/// root, by what is more than each surface moves.
 template <std::size_t n>
-CLAYSTACK_INLINE inline void divide(Block& b, std::size_t count, const Way& way, double sign,
-                                    std::size_t apart, double spare, double largest2) noexcept {
+CLAYSTACK_INLINE inline void divide(Block& b, const Rows& rows, std::size_t count,
+                                    const Way& way) noexcept {
   using D = Doubles<n>;
-  const std::size_t rows = (count + n - 1) / n * n;
-  for (std::size_t k = 0; k <= rows; k += n) {
-    const Way::Faces<n> faces = way.faces<n>(k);
-    store(b.outside_to + k, faces.outside_to);
-    store(b.inside_to + k, faces.inside_to);
-  }
-  D outside_to = load<D>(b.outside_to), inside_to = load<D>(b.inside_to);
-  D first_lack = all_of<D>(way.last), last_lack = all_of<D>(-1.0);
-  for (std::size_t k = 0; k < count; k += n) {
-    const D next_outside = load<D>(b.outside_to + k + n),
-            next_inside = load<D>(b.inside_to + k + n);
-    const D outside = sign * (after(outside_to, next_outside) - outside_to);
-    const D inside = sign * (after(inside_to, next_inside) - inside_to);
-    const D per_outer = doubles<n>(load<Floats<n>>(b.per_outer + k));
-    const D per_inner = doubles<n>(load<Floats<n>>(b.per_inner + k));
-    const D moved = kMm2PerQuantum * (0.5 * outside * per_outer + inside * per_inner);
-    const double* const wall = b.wall() + k;
-    const D thinner = lesser(load<D>(wall - apart), load<D>(wall + apart));
-    const D slope = thinner + spare - load<D>(wall);
-    const D over = moved - lesser(slope, load<D>(b.clear + k));
-    const D bore = inside > 0.0 ? inside + 1.0 - load<D>(b.inner2 + k) : D{};
-    const D wide = load<D>(b.outer2 + k) + outside - largest2;
-    const D lacks = greater(over, greater(bore, wide));
-    const D lack = moved > 0.0 ? lacks : D{}, row = load<D>(&kLevels[k]);
-    first_lack = lesser(first_lack, lack > 0.0 ? row : first_lack);
-    last_lack = greater(last_lack, lack > 0.0 ? row : last_lack);
+  using F = TwiceFloats<n>;
+  constexpr auto kMm2 = static_cast<float>(kMm2PerQuantum);
+  constexpr auto kLeastBore2 = static_cast<float>(kLeastBoreMm * kLeastBoreMm);
+  constexpr auto kLargest = kMostOfRadius * static_cast<float>(kMaxRadiusMm);
+  for (std::size_t k = 0; k <= in_packs_of(count); k += 2 * n) way.lay_faces<n>(b, k);
+  F first_lack = F{} + static_cast<float>(count), last_lack = F{} - 1.0f;
+  for (std::size_t k = 0; k < count; k += 2 * n) {
+    D outsides[2], insides[2];
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::size_t at = k + i * n;
+      outsides[i] = load_doubles<n>(b.outside_to + at + 1) - load_doubles<n>(b.outside_to + at);
+      insides[i] = load_doubles<n>(b.inside_to + at + 1) - load_doubles<n>(b.inside_to + at);
+      store(b.changes.data() + at, RingPack<n>{quanta_of(outsides[i]), -quanta_of(insides[i])});
+    }
+    const F outside = kMm2 * floats(outsides[0], outsides[1]);
+    const F inside = kMm2 * floats(insides[0], insides[1]);
+    const F outer = load_floats<n>(rows.outer + k), inner = load_floats<n>(rows.inner + k);
+    const F moved =
+        0.5f * outside / outer + static_cast<float>(kBoreMoves) * inside / (inner + 1e-20f);
+    const float* const wall = rows.wall + k;
+    const F thinner = lesser(load_floats<n>(wall - rows.apart), load_floats<n>(wall + rows.apart));
+    const F slope = thinner + rows.spare - load_floats<n>(wall);
+    const F over = moved - lesser(slope, load_floats<n>(b.clear + k));
+    const F bore = inside > 0.0f ? inside - 0.5f * (inner * inner - kLeastBore2) : F{};
+    const F wide = outer - kLargest;
+    const F lacks = greater(over, greater(bore, wide));
+    const F lack = moved > 0.0f ? lacks : F{}, row = load_floats<n>(&kFloatLevels[k]);
+    first_lack = lesser(first_lack, F(lack > 0.0f ? row : first_lack));
+    last_lack = greater(last_lack, F(lack > 0.0f ? row : last_lack));
     store(b.lack + k, lack);
-    store(b.changes.data() + k, RingPack<n>{quanta_of(outside), -quanta_of(inside)});
-    outside_to = next_outside;
-    inside_to = next_inside;
   }
   b.first_lack = static_cast<std::size_t>(least_of(first_lack));
-  b.lacks_end = static_cast<std::size_t>(-least_of(D(-last_lack)) + 1.0);
+  b.lacks_end = static_cast<std::size_t>(most_of(last_lack) + 1.0f);
 }
 
 /// One end of a band and the way from there.
 class Heaving {
  public:
-  Heaving(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
-          const Band& band, const Heap& heap, StackWriter& writer) noexcept
+  Heaving(const Tool& tool, const ClayStack& stack, Walls& walls, double hip_y,
+          const Contact& contact, const Band& band, const Heap& heap, StackWriter& writer) noexcept
       : tool_(tool),
         stack_(stack),
+        walls_(walls),
         contact_(contact),
         writer_(writer),
         heap_(heap),
         h_(stack.ring_height_mm()),
-        apart_(static_cast<std::size_t>(
-            std::clamp(kSlopeWayMm / h_, 1.0, static_cast<double>(kMostApart)))),
-        steepest_mm_(kSteepest * static_cast<double>(apart_) * h_),
+        steepest_mm_(kSteepest * static_cast<double>(walls.apart()) * h_),
         hip_y_(hip_y),
         from_mm_(heap.up ? band.high_mm : band.low_mm),
         per_reach_(1.0 / heap.reach_mm) {}
@@ -184,6 +124,7 @@ class Heaving {
     if (heap_.up ? !(level < size) : !(level > 0.0)) return heap_.inside + heap_.outside;
     std::size_t ring =
         heap_.up ? static_cast<std::size_t>(level) : static_cast<std::size_t>(std::ceil(level)) - 1;
+    first_face_ = ring + (heap_.up ? 0 : 1);
     while (!reached_end_ || carried() > 0) {
       const std::size_t left = heap_.up ? stack_.size() - ring : ring + 1;
       const std::size_t count = std::min({left, kRows, rings_to_end(ring)});
@@ -196,7 +137,7 @@ class Heaving {
   }
 
  private:
-  static constexpr double kFar = 1e300;
+  static constexpr float kFar = 1e30f;
   struct Portion {
     Quanta inside = 0, outside = 0;
   };
@@ -245,25 +186,29 @@ class Heaving {
     writer_.change(first + k, {b.changes.data() + k, count});
     const double total =
         b.inside_to[k + count] - b.inside_to[k] + (b.outside_to[k + count] - b.outside_to[k]);
-    placed_ += static_cast<Quanta>(heap_.up ? total : -total);
+    placed_ += static_cast<Quanta>(total);
   }
 
   void prepare(std::size_t first, std::size_t count) noexcept {
-    static const double largest2 = static_cast<double>(quanta_from_radius(kMaxRadiusMm));
-    const double away = heap_.up ? per_reach_ : -per_reach_, step = away * h_;
-    const double start = away * (static_cast<double>(first) * h_ - from_mm_);
-    const double end = start + (heap_.up ? static_cast<double>(count) * step : 0.0);
-    reached_end_ = end >= 1.0;
+    const double faces = heap_.up ? static_cast<double>(first) - static_cast<double>(first_face_)
+                                  : -static_cast<double>(first_face_ - first);
+    const double step = h_ * per_reach_,
+                 start = per_reach_ * way_to(heap_.up ? first_face_ : first_face_ - 1);
+    const double end = heap_.up ? faces + static_cast<double>(count) : -faces;
+    reached_end_ = start + end * step >= 1.0;
     find_clearance(first, count);
-    const Way way{start, step, static_cast<double>(count), static_cast<double>(heap_.outside),
-                  static_cast<double>(heap_.inside)};
-    const Ring* const rings = stack_.rings().data();
-    in_packs([=, b = &block_, last = std::min(first + count + apart_ - 1, stack_.size() - 1),
-              sign = heap_.up ? 1.0 : -1.0, apart = apart_, spare = steepest_mm_,
-              most = largest2](auto n) CLAYSTACK_INLINE {
-      measure<n>(*b, rings, first, last, count, apart);
-      divide<n>(*b, count, way, sign, apart, spare, most);
-    });
+    walls_.cover(stack_, first, first + count);
+    const auto single = [](double x) { return static_cast<float>(x); };
+    const double sign = heap_.up ? 1.0 : -1.0;
+    const Way way{single(start),
+                  single(sign * step),
+                  single(faces),
+                  single(faces + static_cast<double>(count)),
+                  sign * static_cast<double>(heap_.outside),
+                  sign * static_cast<double>(heap_.inside)};
+    const Rows rows{walls_.outer(first), walls_.inner(first), walls_.thickness(first),
+                    walls_.apart(), single(steepest_mm_)};
+    in_packs([=, b = &block_](auto n) CLAYSTACK_INLINE { divide<n>(*b, rows, count, way); });
   }
 
   /// How far each ring may grow before it stands in the tool [mm]; one that is not beside it: a
@@ -286,69 +231,55 @@ class Heaving {
         const auto surface =
             rough_roots<n>(doubles_of(outside ? pack.outer2 : pack.inner2) * kMm2PerQuantum);
         const Doubles<n> near = outside ? d - radius - surface : surface - (d + radius);
-        store(to + k, radius < 0.0 ? all_of<Doubles<n>>(kFar) : greater(near, 0.0));
+        const Doubles<n> far = all_of<Doubles<n>>(double{kFar});
+        store(to + k, floats(Doubles<n>(radius < 0.0 ? far : greater(near, 0.0))));
       }
     });
   }
 
-  /// As much of what is carried as ring i takes.
+  /// As much of what is carried as ring i takes, of both surfaces the same part: that for which
+  /// there is room. What a bore does not hold goes on; from where there is none it lies outside.
   void place(std::size_t i, std::size_t k) noexcept {
     const Ring& ring = stack_.rings()[i];
-    if (carry_.inside > ring.inner2) {  // a bore holds no more than itself
-      carry_.outside += carry_.inside - ring.inner2;
-      carry_.inside = ring.inner2;
-    }
-    double* const wall = block_.wall() + k;
-    const double least = std::min(*(wall - apart_), wall[apart_]);
-    const double room = least + steepest_mm_ - *wall;
+    if (ring.inner2 == 0) carry_ = {0, carry_.inside + carry_.outside};
+    float* const wall = walls_.thickness(i);
+    const float thinner = std::min(*(wall - walls_.apart()), wall[walls_.apart()]);
+    const double room = thinner + steepest_mm_ - *wall;
     if (!(room > 0.0)) return;
-    const double R = rough_root(block_.outer2[k] * kMm2PerQuantum);
-    const double r = rough_root(block_.inner2[k] * kMm2PerQuantum), clear = block_.clear[k];
-    double out = 0.0, in = 0.0;
-    const Portion taken = fitting(room, clear, R, r, out, in);
-    const Quanta inside = writer_.put_inside(i, taken.inside);
-    const Quanta outside = writer_.put_outside(i, taken.outside);
+    // No more than these, however small the radii are.
+    const double out =
+        0.5 * kMm2PerQuantum * static_cast<double>(carry_.outside) / *walls_.outer(i);
+    const double in =
+        kMm2PerQuantum * static_cast<double>(carry_.inside) / (*walls_.inner(i) + 1e-20);
+    const bool presses_outside = contact_.side == Side::compressive;
+    const double clear = block_.clear[k], part = std::min(1.0, room / (out + in));
+    const auto part_of = [](double share, Quanta q) {
+      return std::min(static_cast<Quanta>(share * static_cast<double>(q)), q);
+    };
+    const double out_part = presses_outside ? std::min(part, clear / out) : part;
+    const double in_part = presses_outside ? part : std::min(part, clear / in);
+    static const Quanta least = quanta_from_radius(kLeastBoreMm);
+    const Quanta room_inside = std::max<Quanta>(ring.inner2 - least, 0) / 2;
+    const Quanta inside =
+        writer_.put_inside(i, std::min(part_of(in_part, carry_.inside), room_inside));
+    const Quanta outside = writer_.put_outside(i, part_of(out_part, carry_.outside));
     carry_.inside -= inside;
     carry_.outside -= outside;
     placed_ += inside + outside;
-    *wall += out + in;
-  }
-
-  /// The part of what is carried for which there is room, in the same proportion.
-  [[nodiscard]] Portion fitting(double room, double clear, double R, double r, double& out,
-                                double& in) const noexcept {
-    const double outside2 = static_cast<double>(carry_.outside) * kMm2PerQuantum;
-    const double inside2 = static_cast<double>(carry_.inside) * kMm2PerQuantum;
-    // No root where there is plenty of room.
-    out = 0.5 * outside2 / R;
-    in = inside2 > 0.0 ? inside2 / r : 0.0;
-    if (out + in <= std::min(room, clear)) return carry_;
-    out = std::sqrt(R * R + outside2) - R;
-    in = inside2 > 0.0 ? r - std::sqrt(std::max(r * r - inside2, 0.0)) : 0.0;
-    const bool presses_outside = contact_.side == Side::compressive;
-    const double most_out = presses_outside ? std::min(out, clear) : out;
-    const double most_in = presses_outside ? in : std::min(in, clear);
-    if (out + in <= room && out <= most_out && in <= most_in) return carry_;
-    const double part = out + in > room ? room / (out + in) : 1.0;
-    out = std::min(out * part, most_out);
-    in = std::min(in * part, most_in);
-    const auto least = [](double mm2, Quanta most) {
-      return std::min(quanta_from_mm2(std::max(mm2, 0.0)), most);
-    };
-    return {least(in * (2.0 * r - in), carry_.inside),
-            least(out * (2.0 * R + out), carry_.outside)};
+    *wall += static_cast<float>(out_part * out + in_part * in);
   }
 
   const Tool& tool_;
   const ClayStack& stack_;
+  Walls& walls_;
   const Contact& contact_;
   StackWriter& writer_;
   const Heap& heap_;
   double h_;
-  std::size_t apart_;   ///< rings between which a slope is measured
-  double steepest_mm_;  ///< growth over them
+  double steepest_mm_;  ///< growth over `Walls::apart` rings
   double hip_y_, from_mm_, per_reach_;
-  bool reached_end_ = false;  ///< the whole heap is shared out
+  std::size_t first_face_ = 0;  ///< lower or upper face of the first ring on the way
+  bool reached_end_ = false;    ///< the whole heap is shared out
   Portion carry_;
   Quanta placed_ = 0;
   Block block_;
@@ -363,9 +294,10 @@ double heave_reach(const Tool& tool, const ClayStack& stack, const Band& band) n
   return std::clamp(reach, stack.ring_height_mm(), kLongestShellMm);
 }
 
-Quanta heave(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
-             const Band& band, const Heap& heap, StackWriter& writer) noexcept {
-  return Heaving(tool, stack, hip_y, contact, band, heap, writer).run();
+Quanta heave(const Tool& tool, const ClayStack& stack, Walls& walls, double hip_y,
+             const Contact& contact, const Band& band, const Heap& heap,
+             StackWriter& writer) noexcept {
+  return Heaving(tool, stack, walls, hip_y, contact, band, heap, writer).run();
 }
 
 }  // namespace clay

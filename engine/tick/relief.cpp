@@ -6,10 +6,11 @@
 namespace clay {
 namespace {
 
-constexpr int kSamples = 512;  // of a profile
+constexpr int kSamples = 512;       // of a profile
+constexpr double kCutStepMm = 1.0;  // so high a step of its own shape a cutter leaves
 
 Cone cone_of(const Tool& tool, const Shoulders& shoulders, double h, double hip_y, const Band& band,
-             const Contact& contact, bool up) noexcept {
+             const Contact& contact, bool up, double step_mm) noexcept {
   Cone cone{.outside = contact.side == Side::compressive, .up = up};
   const double shoulder = hip_y + (up ? shoulders.high_mm : shoulders.low_mm);
   const double from = up ? std::min(shoulder, band.high_mm) : std::max(shoulder, band.low_mm);
@@ -22,7 +23,7 @@ Cone cone_of(const Tool& tool, const Shoulders& shoulders, double h, double hip_
   cone.beside = static_cast<std::size_t>(ring);
   // On the tool, not on the clay: a ring that an end has just entered still stands far out.
   const double out = tool.radius(cone.from_mm - hip_y);
-  cone.base_mm = contact.axis_distance_mm + (cone.outside ? -out : out);
+  cone.base_mm = contact.axis_distance_mm + (cone.outside ? step_mm - out : out - step_mm);
   return cone;
 }
 
@@ -88,13 +89,13 @@ Shoulders shoulders_of(const Tool& tool) { return {end_of(tool, false), end_of(t
 std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoulders,
                                     const ClayStack& stack, const ToolState& tool, const Band& band,
                                     const Squeeze& squeeze, std::span<ToolRemoval> removals,
-                                    std::size_t which) noexcept {
+                                    std::size_t which, bool trim) noexcept {
   Contact& contact = removals[which].contact;
   TouchedRings& rings = contact.rings;
   const double h = stack.ring_height_mm(), d = contact.axis_distance_mm, hip_y = tool.hip_mm.y;
   std::array<Cone, 2> cones;
   for (const bool up : {false, true}) {
-    Cone cone = cone_of(plan.tool, shoulders, h, hip_y, band, contact, up);
+    Cone cone = cone_of(plan.tool, shoulders, h, hip_y, band, contact, up, trim ? kCutStepMm : 0.0);
     std::size_t i = cone.beside;
     while (next(i, up, stack.size()) && rings.has(i)) {
       double& depth = rings.depth(i);

@@ -44,12 +44,13 @@ struct Cone {
 };
 
 /// The cones at the lower and the upper end of one of the contacts, which has given way. What
-/// stands in them takes more from the rings that the tool touches, and lessens their depth.
+/// stands in them takes more from the rings that the tool touches, and lessens their depth. Those
+/// of a cutter begin 1 mm inside the clay: it leaves small steps of its own shape, at a lip.
 [[nodiscard]] std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoulders,
                                                   const ClayStack& stack, const ToolState& tool,
                                                   const Band& band, const Squeeze& squeeze,
                                                   std::span<ToolRemoval> removals,
-                                                  std::size_t which) noexcept;
+                                                  std::size_t which, bool trim) noexcept;
 /// Takes what stands in a cone beyond the contact, never through the minimum wall, nor where there
 /// is no bore. Returns the clay.
 WideQuanta relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack,

@@ -33,67 +33,37 @@ Wall wall_at(const ClayStack& stack, double up_mm) noexcept {
 
 constexpr std::size_t kRows = 32;
 
-/// How stiff rings are, from 0 (pliant) to 1 (solid).
+/// How stiff rings are, from 0 (pliant) to 1 (solid): in sum and at most.
 struct Stiffness {
-  double sum;  ///< at least that of the rings
-  double most;
+  float sum, most;
 };
-Stiffness stiffness_of(const Ring* rings, std::size_t count) noexcept {
+Stiffness stiffness_of(const float* outer, const float* inner, std::size_t count) noexcept {
   Stiffness stiffness{};
   in_packs([=, to = &stiffness](auto n) CLAYSTACK_INLINE {
-    Doubles<n> sum{}, most{};
-    for (std::size_t k = 0; k < count; k += n) {
-      const RingPack<n> pack = load_rings<n>(rings + k, count - k);
-      const Doubles<n> stiff = 1.0 - pliancy(doubles_of(pack.outer2), doubles_of(pack.inner2));
+    using F = TwiceFloats<n>;
+    F sum{}, most{};
+    for (std::size_t k = 0; k < count; k += 2 * n) {
+      const F bore = load_floats<n>(inner + k) / load_floats<n>(outer + k);
+      const F row = load_floats<n>(&kFloatLevels[0]) + static_cast<float>(k);
+      const F stiff = row < static_cast<float>(count) ? 1.0f - pliancy(F(bore * bore)) : F{};
       sum += stiff;
       most = greater(most, stiff);
     }
-    for (std::size_t k = 0; k < n; ++k) {
-      to->sum += sum[k];
-      to->most = greater(to->most, double{most[k]});
-    }
+    for (std::size_t k = 0; k < 2 * n; ++k) to->sum += sum[k];
+    to->most = most_of(most);
   });
   return stiffness;
 }
 
-/// Whether all these rings are pliant, as nearly all of a wall are.
-bool all_pliant(const Ring* rings, std::size_t count) noexcept {
-  bool pliant = false;
-  in_packs([=, to = &pliant](auto n) CLAYSTACK_INLINE {
-    Quantas<n> spare{};  // negative if one of them is
-    for (std::size_t k = 0; k < count; k += n) {
-      const RingPack<n> pack = load_rings<n>(rings + k, count - k);
-      spare |= spare_bore(pack.outer2, pack.inner2);
-    }
-    *to = !any(spare < 0);
-  });
-  return pliant;
-}
-
 /// What each of these rings adds to a stop: nothing where it is pliant.
-CLAYSTACK_INLINE inline void stops_of(const Ring* rings, std::size_t count, double per_stop,
-                                      double* stops) noexcept {
-  for (std::size_t k = 0; k < count; ++k) {
-    const Ring ring = rings[k];
-    const double pliant = pliancy(lane_double(ring.outer2), lane_double(ring.inner2));
-    stops[k] = spare_bore(ring.outer2, ring.inner2) < 0 ? per_stop * (1.0 - pliant) : 0.0;
-  }
-}
-
-/// True only if none of these rings stops the wall and, with a foot to seek, none is solid.
-/// `nearest`: the ring beside the band, which is usually the first stiff one, so it is asked first.
-bool bends_freely(std::span<const Ring> rings, const Ring& nearest, double per_stop,
-                  bool seeks_foot) noexcept {
-  if (spare_bore(nearest.outer2, nearest.inner2) >= 0 && all_pliant(rings.data(), rings.size()))
-    return true;
-  const Stiffness stiffness = stiffness_of(rings.data(), rings.size());
-  return stiffness.sum * per_stop < 0.999999 && !(seeks_foot && stiffness.most >= 1.0);
+void stops_of(const Ring* rings, std::size_t count, double per_stop, double* stops) noexcept {
+  for (std::size_t k = 0; k < count; ++k) stops[k] = per_stop * (1.0 - pliancy(rings[k]));
 }
 
 /// How far the wall is free to bend from an end of the band: to the floor, to a solid part, or
 /// farther than `most`. `foot_mm`: the top of the first solid ring below, if there is one.
-double free_length(const ClayStack& stack, double end_mm, bool up, double most, double stop,
-                   double* foot_mm = nullptr) noexcept {
+double free_length(const ClayStack& stack, Walls& walls, double end_mm, bool up, double most,
+                   double stop, double* foot_mm = nullptr) noexcept {
   const double h = stack.ring_height_mm(), per_stop = 1.0 / stop;
   const auto rings = stack.rings();
   const double level = std::clamp(end_mm / h, 0.0, static_cast<double>(rings.size()));
@@ -102,8 +72,12 @@ double free_length(const ClayStack& stack, double end_mm, bool up, double most, 
   // Most walls have no stop there. The loop below sees two rings less; nearly a stop is left to it.
   const auto rings_seen = static_cast<std::size_t>(most / h) + 3;
   if (const std::size_t seen = std::min(rings_seen, there); up || seen == rings_seen) {
-    const std::span some = rings.subspan(up ? first : first + 1 - seen, seen);
-    if (bends_freely(some, rings[first], h * per_stop, foot_mm != nullptr)) return most;
+    const std::size_t from = up ? first : first + 1 - seen;
+    walls.cover(stack, from, from + seen);
+    const Stiffness stiffness = stiffness_of(walls.outer(from), walls.inner(from), seen);
+    const bool solid = foot_mm != nullptr && stiffness.most >= 1.0f;
+    // Far enough from a stop for sums of any order.
+    if (static_cast<double>(stiffness.sum) * h * per_stop < 0.99 && !solid) return most;
   }
   const double within = level - static_cast<double>(first);
   double piece = h * (up ? 1.0 - within : within);  // of the ring that the end lies in
@@ -112,7 +86,7 @@ double free_length(const ClayStack& stack, double end_mm, bool up, double most, 
     if (done >= there) return up ? most : length;  // nothing above the rim holds the wall
     const std::size_t some = std::min(kRows, there - done);
     const Ring* const from = rings.data() + (up ? first + done : first + 1 - done - some);
-    in_lanes([=, to = stops]() CLAYSTACK_INLINE { stops_of(from, some, h * per_stop, to); });
+    stops_of(from, some, h * per_stop, stops);
     if (done == 0) stops_of(&rings[first], 1, piece * per_stop, &stops[up ? 0 : some - 1]);
     for (std::size_t k = 0; k < some && length < most; ++k) {
       const std::size_t ring = up ? first + done + k : first - done - k;
@@ -152,21 +126,21 @@ double trailing(double along_mm_s, double into_mm_s, double thinness) noexcept {
 
 }  // namespace
 
-void hold_foot(const Shell& shell, double h, std::size_t first, std::span<double> by) noexcept {
+void hold_foot(const Shell& shell, double h, std::size_t first, std::span<float> by) noexcept {
   const double start = (static_cast<double>(first) + 0.5) * h;
   const double held_to = shell.foot_mm + 2.0 * shell.root_mm;  // `hold` is 1 well below that
   for (std::size_t k = 0; k < by.size(); ++k) {
     const double up = start + static_cast<double>(k) * h;
     if (up > held_to) return;
-    by[k] *= shell.hold(up);
+    by[k] *= static_cast<float>(shell.hold(up));
   }
 }
 
-Shell shell_at(const ClayStack& stack, const Band& band, double min_wall_mm, double upward_mm_s,
-               double into_mm_s) noexcept {
+Shell shell_at(const ClayStack& stack, Walls& walls, const Band& band, double min_wall_mm,
+               double upward_mm_s, double into_mm_s) noexcept {
   Shell shell;
   const Wall wall = wall_at(stack, band.peak_mm);
-  const double pliant = pliancy(wall.outer * wall.outer, wall.inner * wall.inner);
+  const double bore = wall.inner / wall.outer, pliant = pliancy(bore * bore);
   if (!(pliant > 0.0 && band.give_mm > 0.0)) return shell;
   const double h = stack.ring_height_mm(), R = wall.outer, w = R - wall.inner;
   const double length = std::min(std::sqrt(R * w), kLongestShellMm);
@@ -174,11 +148,11 @@ Shell shell_at(const ClayStack& stack, const Band& band, double min_wall_mm, dou
                rim = std::max(stack.height_mm() - band.high_mm, 0.0);
   const double hinge_mm = 0.25 * w;
   double foot = foot_of(stack, band);
-  const double below =
-      free_length(stack, band.low_mm, false, length, hinge_mm, foot > kNoFoot ? nullptr : &foot);
+  const double below = free_length(stack, walls, band.low_mm, false, length, hinge_mm,
+                                   foot > kNoFoot ? nullptr : &foot);
   shell.foot_mm = foot;
   shell.root_mm = std::max(kRoot * w, h);
-  const double above = free_length(stack, band.high_mm, true, length, hinge_mm);
+  const double above = free_length(stack, walls, band.high_mm, true, length, hinge_mm);
 
   const double thinness = w / R;
   const double behind = trailing(upward_mm_s, into_mm_s, thinness);

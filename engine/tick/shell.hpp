@@ -4,6 +4,7 @@
 #include "claystack/engine/clay.hpp"
 #include "engine/clay/packs.hpp"
 #include "engine/tick/band.hpp"
+#include "engine/tick/walls.hpp"
 
 #include <cstddef>
 #include <span>
@@ -36,24 +37,20 @@ struct Shell {
 
 /// A wall moves less near the solid clay that it stands on: so do the rings from `first` on.
 void hold_foot(const Shell& shell, double ring_height_mm, std::size_t first,
-               std::span<double> by_mm) noexcept;
+               std::span<float> by_mm) noexcept;
 
 /// By how much a ring may move as part of a shell: 0 where it is solid or nearly so (r < 0.2 R),
 /// 1 from r = 0.4 R. Its hoops are no longer thin there.
+/// `bore2`: (r / R)^2.
 template <class Number>
-[[nodiscard]] CLAYSTACK_INLINE inline Number pliancy(Number outer2, Number inner2) noexcept {
-  constexpr double kStiff = 0.04, kThin = 0.15625;  // (r / R)^2, so that no root is needed
-  const Number fade = (inner2 / outer2 - kStiff) * (1.0 / (kThin - kStiff));
-  return lesser(greater(fade, Number{} + 0.0), Number{} + 1.0);
+[[nodiscard]] CLAYSTACK_INLINE inline Number pliancy(Number bore2) noexcept {
+  constexpr float kStiff = 0.04f, kThin = 0.15625f;
+  const Number fade = (bore2 - kStiff) * (1.0f / (kThin - kStiff));
+  const Number positive = fade > 0.0f ? fade : Number{};
+  return positive < 1.0f ? positive : Number{} + 1.0f;
 }
 [[nodiscard]] inline double pliancy(const Ring& ring) noexcept {
-  return pliancy(static_cast<double>(ring.outer2), static_cast<double>(ring.inner2));
-}
-
-/// If it is not negative, `pliancy` is 1; needs no division. [quanta]
-template <class Quantum>
-[[nodiscard]] CLAYSTACK_INLINE inline Quantum spare_bore(Quantum outer2, Quantum inner2) noexcept {
-  return inner2 - ((outer2 >> 3) + (outer2 >> 5) + (outer2 >> 9));  // of kThin and a little more
+  return pliancy(static_cast<double>(ring.inner2) / static_cast<double>(ring.outer2));
 }
 
 /// Limit analysis of a plastic cylinder under a ring load (Tresca, hinge circles; moment M0 =
@@ -62,7 +59,7 @@ template <class Quantum>
 /// punch that squeezes the clay aside, Q_i = (2 + pi) / 2 sigma c, are two yielding mechanisms in
 /// series under one force, each with a rate ~ (Q / Q_k)^n: hence the share. What the tool leaves
 /// behind on its way, at these speeds upward and into the wall, keeps its place.
-[[nodiscard]] Shell shell_at(const ClayStack& stack, const Band& band, double min_wall_mm,
-                             double upward_mm_s, double into_mm_s) noexcept;
+[[nodiscard]] Shell shell_at(const ClayStack& stack, Walls& walls, const Band& band,
+                             double min_wall_mm, double upward_mm_s, double into_mm_s) noexcept;
 
 }  // namespace clay

@@ -55,15 +55,17 @@ class Shift {
   /// Lays the wall's motion about a band. `limit(first, by)` may change how far the rings from
   /// `first` on move [mm].
   template <class Limit>
-  void lay(const ClayStack& stack, const Band& band, const Shell& shell, const Push& push,
-           Limit limit) noexcept {
+  void lay(const ClayStack& stack, Walls& walls, const Band& band, const Shell& shell,
+           const Push& push, Limit limit) noexcept {
     begin(stack, band, shell);
+    walls.cover(stack, from_, to());
     for (std::size_t first = from_; first < to(); first += kRows) {
-      alignas(kPackBytes) double by[kRows];
+      alignas(kPackBytes) float by[kRows];
       const std::size_t count = std::min(kRows, to() - first);
       bend(stack.ring_height_mm(), band, shell, first, count, by);
-      limit(first, std::span<double>(by, count));
-      move(stack, push, first, count, by);
+      limit(first, std::span(by).first(count));
+      std::fill(by + count, by + in_packs_of(count), 0.0f);
+      move(walls, push, first, count, by);
     }
     settle(stack);
   }
@@ -71,13 +73,11 @@ class Shift {
  private:
   static constexpr std::size_t kRows = 128;
   void begin(const ClayStack& stack, const Band& band, const Shell& shell) noexcept;
-  static constexpr std::size_t kBent = 32;  // distances are rounded from the first of these on
-  /// To and from whole packs of rows.
   static void bend(double h, const Band& band, const Shell& shell, std::size_t first,
-                   std::size_t count, double* by) noexcept;
-  /// `by` becomes less where the wall is not thin.
-  void move(const ClayStack& stack, const Push& push, std::size_t first, std::size_t count,
-            double* by) noexcept;
+                   std::size_t count, float* by) noexcept;
+  /// `by`, of whole packs: less where the wall is not thin.
+  void move(const Walls& walls, const Push& push, std::size_t first, std::size_t count,
+            const float* by) noexcept;
   void settle(const ClayStack& stack) noexcept;
 
   std::size_t from_ = 0, count_ = 0;

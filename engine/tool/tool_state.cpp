@@ -7,6 +7,12 @@ namespace clay {
 namespace {
 
 constexpr std::int64_t kLongestStepUs = 50'000;
+constexpr std::int64_t kSlowUs = kClockPeriodUs / 3;
+
+/// Thirds of periods that have ended by a time, from some other time on.
+std::int64_t thirds_by(std::int64_t time_us) noexcept {
+  return time_us / kSlowUs - (time_us % kSlowUs < 0 ? 1 : 0);
+}
 
 // Not (|x| > limit): NaN must fail.
 bool within(double mm) noexcept { return std::abs(mm) <= kFarthestMm; }
@@ -26,11 +32,15 @@ ToolState ToolTracker::advance(const Pose& pose, double widest_gap_mm) noexcept 
     state.dt_clamped = elapsed > static_cast<std::uint64_t>(kLongestStepUs);
     state.dt_s =
         1e-6 * static_cast<double>(std::min(elapsed, static_cast<std::uint64_t>(kLongestStepUs)));
+    constexpr std::int64_t kMostThirds = kLongestStepUs / kSlowUs;
+    const std::int64_t thirds = thirds_by(pose.time_us) - thirds_by(last_.time_us);
+    state.slow_s = 1e-6 * static_cast<double>(kSlowUs * std::min(thirds, kMostThirds));
     state.moved_mm = p - last_.position_mm;
     if (state.moved_mm.y != 0.0) upward_ = state.moved_mm.y > 0.0;
   }
   last_ = pose;
   has_last_ = true;
+  state.phase_s = 1e-6 * static_cast<double>(pose.time_us % kClockPeriodUs);
   state.hip_mm = p;
   state.upward = upward_;
   state.trim = pose.trim;

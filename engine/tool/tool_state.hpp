@@ -1,16 +1,23 @@
 #pragma once
 #include "claystack/engine/tool.hpp"
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 
 namespace clay {
 
 inline constexpr double kFarthestMm = 1e6;
 
+/// Effects that take turns, or that are slow, follow the clock of the poses, so that a pot need not
+/// remember when they were due. Poses later by whole periods are the same throw.
+inline constexpr std::int64_t kClockPeriodUs = 9'000;
+
 /// A valid pose, with the data derived from its predecessors.
 struct ToolState {
   glm::dvec3 hip_mm{0.0};
-  double dt_s = 0.0;  ///< since the last pose; 0 for the first, at most 0.05
+  double dt_s = 0.0;     ///< since the last pose; 0 for the first, at most 0.05
+  double phase_s = 0.0;  ///< of the pose, in its period of the clock
+  double slow_s = 0.0;   ///< whole thirds of periods that have ended since the last pose
   /// Since the last pose [mm]; zero for the first.
   glm::dvec3 moved_mm{0.0};
   bool upward = true;  ///< direction of clay flow (section 5.1)

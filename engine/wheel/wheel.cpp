@@ -228,6 +228,8 @@ StepReport tick(State& s, const Pose& pose) noexcept {
   for (int part = 1; part <= parts && !s.failure; ++part) {
     ToolState there = tool;
     there.hip_mm -= static_cast<double>(parts - part) * tool.moved_mm;
+    there.phase_s -= static_cast<double>(parts - part) * tool.dt_s;
+    if (part < parts) there.slow_s = 0.0;
     if (parts > 1) removals = touch<stages>(s, there);
     press<stages>(s, there, removals, report);
   }

@@ -53,26 +53,25 @@ TEST(MouseStrokes, LeaveOpenPotsOfTheWidthAskedForWithTheRules) {
   }
 }
 
-/// A stroke that presses leaves no step that a printer would have to bridge.
+/// No stroke leaves a step that a printer would have to bridge, and no cut does.
 TEST(MouseStrokes, LeaveNoLedgesWithTheRules) {
   const WorkRecord& work = mouse_work();
   const auto pots = thrown_again(work, ClaySpec{}).value();
-  int pressed = 0;
+  int cut = 0;
   for (std::size_t node = 1; node < pots.size(); ++node) {
-    if (cuts(work, node)) continue;
-    ++pressed;
+    cut += cuts(work, node) ? 1 : 0;
     EXPECT_LT(bench::measure(pots[node].stack).ledge_mm, 2.0) << node;
   }
-  EXPECT_GE(pressed, 14);
+  EXPECT_GE(cut, 2);
 }
 
-/// But for a hole pushed into the solid lump (stroke 2).
+/// But for a rib that is pressed 20 mm into a thick wall within 0.3 s (stroke 12).
 TEST(MouseStrokes, DoNotDependOnTheRingHeight) {
   const WorkRecord& work = mouse_work();
   const auto pots = thrown_again(work, ClaySpec{}).value();
   const auto fine = thrown_again(work, ClaySpec{}, 2).value();
   for (std::size_t node = 1; node < pots.size(); ++node) {
-    const double bound = node == 2 ? 0.25 : 0.1;
+    const double bound = node == 12 ? 0.2 : 0.1;
     EXPECT_LT(mean_difference_mm(pots[node].stack, fine[node].stack), bound) << node;
   }
 }

@@ -28,6 +28,25 @@ TEST(ToolTracker, MeasuresTimeAndClampsIt) {
   EXPECT_TRUE(late.dt_clamped);
 }
 
+/// Over a second and at any rate, each period of 3 ms is counted once, and the phase is that of the
+/// clock.
+TEST(ToolTracker, CountsPeriodsOfTheClockOnce) {
+  for (const int step_us : {250, 999, 1000, 8000, 16'667}) {
+    ToolTracker tracker;
+    double slow_s = 0.0;
+    std::int64_t us = -500'000;
+    for (tracker.advance(at(us, 0)); us < 500'000;) {
+      const ToolState state = tracker.advance(at(us += step_us, 0));
+      slow_s += state.slow_s;
+      const double phase = std::remainder(1e-6 * static_cast<double>(us) - state.phase_s, 0.009);
+      EXPECT_NEAR(phase, 0.0, 1e-9) << us;
+    }
+    // From the last multiple of 3 ms before -0.5 s to the last before the end.
+    const auto end_ms = static_cast<double>(us / 3000 * 3);
+    EXPECT_NEAR(slow_s, 1e-3 * (end_ms + 501.0), 1e-9) << step_us;
+  }
+}
+
 TEST(ToolTracker, RefusesInvalidPoses) {
   ToolTracker tracker;
   ASSERT_TRUE(tracker.advance(at(0, 5)).valid);

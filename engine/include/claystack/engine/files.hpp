@@ -134,7 +134,8 @@ struct WorkRecord {
 [[nodiscard]] std::vector<std::size_t> way_to(std::span<const WorkNode> nodes, std::size_t node);
 /// Makes `node` the current one; redo from each of its ancestors leads to it.
 void go_to(WorkRecord& work, std::size_t node);
-/// The same poses, shifted so that the first is at time 0.
+/// The same poses, shifted by whole periods of the clock (9 ms) so that the first is in the first
+/// of them: the throw stays the same.
 [[nodiscard]] std::vector<Pose> from_zero(std::span<const Pose> poses);
 
 /// The work that was read, and the state of its end.
