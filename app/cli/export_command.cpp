@@ -289,6 +289,8 @@ Result<int> export_pot(ExportCommand& command, Console console) {
   std::optional<std::string> thumbnail;
   pack_pot(*pot, command.request, thumbnail);
   set_report(*pot, command.request, *copies);
+  if (console.verbose && !pot->collapse)
+    command.request.options.wall_spacing_mm = solid::kWallTableSpacingMm;
   const auto report = solid::export_files(*pot, command.request,
                                           [&](std::string_view stage) { progress.stage(stage); });
   if (!report) return tl::make_unexpected(report.error());

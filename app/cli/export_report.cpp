@@ -199,6 +199,8 @@ void print_solid(const Console& console, const ExportReport& report) {
                   report.volume.solid_mm3 / 1000.0, report.collapsed ? "with overlap " : "",
                   report.volume.error_relative, report.walls.min_wall_mm,
                   report.walls.thinnest.from.y, report.size.chordal_error_mm));
+  if (!report.walls.parts.empty())
+    console.detail("thinnest places: " + solid::text_of(report.walls.parts));
   print_shrinkage(console, report);
   if (report.collapsed) print_collapse(console, *report.collapsed);
   print_smoothing(console, report);

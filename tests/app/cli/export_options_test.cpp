@@ -385,6 +385,18 @@ TEST_F(ExportOptions, JsonReplacesInvalidUtf8InNames) {
   EXPECT_TRUE(check.json().at("sound"));
 }
 
+TEST_F(ExportOptions, VerboseNamesTheThinnestPlaceOfWallAndLip) {
+  const auto parts = claystack("check --json " + pot).json().at("wall_parts");
+  ASSERT_EQ(parts.size(), 2u);
+  std::ostringstream text;
+  text << "thinnest places: wall " << std::fixed << std::setprecision(3)
+       << parts[0].at("min_wall_mm").get<double>() << " mm at a height of " << std::setprecision(1)
+       << parts[0].at("at_mm").at(1).get<double>() << " mm, lip ";
+  const Ran verbose = run("-v");
+  EXPECT_NE(verbose.out.find(text.str()), std::string::npos) << text.str() << verbose.out;
+  EXPECT_EQ(run("").out.find("thinnest places"), std::string::npos);
+}
+
 TEST_F(ExportOptions, WritesABinaryStlToStandardOutput) {
   ASSERT_EQ(run("").status, 0);
   const Ran streamed = claystack("export " + pot + " -");
