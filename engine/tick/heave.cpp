@@ -12,7 +12,9 @@ namespace {
 
 constexpr double kSteepest = 0.5;  // of a growth over the way along the wall
 constexpr std::size_t kRows = 64;
-constexpr float kMostOfRadius = 0.999f;  // of the largest; a share does not come to it
+// Of a bore as the tick finds it, of which a shift leaves a quarter at least; and of the largest
+// radius. A share takes no more.
+constexpr float kMostOfBore = 0.2f, kMostOfRadius = 0.999f;
 // No bore becomes narrower than this radius, or a hole would close and enclose a cavity.
 constexpr double kLeastBoreMm = 0.1;
 
@@ -90,7 +92,7 @@ CLAYSTACK_INLINE inline void divide(Block& b, const Rows& rows, std::size_t coun
     const F thinner = lesser(load_floats<n>(wall - rows.apart), load_floats<n>(wall + rows.apart));
     const F slope = thinner + rows.spare - load_floats<n>(wall);
     const F over = moved - lesser(slope, load_floats<n>(b.clear + k));
-    const F bore = inside > 0.0f ? inside - 0.5f * (inner * inner - kLeastBore2) : F{};
+    const F bore = inside > 0.0f ? inside - kMostOfBore * (inner * inner - kLeastBore2) : F{};
     const F wide = outer - kLargest;
     const F lacks = greater(over, greater(bore, wide));
     const F lack = moved > 0.0f ? lacks : F{}, row = load_floats<n>(&kFloatLevels[k]);

@@ -147,7 +147,8 @@ TEST(WorkFile, SplitsAnEndIntoStrokes) {
   EXPECT_EQ(work.nodes[2].parent, 1u);
   EXPECT_EQ(work.nodes[3].parent, 2u);
   EXPECT_EQ(work.nodes[2].poses.size(), 70u);
-  EXPECT_EQ(work.nodes[3].poses.front().time_us, 0);
+  // Whole periods of the clock, 9 ms, earlier.
+  EXPECT_EQ(work.nodes[3].poses.front().time_us, whole.nodes[1].poses[120].time_us % 9000);
   EXPECT_EQ(work.nodes[3].poses.front().position_mm, whole.nodes[1].poses[120].position_mm);
   EXPECT_EQ(work.nodes[2].taken, 3u);
   EXPECT_EQ(work.at, 2u);
