@@ -31,9 +31,9 @@ struct ExportChoices {
   std::string folder, name;
   double tolerance_mm = 0.02;
   solid::Smoothing smoothing = solid::Smoothing::fair;
-  std::optional<double> smooth_length_mm;  ///< of `fair`; 0: none; empty: the usual one
-  std::string process;                     ///< as for --process; empty: none
-  double min_wall_mm = 0.0;                ///< 0: the limit of the process, if there is one
+  std::optional<double> smooth_length_mm{};  ///< of `fair`; 0: none; empty: the usual one
+  std::string process;                       ///< as for --process; empty: none
+  double min_wall_mm = 0.0;                  ///< 0: the limit of the process, if there is one
   double shrinkage_percent = 0.0;
   std::string material{kWet.id};  ///< of a GLB, as for --material
   friend bool operator==(const ExportChoices&, const ExportChoices&) = default;
