@@ -18,6 +18,10 @@ using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 using Quadric = OpenMesh::Geometry::QuadricT<double>;
 
+/// Of the normals of two faces of a regular tetrahedron. A sharper edge is a fold, unless the mesh
+/// had one there.
+constexpr double kFoldCosine = -0.34;
+
 /// OpenMesh's decimater tests all edges of a vertex and then takes the one of the smallest error.
 /// Here the errors come first, so that mostly one edge is tested; the collapses are the same.
 class EdgeCollapse {
@@ -47,9 +51,14 @@ class EdgeCollapse {
     for (std::size_t pops = 0; !heap_.empty() && left > max_triangles; ++pops) {
       if (progress && pops % kReport == 0)
         progress(static_cast<double>(all - left) / static_cast<double>(all - max_triangles));
-      const HalfedgeHandle way = ways_[number(heap_.front())];
+      const VertexHandle next = heap_.front();
+      const HalfedgeHandle way = ways_[number(next)];
       heap_.pop_front();
       if (!may_collapse(way)) continue;
+      if (!keeps_faces_up(way)) {  // since a collapse beyond its neighbours
+        enter(next);
+        continue;
+      }
       around.clear();
       for_each_way_from(mesh_.from_vertex_handle(way),
                         [&](HalfedgeHandle out) { around.push_back(mesh_.to_vertex_handle(out)); });
@@ -175,7 +184,8 @@ class EdgeCollapse {
            mesh_.cw_rotated_halfedge_handle(mesh_.cw_rotated_halfedge_handle(way)) != way;
   }
 
-  /// No triangle that stays turns by 90 degrees or more when the start of `way` moves to its end.
+  /// No triangle that stays turns by 90 degrees or more when the start of `way` moves to its end,
+  /// and none folds over its neighbour. Small turns alone may add up to a fold.
   [[nodiscard]] bool keeps_faces_up(HalfedgeHandle way) {
     static const double least_cosine = std::cos(90.0 / 180.0 * M_PI);
     const VertexHandle gone = mesh_.from_vertex_handle(way);
@@ -184,13 +194,52 @@ class EdgeCollapse {
     const OpenMesh::Vec3d before = mesh_.point(gone);
     mesh_.set_point(gone, mesh_.point(mesh_.to_vertex_handle(way)));
     bool up = true;
+    double sharpest = 1.0;
     for_each_way_from(gone, [&](HalfedgeHandle out) {
       const FaceHandle face = mesh_.face_handle(out);
       if (!up || face == left || face == right) return;
-      up = dot(mesh_.normal(face), mesh_.calc_face_normal(face)) >= least_cosine;
+      const OpenMesh::Vec3d normal = mesh_.calc_face_normal(face);
+      up = dot(mesh_.normal(face), normal) >= least_cosine;
+      sharpest = std::min(sharpest, least_cosine_beside(out, normal, way));
     });
     mesh_.set_point(gone, before);
-    return up;
+    return up && (sharpest >= kFoldCosine || sharpest >= sharpest_around(gone));
+  }
+
+  /// The face beyond an edge, after the collapse of `way`: its two triangles are gone.
+  [[nodiscard]] FaceHandle face_beyond(HalfedgeHandle edge, HalfedgeHandle way) const {
+    const auto across = [&](HalfedgeHandle h) {
+      return mesh_.face_handle(mesh_.opposite_halfedge_handle(h));
+    };
+    const HalfedgeHandle back = mesh_.opposite_halfedge_handle(way);
+    const FaceHandle face = across(edge);
+    if (face == mesh_.face_handle(way)) return across(mesh_.next_halfedge_handle(way));
+    if (face == mesh_.face_handle(back)) return across(mesh_.prev_halfedge_handle(back));
+    return face;
+  }
+
+  /// The least cosine between the normal of the triangle of `out` and its neighbours, whose points
+  /// are where the collapse of `way` leaves them.
+  [[nodiscard]] double least_cosine_beside(HalfedgeHandle out, const OpenMesh::Vec3d& normal,
+                                           HalfedgeHandle way) const {
+    double least = 1.0;
+    for (const HalfedgeHandle edge :
+         {out, mesh_.next_halfedge_handle(out), mesh_.prev_halfedge_handle(out)})
+      least = std::min(least, dot(normal, mesh_.calc_face_normal(face_beyond(edge, way))));
+    return least;
+  }
+
+  /// The least cosine between neighbours around a vertex as it is.
+  [[nodiscard]] double sharpest_around(VertexHandle v) const {
+    double least = 1.0;
+    for_each_way_from(v, [&](HalfedgeHandle out) {
+      const auto& normal = mesh_.normal(mesh_.face_handle(out));
+      for (const HalfedgeHandle edge : {out, mesh_.next_halfedge_handle(out)}) {
+        const FaceHandle beyond = mesh_.face_handle(mesh_.opposite_halfedge_handle(edge));
+        least = std::min(least, dot(normal, mesh_.normal(beyond)));
+      }
+    });
+    return least;
   }
 
   void collapse(HalfedgeHandle way) {

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -104,6 +105,44 @@ TEST(Decimate, VaseAtATenthStaysSoundAndClose) {
   // Every remaining point is an original one.
   for (const glm::dvec3& p : coarse->mesh.points)
     ASSERT_NE(std::find(fine.points.begin(), fine.points.end(), p), fine.points.end());
+}
+
+/// A bowl whose lip is that of a thrown one.
+TriangleMesh bowl_with_lip(std::size_t segments) {
+  return revolve(
+      {{{{0.0, 0.0},    {34.0, 0.0},   {87.15, 88.4}, {87.17, 88.5}, {87.21, 88.7}, {87.26, 88.9},
+         {87.30, 89.1}, {87.25, 89.3}, {87.16, 89.5}, {87.00, 89.7}, {86.84, 89.9}, {86.68, 90.1},
+         {86.47, 90.3}, {86.25, 90.5}, {86.02, 90.7}, {85.71, 90.9}, {84.92, 91.1}, {84.92, 91.2},
+         {82.92, 91.2}, {82.92, 91.1}, {83.06, 90.9}, {82.71, 90.7}, {82.49, 90.5}, {82.27, 90.3},
+         {82.04, 90.1}, {81.88, 89.9}, {81.76, 89.7}, {81.64, 89.5}, {81.50, 89.3}, {81.36, 89.1},
+         {81.22, 88.9}, {81.12, 88.7}, {81.02, 88.5}, {80.97, 88.4}, {28.6, 7.0},   {0.0, 7.0}}}},
+      segments);
+}
+
+/// The least cosine between the normals of neighbouring triangles.
+double sharpest_cosine(const TriangleMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, glm::dvec3> beside;
+  double least = 1.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const auto& p = mesh.points;
+    const glm::dvec3 normal = glm::normalize(glm::cross(p[b] - p[a], p[c] - p[a]));
+    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+      beside[{from, to}] = normal;
+      if (const auto other = beside.find({to, from}); other != beside.end())
+        least = std::min(least, glm::dot(normal, other->second));
+    }
+  }
+  return least;
+}
+
+TEST(Decimate, FoldsNoTriangleOverItsNeighbour) {
+  const TriangleMesh fine = bowl_with_lip(120);
+  ASSERT_GT(sharpest_cosine(fine), -0.34);
+  for (const std::size_t share : {2, 3, 5, 8}) {
+    const auto coarse = decimate(fine, fine.triangles.size() / share);
+    ASSERT_TRUE(coarse) << coarse.error().message;
+    EXPECT_GE(sharpest_cosine(coarse->mesh), -0.34) << share;
+  }
 }
 
 TEST(Decimate, MeasuresTheErrorFromRemovedVertices) {
