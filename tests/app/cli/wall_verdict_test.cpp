@@ -77,8 +77,11 @@ TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
         !least.is_null() && 3.0 * wall < height) {
       EXPECT_GE(least, wall - 1e-4) << read_text(scene);
     }
-    // Smoothing respects a limit, so a wall near it may differ within the tolerance. Asks for a
-    // little less or a little more than there is.
+    // Smoothing respects a limit, so a wall near it may differ within the tolerance, and where it
+    // is faired less, by what fairing moved. Asks for a little less or a little more than there is.
+    double moved_mm = 0.0;
+    if (const auto json = plain.json(); json.contains("fairing"))
+      moved_mm = json.at("fairing").at("moved_mm");
     for (const double asked : {wall * (1.0 - 1e-9), wall * (1.0 + 1e-9)}) {
       std::ostringstream limit_text;
       limit_text << " --min-wall " << std::setprecision(17) << asked << ' ';
@@ -96,7 +99,8 @@ TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
       const auto bounds = proved.json().at("certificate").at("wall_mm");
       EXPECT_EQ(bounds.at(0), exported.json().at("min_wall_mm"));
       EXPECT_GE(bounds.at(1), bounds.at(0));
-      EXPECT_NEAR(exported.json().at("min_wall_mm"), wall, 0.02);
+      EXPECT_GE(exported.json().at("min_wall_mm"), wall - 0.02);
+      EXPECT_LE(exported.json().at("min_wall_mm"), wall + 0.02 + moved_mm);
     }
   }
   EXPECT_GE(2 * passed, pots());
