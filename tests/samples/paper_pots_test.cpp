@@ -165,8 +165,9 @@ Pot pot_of_200_rings(const std::string& sample) {
 class PotSize : public testing::TestWithParam<const char*> {};
 
 TEST_P(PotSize, TwoHundredRingsFitIntoFourKilobytesAndRoundedIntoOne) {
-  const Pot pot = pot_of_200_rings(GetParam());
+  Pot pot = pot_of_200_rings(GetParam());
   ASSERT_LT(pot.stack.size(), 210u);
+  pot.thrown_with.reset();  // some 400 bytes, however many rings there are
   const auto exact = write_pot(pot, PotEncoding::cbor).size();
   const auto rounded = write_pot(rounded_pot(pot, 0.001).value(), PotEncoding::cbor).size();
   RecordProperty("rings", static_cast<int>(pot.stack.size()));
