@@ -3,7 +3,7 @@
 
 const kHome = '/home/web_user';
 const kIdleMs = 500;       // interval of frames without input
-const kStoreMs = 1000;     // works and settings are stored at most this late
+const kStoreMs = 400;      // interval at which changes are stored
 const kMostLinkBytes = 8192;
 const kMeshes = /\.(stl|obj|ply|off|glb|drc|3mf|step|stp)$/i;
 const kShift = 1, kControl = 2, kAlt = 4;
