@@ -432,7 +432,7 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
              1e-3, 1e4);
 }
 
-/// What is required of it, and how that is proved.
+/// Requirements on the solid, and their proof.
 void add_demand_options(CLI::App* sub, const SharedCommand& command) {
   begin_group(*sub, "Demands and proof");
   command->walls.add_to(*sub);
@@ -451,7 +451,7 @@ void add_demand_options(CLI::App* sub, const SharedCommand& command) {
                 "Also run the skipped stages, and report the time [s] that skipping saves");
 }
 
-/// What the formats leave open.
+/// Choices within the formats.
 void add_format_options(CLI::App* sub, const SharedCommand& command) {
   begin_group(*sub, "Formats");
   sub->add_option("--step", command->step,

@@ -241,8 +241,8 @@ Result<std::vector<Slab>> slabs_of(const std::vector<Edge>& edges, const std::st
 }
 
 /// Gives one height to all points of nearly one height, and puts points near the axis on it. A
-/// horizontal that a program has turned or rounded is level no more, and would need very fine
-/// rings; a line beside the axis would be a bore.
+/// horizontal line that a program has turned or rounded is not quite level and would need very fine
+/// rings; a line beside the axis would become a bore.
 void straighten(std::vector<Line>& lines) {
   constexpr double kLevelMm = 1e-4;
   std::vector<double*> heights;

@@ -144,7 +144,7 @@ WideQuanta upward_part(WideQuanta amount, const Motion& motion, const ToolState&
   const double v = motion.upward_mm_s;
   const double up = 0.5 * (1.0 + v / std::sqrt(v * v + kSlowMmS * kSlowMmS));
   if (!(tool.dt_s > 0.0)) return (amount * static_cast<std::int64_t>(up * 0x1p30)) >> 30;
-  // Periods that have been upward by a moment.
+  // Time of upward flow up to a moment, in periods.
   const auto upward_by = [up](double periods) {
     const double whole = std::floor(periods);
     return whole * up + std::min(periods - whole, up);
@@ -213,7 +213,7 @@ WideQuanta relieve(const RulePress& press, std::span<const ToolRemoval> removals
   return removed;
 }
 
-/// Smears what each tool presses, once in a period.
+/// Smears what each tool presses, once in a third of a period.
 void smear_surfaces(const RulePress& press, std::span<const ToolRemoval> removals,
                     const RuleWork& work, const ClayStack& stack, StackWriter& writer) noexcept {
   const StepPlan& plan = press.plan;

@@ -12,16 +12,17 @@ namespace {
 
 constexpr double kSteepest = 0.5;  // of a growth over the way along the wall
 constexpr std::size_t kRows = 64;
-// Of a bore as the tick finds it, of which a shift leaves a quarter at least; and of the largest
-// radius. A share takes no more.
+// A share fills at most the first part of a bore, as it was before the shift, which leaves at least
+// a quarter of the bore. It goes to no ring beyond the second part of the largest radius.
 constexpr float kMostOfBore = 0.2f, kMostOfRadius = 0.999f;
 // No bore becomes narrower than this radius, or a hole would close and enclose a cavity.
 constexpr double kLeastBoreMm = 0.1;
 
-// A bore of radius r moves by no more than this part of x / r, if x of r^2 is filled, x <= r^2 / 2.
+// Filling x of r^2, x <= r^2 / 2, moves the surface of a bore of radius r by at most this times x /
+// r.
 constexpr double kBoreMoves = 0.586;
 
-/// What a heap is to some neighbouring rings.
+/// The shares of a heap for some neighbouring rings.
 struct Block {
   static constexpr std::size_t kAll = kRows + kWidestFloats;
   alignas(kPackBytes) double outside_to[kAll],
@@ -32,7 +33,7 @@ struct Block {
   std::size_t first_lack, lacks_end;           ///< outside of these rings all take their shares
 };
 
-/// The first of some rings: radii, and the walls that their slope is measured to.
+/// Radii and walls of neighbouring rings, from the first one on; see `Walls`.
 struct Rows {
   const float *outer, *inner, *wall;
   std::size_t apart;
@@ -239,8 +240,8 @@ class Heaving {
     });
   }
 
-  /// As much of what is carried as ring i takes, of both surfaces the same part: that for which
-  /// there is room. What a bore does not hold goes on; from where there is none it lies outside.
+  /// Places on ring i the part of the carried clay for which there is room, the same part on both
+  /// surfaces. Clay that a bore cannot hold is carried on; where there is no bore, it goes outside.
   void place(std::size_t i, std::size_t k) noexcept {
     const Ring& ring = stack_.rings()[i];
     if (ring.inner2 == 0) carry_ = {0, carry_.inside + carry_.outside};

@@ -7,7 +7,7 @@ namespace clay {
 namespace {
 
 constexpr int kSamples = 512;       // of a profile
-constexpr double kCutStepMm = 1.0;  // so high a step of its own shape a cutter leaves
+constexpr double kCutStepMm = 1.0;  // height of the step that a cutter may leave
 
 Cone cone_of(const Tool& tool, const Shoulders& shoulders, double h, double hip_y, const Band& band,
              const Contact& contact, bool up, double step_mm) noexcept {

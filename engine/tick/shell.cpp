@@ -33,7 +33,7 @@ Wall wall_at(const ClayStack& stack, double up_mm) noexcept {
 
 constexpr std::size_t kRows = 32;
 
-/// How stiff rings are, from 0 (pliant) to 1 (solid): in sum and at most.
+/// The stiffness of rings, from 0 (pliant) to 1 (solid): the sum and the maximum.
 struct Stiffness {
   float sum, most;
 };

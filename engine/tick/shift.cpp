@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMostSunk = 64;
 // A bore keeps half of its radius at least, however far a pose leaps.
 constexpr float kMostOfBore = 0.75f;
-// Of a radius, by more than which single precision is never wrong.
+// Bound of the relative error of a radius in single precision.
 constexpr float kRounding = 1e-6f;
 
 template <class Number>

@@ -26,9 +26,10 @@ class Walls {
   [[nodiscard]] const float* inner(std::size_t ring) const noexcept { return &inner_[row(ring)]; }
   [[nodiscard]] float* thickness(std::size_t ring) noexcept { return &thickness_[row(ring)]; }
 
-  /// Rings between which a slope is measured: over 0.17 mm, or it would depend on the height of
-  /// rings. So many more thicknesses before and behind those covered are known; beyond an end of
-  /// the stack, that of the end ring.
+  /// Number of rings over which a slope is measured: 0.17 mm, or one ring if that is more. Over
+  /// less, the limit of the slope would depend on the height of rings. `thickness` can be read for
+  /// as many rings below and above the covered ones. Beyond an end of the stack it is that of the
+  /// end ring.
   [[nodiscard]] std::size_t apart() const noexcept { return apart_; }
 
  private:

@@ -9,7 +9,7 @@ namespace {
 constexpr std::int64_t kLongestStepUs = 50'000;
 constexpr std::int64_t kSlowUs = kClockPeriodUs / 3;
 
-/// Thirds of periods that have ended by a time, from some other time on.
+/// Number of thirds of periods up to a time. Only differences of it have a meaning.
 std::int64_t thirds_by(std::int64_t time_us) noexcept {
   return time_us / kSlowUs - (time_us % kSlowUs < 0 ? 1 : 0);
 }

@@ -39,7 +39,7 @@ struct Wheel::State {
   std::optional<double> turned_mm;  // height of a pot that stands upside down
   ThrowSettings settings;
   std::optional<ThrowSettings> settings_before;  // of the pot that was put on the wheel
-  bool thrown = true;                            // false: a pot, still as it was put on the wheel
+  bool thrown = true;  // false: no pose yet on the pot that was put on the wheel
   std::optional<Failure> failure;
   glm::dvec3 failure_hip{0.0};
   StepReport (*tick)(State&, const Pose&) noexcept = nullptr;

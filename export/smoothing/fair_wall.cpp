@@ -14,8 +14,8 @@ namespace clay::solid::inline smoothing {
 namespace {
 
 constexpr double kLeastShare = 0.5;  ///< of the smallest radius of a stretch
-/// Of the tolerance, for the chords of a curve; the rest is for leaving out their points. Few edges
-/// remain if that is most of it.
+/// Part of the tolerance for the chords of a curve; the rest is for omitting their points. The
+/// smaller the part, the fewer edges remain.
 constexpr double kChordShare = 0.125;
 
 class FairWallMaker {

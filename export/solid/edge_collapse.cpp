@@ -18,8 +18,8 @@ using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 using Quadric = OpenMesh::Geometry::QuadricT<double>;
 
-/// Of the normals of two faces of a regular tetrahedron. A sharper edge is a fold, unless the mesh
-/// had one there.
+/// Cosine between the normals of two faces of a regular tetrahedron, -1/3, with a margin. A sharper
+/// edge is a fold, unless the mesh had one there.
 constexpr double kFoldCosine = -0.34;
 
 /// OpenMesh's decimater tests all edges of a vertex and then takes the one of the smallest error.
@@ -55,7 +55,7 @@ class EdgeCollapse {
       const HalfedgeHandle way = ways_[number(next)];
       heap_.pop_front();
       if (!may_collapse(way)) continue;
-      if (!keeps_faces_up(way)) {  // since a collapse beyond its neighbours
+      if (!keeps_faces_up(way)) {  // a collapse nearby has changed the faces
         enter(next);
         continue;
       }
