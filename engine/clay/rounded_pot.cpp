@@ -68,7 +68,6 @@ Result<Pot> rounded_pot(const Pot& pot, double precision_mm) {
         Pot result = pot;
         result.stack = std::move(stack);
         result.rim = {};
-        result.thrown_with.reset();  // it is not thrown on
         result.ledger = {.initial = result.stack.volume()};
         result.rounding = {precision_mm,
                            pot.rounding ? pot.rounding->exact_volume : pot.stack.volume()};

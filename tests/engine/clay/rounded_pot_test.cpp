@@ -76,8 +76,6 @@ RC_GTEST_PROP(RoundedPot, IsAValidPot, ()) {
   RC_ASSERT(rounded->rim == Rim{});
   back.rim = pot.rim;
   back.rounding.reset();
-  RC_ASSERT(!rounded->thrown_with);
-  back.thrown_with = pot.thrown_with;
   RC_ASSERT(back == pot);
   RC_ASSERT(rounded->stack.crown() == pot.stack.crown());
   RC_ASSERT(rounded->stack.max_rings() == pot.stack.max_rings());
