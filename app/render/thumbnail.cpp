@@ -123,7 +123,8 @@ struct Corner {
   float light = 0.0F;
 };
 
-/// Samples with depth; triangles of either orientation.
+/// Samples with depth; triangles that turn clockwise, as seen, are faces from behind: others hide
+/// them.
 class Canvas {
  public:
   explicit Canvas(int side)
@@ -134,15 +135,16 @@ class Canvas {
 
   void draw(const Corner& a, const Corner& b, const Corner& c) {
     const double area = cross(b.at - a.at, c.at - a.at);
-    if (!(std::abs(area) > 1e-12)) return;
+    if (!(area > 1e-12)) return;
     const auto [left, right] = reach(a.at.x, b.at.x, c.at.x);
     const auto [upper, lower] = reach(a.at.y, b.at.y, c.at.y);
     for (int y = upper; y <= lower; ++y)
       for (int x = left; x <= right; ++x) {
         const glm::dvec3 p(x + 0.5, y + 0.5, 0.0);
-        const double u = cross(c.at - b.at, p - b.at) / area,
-                     v = cross(a.at - c.at, p - c.at) / area, w = 1.0 - u - v;
-        if (u < 0.0 || v < 0.0 || w < 0.0) continue;
+        const double of_a = cross(c.at - b.at, p - b.at), of_b = cross(a.at - c.at, p - c.at);
+        if (of_a < 0.0 || of_b < 0.0) continue;  // most samples: before the quotients
+        const double u = of_a / area, v = of_b / area, w = 1.0 - u - v;
+        if (w < 0.0) continue;
         const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) +
                        static_cast<std::size_t>(x);
         const auto depth = static_cast<float>(u * a.at.z + v * b.at.z + w * c.at.z);
@@ -199,8 +201,9 @@ class Drawing {
       const std::array<Corner, 2> next{corner(band.from, d, band.normals[0], band.open[0], place),
                                        corner(band.to, d, band.normals[1], band.open[1], place)};
       if (k > 0) {
-        canvas_.draw(last[0], last[1], next[1]);
-        canvas_.draw(last[0], next[1], next[0]);
+        const bool left = band.side > 0.0;
+        canvas_.draw(last[0], left ? last[1] : next[1], left ? next[1] : last[1]);
+        canvas_.draw(last[0], left ? next[1] : next[0], left ? next[0] : next[1]);
       }
       last = next;
     }

@@ -206,7 +206,8 @@ struct Pot {
 /// The result is an independent pot: its ledger begins with the clay that it holds, nothing added,
 /// trimmed or outside, and `Pot::rounding` has the volume before. Crown, collapse, model and
 /// `thrown_with`, from which the export takes the smoothing, stay as they are; `Pot::rim`, which a
-/// next stroke would need, is zero. Rounded pots round again to the same precision or a coarser one.
+/// next stroke would need, is zero. Rounded pots round again to the same precision or a coarser
+/// one.
 ///
 /// Refuses, naming the ring, what would change the topology: a wall that would vanish, rings that
 /// would no longer touch each other, an outer radius beyond the limits of ClayStack.
