@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iomanip>
+#include <iostream>
 #include <random>
 #include <sstream>
 
@@ -54,7 +56,8 @@ void throw_at_random(std::mt19937_64& random, const std::string& scene_path,
 
 TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
   std::mt19937_64 random(20'261'123);
-  std::size_t passed = 0, failed = 0;
+  std::size_t passed = 0, failed = 0, moved = 0;
+  double largest_mm = 0.0;
   for (std::size_t k = 0; k < pots(); ++k) {
     const ScratchFolder folder;
     const std::string scene = folder.file("p.scene.json"), pot = folder.file("p.pot.json"),
@@ -83,6 +86,7 @@ TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
     double moved_mm = 0.0;
     if (const auto json = plain.json(); json.contains("fairing"))
       moved_mm = json.at("fairing").at("moved_mm");
+    double difference_mm = 0.0;
     for (const double asked : {wall * (1.0 - 1e-9), wall * (1.0 + 1e-9)}) {
       std::ostringstream limit_text;
       limit_text << " --min-wall " << std::setprecision(17) << asked << ' ';
@@ -100,10 +104,15 @@ TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
       const auto bounds = proved.json().at("certificate").at("wall_mm");
       EXPECT_EQ(bounds.at(0), exported.json().at("min_wall_mm"));
       EXPECT_GE(bounds.at(1), bounds.at(0));
-      EXPECT_GE(exported.json().at("min_wall_mm"), wall - 0.02 - moved_mm);
-      EXPECT_LE(exported.json().at("min_wall_mm"), wall + 0.02 + moved_mm);
+      const double with_limit = exported.json().at("min_wall_mm");
+      difference_mm = std::max(difference_mm, std::abs(with_limit - wall));
     }
+    EXPECT_LE(difference_mm, 0.02 + moved_mm);
+    moved += difference_mm > 0.02 ? 1 : 0;
+    largest_mm = std::max(largest_mm, difference_mm);
   }
+  std::cout << "a limit moves the wall by more than 0.02 mm in " << moved << " of " << pots()
+            << " pots, at most by " << largest_mm << " mm\n";
   EXPECT_GE(2 * passed, pots());
   EXPECT_GE(2 * failed, pots());
 }
