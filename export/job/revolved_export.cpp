@@ -35,10 +35,11 @@ bool has_straight_walls(const ClayStack& stack) {
   return true;
 }
 
-/// A proved section and its revolve.
+/// A proved section, its revolve, and what is claimed of it.
 struct Design {
   ProvedSection section;
   SolidSize size;
+  SolidCertificate claims;
 };
 
 class RevolvedExport {
@@ -101,10 +102,23 @@ class RevolvedExport {
     return std::max(0.1 * largest_radius_mm(stack_), options_.tolerance_mm);
   }
 
+  /// Smoothing respects a limit only if the walls keep it then and not otherwise.
   Result<Design> design_at(double tolerance_mm) {
+    auto free = design_with(std::nullopt, tolerance_mm);
+    if (!prepared_.limit) return free;
+    const double limit_mm = prepared_.limit->min_wall_mm;
+    const auto keeps_it = [limit_mm](const Result<Design>& design) {
+      return design && stated_wall_mm(design->claims, layout_of(*design)) >= limit_mm;
+    };
+    if (keeps_it(free)) return free;
+    auto limited = design_with(limit_mm, tolerance_mm);
+    return keeps_it(limited) || !free ? limited : free;
+  }
+
+  Result<Design> design_with(std::optional<double> min_wall_mm, double tolerance_mm) {
     Design design;
     design.size.tolerance_mm = tolerance_mm;
-    return smooth(design.section, tolerance_mm)
+    return smooth(design.section, min_wall_mm, tolerance_mm)
         .and_then([&] { return finish(design.section, tolerance_mm); })
         .and_then([&] {
           return stages_.run("certificate", [&] { return certify(design.section.profile()); });
@@ -117,8 +131,19 @@ class RevolvedExport {
         .map([&](std::size_t segments) {
           design.size.segments = segments;
           design.size.triangles = triangle_count(design.section.profile(), segments);
+          design.claims = stages_.run(
+              "claims", [&] { return claims_of(design.section.profile(), segments, 0.0); });
           return std::move(design);
         });
+  }
+
+  /// As rounded in a binary STL, so that a pot has one wall before and after it is written.
+  static double stated_wall_mm(const SolidCertificate& claims, const RevolveLayout& rule) {
+    return with_rounding(claims, rule, float_rounding_mm(rule)).wall_lower_mm;
+  }
+
+  static RevolveLayout layout_of(const Design& design) {
+    return {design.section.profile(), design.size.segments};
   }
 
   /// As requested, or as the process requires.
@@ -136,7 +161,8 @@ class RevolvedExport {
     return options_.smooth_length_mm.value_or(usual) * enlargement(options_.shrinkage);
   }
 
-  Result<void> smooth(ProvedSection& section, double tolerance_mm) {
+  Result<void> smooth(ProvedSection& section, std::optional<double> min_wall_mm,
+                      double tolerance_mm) {
     const double lip_mm = lip_fillet_mm();
     const double length_mm = smooth_length_mm(tolerance_mm);
     if (options_.smoothing == Smoothing::none && lip_mm == 0.0 && length_mm == 0.0)
@@ -149,7 +175,7 @@ class RevolvedExport {
     }
     SmoothingOptions how{options_.smoothing, tolerance_mm, {}, lip_mm, {}};
     how.smooth_length_mm = length_mm;
-    if (prepared_.limit) how.min_wall_mm = prepared_.limit->min_wall_mm;
+    how.min_wall_mm = min_wall_mm;
     return stages_.run("smooth", [&] { return smoothed_profile(stack_, steps_, how); })
         .map([&](SmoothedProfile smoothed) {
           section.smoothed = std::move(smoothed);
@@ -177,9 +203,8 @@ class RevolvedExport {
   }
 
   Result<void> write_all(Design design) {
-    const RevolveLayout rule(design.section.profile(), design.size.segments);
-    SolidCertificate claims = stages_.run(
-        "claims", [&] { return claims_of(design.section.profile(), design.size.segments, 0.0); });
+    const RevolveLayout rule = layout_of(design);
+    SolidCertificate claims = design.claims;
     claims.counted_volume_mm3 = counted_volume_mm3(design.section.finish);
     report_.prepared = prepared_.done;
     report_.prepared.counted_volume_mm3 = claims.counted_volume_mm3;
@@ -187,8 +212,7 @@ class RevolvedExport {
     report_.size = measured(design.size, rule);
     report_.volume = {claims.volume_mm3, std::abs(claims.volume_mm3 - claims.counted_volume_mm3) /
                                              claims.counted_volume_mm3};
-    // As rounded in a binary STL, so that a pot has one wall before and after it is written.
-    measure_walls(with_rounding(claims, rule, float_rounding_mm(rule)).wall_lower_mm);
+    measure_walls(stated_wall_mm(claims, rule));
     report_.maker = numbers();
     announce_sizes();
     if (auto room = expect_memory(); !room) return room;

@@ -396,9 +396,9 @@ struct Filtered {
   }
 
   Filtered() {
-    const std::vector<float> points{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-    std::vector<std::uint32_t> filtered(points.size());
-    meshopt_encodeFilterExp(filtered.data(), 4, 12, 24, points.data());
+    // The exponent is in the upper 8 bits, the mantissa in the lower 24: 1 is 2 * 2^-1.
+    constexpr std::uint32_t kOne = 0xFF000002;
+    const std::vector<std::uint32_t> filtered{0, 0, 0, kOne, 0, 0, 0, kOne, 0, 0, 0, kOne};
     std::string stream(meshopt_encodeVertexBufferBound(4, 12), '\0');
     auto* const to = reinterpret_cast<unsigned char*>(stream.data());
     stream.resize(meshopt_encodeVertexBuffer(to, stream.size(), filtered.data(), 4, 12));
