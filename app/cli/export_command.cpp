@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -42,7 +43,7 @@ using solid::MeshFormat;
 /// The command line as given.
 struct ExportCommand {
   std::string pot;
-  std::vector<std::string> outputs;
+  std::vector<std::string> outputs, named_outputs;
   solid::ExportRequest request;
   std::string smooth = "fair";
   bool length_of_tool = false;  ///< --smooth-length tool
@@ -270,6 +271,8 @@ Result<bool> check_stream(const ExportCommand& command, const Console& console) 
 
 /// The exit status: done, or unsound if a wall is below the requested minimum.
 Result<int> export_pot(ExportCommand& command, Console console) {
+  if (command.outputs.empty())
+    return failure(ErrorKind::bad_input, "expected a file to write, such as pot.3mf, found none");
   const auto streams = check_stream(command, console);
   if (!streams) return tl::make_unexpected(streams.error());
   console.quiet = console.quiet || *streams;
@@ -485,11 +488,13 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   sub->add_option("pot", command->pot,
                   std::string("NAME") + std::string(kPotInputs) + ", or - for standard input")
       ->required();
-  sub->add_option("out", command->outputs,
-                  "Files to write: " + solid::format_endings(solid::FormatUse::write) + "; " +
-                      solid::section_endings() +
-                      "; .pot.json or .pot.cbor for the pot; - for a binary STL on standard output")
-      ->required();
+  sub->add_option(
+      "out", command->outputs,
+      "Files to write: " + solid::format_endings(solid::FormatUse::write) + "; " +
+          solid::section_endings() +
+          "; .pot.json or .pot.cbor for the pot; - for a binary STL on standard output");
+  sub->add_option("-o,--output", command->named_outputs, "A file to write, like out; repeatable")
+      ->allow_extra_args(false);
   add_solid_options(sub, command);
   add_clay_options(sub, command);
   add_goal_options(sub, command);
@@ -508,6 +513,7 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       "  claystack export bowl.pot.json bowl.drc --certificate --report bowl.report.json\n"
       "  claystack export bowl.pot.json bowl.pot.cbor --precision 0.001");
   sub->callback([command, &console, &exit] {
+    std::ranges::move(command->named_outputs, std::back_inserter(command->outputs));
     const auto done = export_pot(*command, console);
     exit = done ? *done : report(done.error());
   });

@@ -411,6 +411,22 @@ TEST_F(ExportOptions, WritesABinaryStlToStandardOutput) {
   }
 }
 
+TEST_F(ExportOptions, TakesFilesWithoutAndWithTheirOption) {
+  const std::string obj = folder.file("bowl.obj"), ply = folder.file("bowl.ply");
+  ASSERT_EQ(run("").status, 0);
+  const std::string expected = read_text(stl);
+  std::filesystem::remove(stl);
+  EXPECT_EQ(claystack("export -o " + stl + ' ' + pot + ' ' + obj + " --output " + ply).status, 0);
+  EXPECT_EQ(read_text(stl), expected);
+  EXPECT_TRUE(std::filesystem::exists(obj));
+  EXPECT_TRUE(std::filesystem::exists(ply));
+  const Ran none = claystack("export " + pot);
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("expected a file to write, such as pot.3mf, found none"),
+            std::string::npos)
+      << none.err;
+}
+
 TEST_F(ExportOptions, WarnsOfLargeFilesBeforeTheyAreWritten) {
   EXPECT_EQ(run("").err, "");
   const Ran large = run("--smooth none --segments 600");
