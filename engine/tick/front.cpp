@@ -3,6 +3,7 @@
 #include "engine/tick/yielding.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <variant>
 
@@ -33,16 +34,26 @@ void level_edges(Contact& contact) noexcept {
 
 /// The end that leads, and the clay ahead of it.
 struct Lead {
+  bool up = false;          ///< which end of the tool
   std::size_t ring = 0;     ///< that the end is in
   double covered_mm = 0.0;  ///< of it
   double ahead_mm = 0.0;    ///< depth of the end in the clay ahead
   double wall_mm = 0.0;     ///< R - r there
   double decay = 0.0;       ///< kappa over the speed of the end [1/mm]
+
+  /// How far the end goes until a depth has yielded, by the logarithmic mean of the wall.
+  [[nodiscard]] double way_to_yield(double depth_mm, double min_wall_mm) const noexcept {
+    const double middle = std::max(wall_mm - 0.5 * depth_mm, min_wall_mm);
+    const double square = middle * middle;
+    const double mean =
+        std::max(square - depth_mm * depth_mm * (1.0 / 12.0), 0.5 * square);  // * middle
+    return depth_mm * middle / (decay * mean);
+  }
 };
 
 bool find_lead(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
                const Contact& contact, Lead& lead) noexcept {
-  const bool up = contact.rise_mm > 0.0;
+  const bool up = lead.up = contact.rise_mm > 0.0;
   const double h = stack.ring_height_mm();
   const double end_t = up ? plan.tool.high() : plan.tool.low(), level = (hip_y + end_t) / h;
   if (!(level > 0.0 && level < static_cast<double>(stack.size()))) return false;
@@ -63,40 +74,40 @@ bool find_lead(const StepPlan& plan, const ClayStack& stack, double hip_y, doubl
   return lead.wall_mm > plan.removal.min_wall_mm;
 }
 
+/// The ring that the lead is in, and the one behind it.
+std::array<Felt, 2> rings_at(const Lead& lead, Contact& contact) noexcept {
+  std::array<Felt, 2> rings{felt_of(contact, lead.ring),
+                            felt_of(contact, lead.up ? lead.ring - 1 : lead.ring + 1)};
+  for (std::size_t k = 0; rings[0].depth_mm == nullptr && k < contact.edge_count; ++k)
+    if (contact.edge_end[k] == (lead.up ? 1 : -1))
+      rings[0] = {&contact.edges[k].depth_mm, &contact.edges[k].coverage};
+  return rings;
+}
+
+/// A ring that yields late, as a whole, has done so in truth, as the one behind has.
+void yield_in_time(const StepPlan& plan, const Lead& lead, std::array<Felt, 2>& rings,
+                   Contact& contact) noexcept {
+  const double* const behind = felt_of(contact, lead.up ? lead.ring - 2 : lead.ring + 2).depth_mm;
+  const double yielded = std::max(plan.removal.yield_depth_mm, behind != nullptr ? *behind : 0.0);
+  for (const Felt& ring : rings)
+    if (ring.depth_mm != nullptr) *ring.depth_mm = std::min(*ring.depth_mm, yielded);
+}
+
+/// Divides what yields behind the lead into pieces, finer than rings.
 template <class Profile>
 void measure_lead(const Profile& profile, const StepPlan& plan, const ClayStack& stack,
                   const Lead& lead, Contact& contact) noexcept {
-  const bool up = contact.rise_mm > 0.0;
-  const double h = stack.ring_height_mm(), end = up ? plan.tool.high() : plan.tool.low();
+  const double h = stack.ring_height_mm(), min_wall = plan.removal.min_wall_mm;
+  const double end = lead.up ? plan.tool.high() : plan.tool.low();
   const double at_end = profile.radius(end), all = lead.covered_mm + h;
-  const auto t_of = [&](double behind) { return up ? end - behind : end + behind; };
-  const auto way_to_yield = [&](double depth) {
-    // By the logarithmic mean of the wall.
-    const double middle = std::max(lead.wall_mm - 0.5 * depth, plan.removal.min_wall_mm);
-    const double square = middle * middle;
-    const double mean = std::max(square - depth * depth * (1.0 / 12.0), 0.5 * square);  // * middle
-    return std::min(depth * middle / (lead.decay * mean), all);
-  };
-  const double at_first = way_to_yield(lead.ahead_mm);
-  const double reach =
-      std::min(way_to_yield(lead.ahead_mm + profile.radius(t_of(at_first)) - at_end),
-               plan.tool.high() - plan.tool.low());
+  const auto t_of = [&](double behind) { return lead.up ? end - behind : end + behind; };
+  const double first = std::min(lead.way_to_yield(lead.ahead_mm, min_wall), all);
+  const double deeper = lead.ahead_mm + profile.radius(t_of(first)) - at_end;
+  const double reach = std::min(std::min(lead.way_to_yield(deeper, min_wall), all),
+                                plan.tool.high() - plan.tool.low());
   if (!(reach > 0.0)) return;
-  const auto behind_lead = [&](std::size_t by) {
-    return felt_of(contact, up ? lead.ring - by : lead.ring + by);
-  };
-  Felt rings[2] = {behind_lead(0), behind_lead(1)};
-  for (std::size_t k = 0; rings[0].depth_mm == nullptr && k < contact.edge_count; ++k)
-    if (contact.edge_end[k] == (up ? 1 : -1))
-      rings[0] = {&contact.edges[k].depth_mm, &contact.edges[k].coverage};
-
-  // A ring that yields late, as a whole, has done so in truth, as the one behind has.
-  const double* const behind_depth = behind_lead(2).depth_mm;
-  const double yielded =
-      std::max(plan.removal.yield_depth_mm, behind_depth != nullptr ? *behind_depth : 0.0);
-  if (reach < all)
-    for (const Felt& ring : rings)
-      if (ring.depth_mm != nullptr) *ring.depth_mm = std::min(*ring.depth_mm, yielded);
+  std::array<Felt, 2> rings = rings_at(lead, contact);
+  if (reach < all) yield_in_time(plan, lead, rings, contact);
 
   const double piece = reach / static_cast<double>(contact.front.size());
   double left = exp_neg(lead.decay * 0.5 * piece);  // of the wall
