@@ -120,7 +120,7 @@ void PushOver::measure(const Tool& tool, const ClayStack& stack, double hip_y,
 }
 
 void centre(const StepPlan& plan, const ClayStack& stack, const ToolState& tool,
-            const std::array<Band, 2>& bands, std::span<ToolRemoval> removals, Walls& walls,
+            const std::array<Band, 2>& bands, std::span<ToolRemoval> removals, WallRadii& walls,
             PushOver& over, Shift& shift) noexcept {
   over.measure(plan.tool, stack, tool.hip_mm.y, removals);
   Band band = both(bands, removals);

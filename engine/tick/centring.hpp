@@ -46,7 +46,7 @@ class PushOver {
 
 /// Lays `shift` for two tools, whose contacts have given way, and lessens the depths by it.
 void centre(const StepPlan& plan, const ClayStack& stack, const ToolState& tool,
-            const std::array<Band, 2>& bands, std::span<ToolRemoval> removals, Walls& walls,
+            const std::array<Band, 2>& bands, std::span<ToolRemoval> removals, WallRadii& walls,
             PushOver& over, Shift& shift) noexcept;
 
 }  // namespace clay

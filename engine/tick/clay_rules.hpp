@@ -10,7 +10,7 @@
 #include "engine/tick/relief.hpp"
 #include "engine/tick/removal.hpp"
 #include "engine/tick/shift.hpp"
-#include "engine/tick/walls.hpp"
+#include "engine/tick/wall_radii.hpp"
 #include "engine/tool/tool_state.hpp"
 
 #include <array>
@@ -24,7 +24,7 @@ void follow(Motion& motion, const ToolState& tool) noexcept;
 
 /// Data that the stages of one part of a tick pass on. Storage is reserved once.
 struct RuleWork {
-  Walls walls;
+  WallRadii walls;
   Shift shift;
   PushOver over;                             ///< of a pinch
   std::array<Band, 2> bands;                 ///< of each tool

@@ -33,7 +33,7 @@ struct Block {
   std::size_t first_lack, lacks_end;           ///< outside of these rings all take their shares
 };
 
-/// Radii and walls of neighbouring rings, from the first one on; see `Walls`.
+/// Radii and walls of neighbouring rings, from the first one on; see `WallRadii`.
 struct Rows {
   const float *outer, *inner, *wall;
   std::size_t apart;
@@ -108,7 +108,7 @@ CLAYSTACK_INLINE inline void divide(Block& b, const Rows& rows, std::size_t coun
 /// One end of a band and the way from there.
 class Heaving {
  public:
-  Heaving(const Tool& tool, const ClayStack& stack, Walls& walls, double hip_y,
+  Heaving(const Tool& tool, const ClayStack& stack, WallRadii& walls, double hip_y,
           const Contact& contact, const Band& band, const Heap& heap, StackWriter& writer) noexcept
       : tool_(tool),
         stack_(stack),
@@ -274,12 +274,12 @@ class Heaving {
 
   const Tool& tool_;
   const ClayStack& stack_;
-  Walls& walls_;
+  WallRadii& walls_;
   const Contact& contact_;
   StackWriter& writer_;
   const Heap& heap_;
   double h_;
-  double steepest_mm_;  ///< growth over `Walls::apart` rings
+  double steepest_mm_;  ///< growth over `WallRadii::apart` rings
   double hip_y_, from_mm_, per_reach_;
   std::size_t first_face_ = 0;  ///< lower or upper face of the first ring on the way
   bool reached_end_ = false;    ///< the whole heap is shared out
@@ -297,7 +297,7 @@ double heave_reach(const Tool& tool, const ClayStack& stack, const Band& band) n
   return std::clamp(reach, stack.ring_height_mm(), kLongestShellMm);
 }
 
-Quanta heave(const Tool& tool, const ClayStack& stack, Walls& walls, double hip_y,
+Quanta heave(const Tool& tool, const ClayStack& stack, WallRadii& walls, double hip_y,
              const Contact& contact, const Band& band, const Heap& heap,
              StackWriter& writer) noexcept {
   return Heaving(tool, stack, walls, hip_y, contact, band, heap, writer).run();

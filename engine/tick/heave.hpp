@@ -5,7 +5,7 @@
 #include "claystack/engine/tick.hpp"
 #include "engine/clay/stack_writer.hpp"
 #include "engine/tick/band.hpp"
-#include "engine/tick/walls.hpp"
+#include "engine/tick/wall_radii.hpp"
 
 namespace clay {
 
@@ -29,7 +29,7 @@ struct Heap {
 /// the ring 0.17 mm away by half of that), and none grows into the tool;
 /// what a ring cannot take goes on to the next. Returns what found no place within the reach.
 /// The caller counts what was placed (`StackWriter::gain`).
-Quanta heave(const Tool& tool, const ClayStack& stack, Walls& walls, double hip_y,
+Quanta heave(const Tool& tool, const ClayStack& stack, WallRadii& walls, double hip_y,
              const Contact& contact, const Band& band, const Heap& heap,
              StackWriter& writer) noexcept;
 

@@ -62,7 +62,7 @@ void stops_of(const Ring* rings, std::size_t count, double per_stop, double* sto
 
 /// How far the wall is free to bend from an end of the band: to the floor, to a solid part, or
 /// farther than `most`. `foot_mm`: the top of the first solid ring below, if there is one.
-double free_length(const ClayStack& stack, Walls& walls, double end_mm, bool up, double most,
+double free_length(const ClayStack& stack, WallRadii& walls, double end_mm, bool up, double most,
                    double stop, double* foot_mm = nullptr) noexcept {
   const double h = stack.ring_height_mm(), per_stop = 1.0 / stop;
   const auto rings = stack.rings();
@@ -136,7 +136,7 @@ void hold_foot(const Shell& shell, double h, std::size_t first, std::span<float>
   }
 }
 
-Shell shell_at(const ClayStack& stack, Walls& walls, const Band& band, double min_wall_mm,
+Shell shell_at(const ClayStack& stack, WallRadii& walls, const Band& band, double min_wall_mm,
                double upward_mm_s, double into_mm_s) noexcept {
   Shell shell;
   const Wall wall = wall_at(stack, band.peak_mm);

@@ -4,7 +4,7 @@
 #include "claystack/engine/clay.hpp"
 #include "engine/clay/packs.hpp"
 #include "engine/tick/band.hpp"
-#include "engine/tick/walls.hpp"
+#include "engine/tick/wall_radii.hpp"
 
 #include <cstddef>
 #include <span>
@@ -59,7 +59,7 @@ template <class Number>
 /// punch that squeezes the clay aside, Q_i = (2 + pi) / 2 sigma c, are two yielding mechanisms in
 /// series under one force, each with a rate ~ (Q / Q_k)^n: hence the share. What the tool leaves
 /// behind on its way, at these speeds upward and into the wall, keeps its place.
-[[nodiscard]] Shell shell_at(const ClayStack& stack, Walls& walls, const Band& band,
+[[nodiscard]] Shell shell_at(const ClayStack& stack, WallRadii& walls, const Band& band,
                              double min_wall_mm, double upward_mm_s, double into_mm_s) noexcept;
 
 }  // namespace clay

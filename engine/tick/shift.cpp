@@ -77,7 +77,7 @@ void Shift::bend(double h, const Band& band, const Shell& shell, std::size_t fir
   });
 }
 
-void Shift::move(const Walls& walls, const Push& push, std::size_t first, std::size_t count,
+void Shift::move(const WallRadii& walls, const Push& push, std::size_t first, std::size_t count,
                  const float* by) noexcept {
   Quanta sum = 0;  // of 128 rings: fits
   in_packs([=, outers = walls.outer(first), inners = walls.inner(first),

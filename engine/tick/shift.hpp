@@ -55,7 +55,7 @@ class Shift {
   /// Lays the wall's motion about a band. `limit(first, by)` may change how far the rings from
   /// `first` on move [mm].
   template <class Limit>
-  void lay(const ClayStack& stack, Walls& walls, const Band& band, const Shell& shell,
+  void lay(const ClayStack& stack, WallRadii& walls, const Band& band, const Shell& shell,
            const Push& push, Limit limit) noexcept {
     begin(stack, band, shell);
     walls.cover(stack, from_, to());
@@ -76,7 +76,7 @@ class Shift {
   static void bend(double h, const Band& band, const Shell& shell, std::size_t first,
                    std::size_t count, float* by) noexcept;
   /// `by`, of whole packs: less where the wall is not thin.
-  void move(const Walls& walls, const Push& push, std::size_t first, std::size_t count,
+  void move(const WallRadii& walls, const Push& push, std::size_t first, std::size_t count,
             const float* by) noexcept;
   void settle(const ClayStack& stack) noexcept;
 

@@ -1,4 +1,4 @@
-#include "engine/tick/walls.hpp"
+#include "engine/tick/wall_radii.hpp"
 
 #include "engine/clay/packs.hpp"
 #include "engine/tick/shell.hpp"
@@ -43,7 +43,7 @@ CLAYSTACK_INLINE inline void measure_rows(const Ring* rings, std::size_t first, 
 
 }  // namespace
 
-void Walls::reserve(const Tool& tool, const ClayStack& stack) {
+void WallRadii::reserve(const Tool& tool, const ClayStack& stack) {
   const double h = stack.ring_height_mm(), most = static_cast<double>(stack.max_rings());
   const double reach = tool.high() - tool.low() + 2.0 * kLongestShellMm;
   apart_ = static_cast<std::size_t>(std::clamp(kSlopeWayMm / h, 1.0, kMostApart));
@@ -52,12 +52,12 @@ void Walls::reserve(const Tool& tool, const ClayStack& stack) {
   for (auto* rows : {&outer_, &inner_, &thickness_}) rows->resize(2 * (half_ + before_));
 }
 
-void Walls::begin(std::size_t ring) noexcept {
+void WallRadii::begin(std::size_t ring) noexcept {
   origin_ = ring - std::min(ring, half_);
   from_ = to_ = 0;
 }
 
-void Walls::cover(const ClayStack& stack, std::size_t first, std::size_t end) noexcept {
+void WallRadii::cover(const ClayStack& stack, std::size_t first, std::size_t end) noexcept {
   // Slopes need the walls beside them, and packs are whole.
   first -= std::min(first - origin_, apart_);
   end = std::min(end + apart_ + kWidestFloats, stack.size());
@@ -70,7 +70,7 @@ void Walls::cover(const ClayStack& stack, std::size_t first, std::size_t end) no
   to_ = std::max(to_, end);
 }
 
-void Walls::measure(const ClayStack& stack, std::size_t first, std::size_t end) noexcept {
+void WallRadii::measure(const ClayStack& stack, std::size_t first, std::size_t end) noexcept {
   assert(first >= origin_ && row(end) + apart_ + kSpare <= outer_.size());
   const std::size_t last = stack.size() - 1;
   // The end ring stands for those beyond it. As many as packs of any width measure.
