@@ -1,20 +1,14 @@
 #include "claystack/engine/clay.hpp"
 
+#include "core/text.hpp"
 #include "engine/clay/radius_grid.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <string>
 #include <utility>
 
 namespace clay {
 namespace {
-
-std::string in_mm(double value) {
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  return std::string(digits, end) + " mm";
-}
 
 Ring rounded(const Ring& ring, const RadiusGrid& grid) {
   const auto inner = std::max<std::int64_t>(grid.steps(ring.inner2), ring.inner2 > 0 ? 1 : 0);
@@ -27,7 +21,7 @@ bool touch(const Ring& a, const Ring& b) { return a.inner2 < b.outer2 && b.inner
 tl::unexpected<Error> too_coarse(std::size_t ring, double precision_mm, const std::string& why) {
   return failure(ErrorKind::bad_input, "ring " + std::to_string(ring) +
                                            ": expected radii that can be rounded to " +
-                                           in_mm(precision_mm) + ", found " + why);
+                                           number_text(precision_mm) + " mm, found " + why);
 }
 
 Result<std::vector<Ring>> rounded_rings(const ClayStack& stack, const RadiusGrid& grid,
@@ -39,8 +33,8 @@ Result<std::vector<Ring>> rounded_rings(const ClayStack& stack, const RadiusGrid
     rings.push_back(rounded(exact[i], grid));
     if (rings[i].inner2 >= rings[i].outer2)
       return too_coarse(i, precision_mm,
-                        "a wall that would vanish, from " + in_mm(exact[i].inner_mm()) + " to " +
-                            in_mm(exact[i].outer_mm()));
+                        "a wall that would vanish, from " + number_text(exact[i].inner_mm()) +
+                            " mm to " + number_text(exact[i].outer_mm()) + " mm");
     if (i > 0 && touch(exact[i - 1], exact[i]) && !touch(rings[i - 1], rings[i]))
       return too_coarse(i, precision_mm, "one that would no longer touch the ring below");
   }
@@ -54,11 +48,12 @@ Result<Pot> rounded_pot(const Pot& pot, double precision_mm) {
   if (!grid)
     return failure(ErrorKind::bad_input,
                    "expected a precision from 0.00001 to 1 mm, in whole nanometres, found " +
-                       in_mm(precision_mm));
+                       number_text(precision_mm) + " mm");
   if (pot.rounding && precision_mm < pot.rounding->to_mm)
-    return failure(ErrorKind::bad_input, "expected a precision of " + in_mm(pot.rounding->to_mm) +
-                                             " or coarser, as the pot is rounded to that, found " +
-                                             in_mm(precision_mm));
+    return failure(ErrorKind::bad_input,
+                   "expected a precision of " + number_text(pot.rounding->to_mm) +
+                       " mm or coarser, as the pot is rounded to that, found " +
+                       number_text(precision_mm) + " mm");
   return rounded_rings(pot.stack, *grid, precision_mm)
       .and_then([&](std::vector<Ring> rings) {
         return ClayStack::from_rings(pot.stack.ring_height_mm(), std::move(rings),

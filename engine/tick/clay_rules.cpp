@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kMemoryS =
     0.05;  // of a motion: longer than a device's steps, shorter than a hand's
-constexpr double kSlowMmS = 5.0;  // slower than that, a motion has no direction
 
 /// Speed at which the tool goes into the wall from its side; 0 on its way out.
 double speed_into(Side side, const Motion& motion) noexcept {

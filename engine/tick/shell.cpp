@@ -10,8 +10,7 @@ namespace {
 
 constexpr double kPunch = 2.570796326794897;  // (2 + pi) / 2: a flat punch on a Tresca half-space
 constexpr double kNoFoot = -1e300;
-constexpr double kRoot = 0.5;     // of the wall: how far up what is solid holds it
-constexpr double kSlowMmS = 5.0;  // slower than that, a motion has no direction
+constexpr double kRoot = 0.5;  // of the wall: how far up what is solid holds it
 
 /// The wall at a height, between the middles of two rings. [mm]
 struct Wall {

@@ -14,6 +14,9 @@ namespace clay {
 /// Farthest from a band that a shell is bent: bounds the work of a tick for pots of any size.
 inline constexpr double kLongestShellMm = 35.0;
 
+/// A motion that is slower than this has no direction: clay flows to both sides of it.
+inline constexpr double kSlowMmS = 5.0;
+
 /// How the wall moves about a band. u(x) = share * give * tent(x), x the distance from the peak:
 ///
 ///     below  trail_below * S(1 - x / below_mm)
