@@ -1,0 +1,31 @@
+#!/bin/sh
+# fuzz.sh [SECONDS [READER...]]: builds the libFuzzer programs and runs each for SECONDS (default
+# 600), as many at once as JOBS says (default 2). Inputs that found new code stay in
+# build/fuzz/corpus for the next run. Prints one line for each reader; exit status 1 if an input
+# crashes a reader, takes it longer than 5 s or more than 512 MiB. Such an input is kept in
+# build/fuzz/findings, and its report beside the log.
+set -eu
+cd "$(dirname "$0")/.."
+seconds=${1:-600}
+[ $# -eq 0 ] || shift
+sh samples/install_packages.sh clang libclang-rt-14-dev
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz -j "${JOBS:-2}"
+programs=build/fuzz/tests/fuzz
+readers=${*:-$(find $programs -maxdepth 1 -name 'fuzz_*' -type f -executable -printf '%f\n' | sed 's/^fuzz_//' | sort)}
+$programs/make_corpus build/fuzz/corpus
+mkdir -p build/fuzz/findings build/fuzz/corpus
+for format in svg dxf csv; do
+  mkdir -p build/fuzz/corpus/drawing_$format
+  cp samples/drawings/*.$format build/fuzz/corpus/drawing_$format
+done
+
+# shellcheck disable=SC2016  # the inner shell expands these
+printf '%s\n' $readers | xargs -P "${JOBS:-2}" -I{} sh -c '
+  log=build/fuzz/findings/{}.log
+  if ASAN_OPTIONS=quarantine_size_mb=16 "$1/fuzz_{}" -max_total_time="$2" -timeout=5 -rss_limit_mb=512 \
+    -print_final_stats=1 -dict=tests/fuzz/json.dict -artifact_prefix=build/fuzz/findings/{}- \
+    "build/fuzz/corpus/{}" >"$log" 2>&1
+  then echo "{}: $(sed -n "s/stat::number_of_executed_units: *//p" "$log") runs, no finding"
+  else echo "{}: FINDING, see $log"; exit 1
+  fi' sh "$programs" "$seconds"
