@@ -109,7 +109,7 @@ std::vector<Problem> problems_with(const ExportReport& report, std::optional<std
 
 /// Whether made smaller by more than a little.
 std::optional<Problem> small_lip_fillet(const ExportReport& report) {
-  constexpr double kLittle = 0.01;
+  constexpr double kLittle = 0.05;
   const SmoothedProfile& smoothed = report.section.smoothed;
   const double asked = smoothed.lip_fillet_asked_mm, made = smoothed.lip_fillet_mm;
   if (made >= (1.0 - kLittle) * asked) return std::nullopt;

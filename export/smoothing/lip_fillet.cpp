@@ -4,14 +4,18 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace clay::solid::inline smoothing {
 namespace {
 
-constexpr double kShrink = 0.9;      ///< factor on the radius until the arcs fit
 constexpr double kLeastFlat = 1e-3;  ///< minimum flat between the arcs, in radii
 constexpr double kHalf = 0.499;      ///< slightly below a half, so that a flat remains
+constexpr int kHalvings = 40;        ///< in the search for the largest radius
+/// Of the largest radius that fits, so that it still fits when the volume correction moved the
+/// wall.
+constexpr double kRoomToMove = 0.99;
 
 /// A circle inside the clay that touches the top and the wall.
 struct Fillet {
@@ -63,6 +67,19 @@ class FilletSearch {
   Fillet best_;
 };
 
+/// Empty if the arcs would meet.
+std::optional<FilletedLip> fitting_lip(const WallLines& lines, double radius_mm,
+                                       double tolerance_mm) {
+  FilletedLip lip{{with_rounded_edge(lines.outer, radius_mm, tolerance_mm).line, lines.bore},
+                  radius_mm};
+  if (lines.bore.back().rho > 0.0)
+    lip.lines.bore =
+        mirrored(with_rounded_edge(mirrored(lines.bore), radius_mm, tolerance_mm).line);
+  const double flat = lip.lines.outer.back().rho - lip.lines.bore.back().rho;
+  if (flat <= kLeastFlat * radius_mm) return std::nullopt;
+  return lip;
+}
+
 }  // namespace
 
 RoundedEdge with_rounded_edge(const Polygon& line, double radius_mm, double tolerance_mm) {
@@ -84,35 +101,30 @@ RoundedEdge with_rounded_edge(const Polygon& line, double radius_mm, double tole
 }
 
 FilletedLip with_lip_fillet(const WallLines& lines, double radius_mm, double tolerance_mm) {
-  const bool bored = lines.bore.back().rho > 0.0;
-  for (;; radius_mm *= kShrink) {
-    FilletedLip lip{{with_rounded_edge(lines.outer, radius_mm, tolerance_mm).line, lines.bore},
-                    radius_mm};
-    if (bored)
-      lip.lines.bore =
-          mirrored(with_rounded_edge(mirrored(lines.bore), radius_mm, tolerance_mm).line);
-    const double flat = lip.lines.outer.back().rho - lip.lines.bore.back().rho;
-    if (flat > kLeastFlat * radius_mm) return lip;
+  if (auto lip = fitting_lip(lines, radius_mm, tolerance_mm)) return *std::move(lip);
+  double fits_mm = 0.0;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double half_mm = 0.5 * (fits_mm + radius_mm);
+    (fitting_lip(lines, half_mm, tolerance_mm) ? fits_mm : radius_mm) = half_mm;
   }
+  if (auto lip =
+          fits_mm > 0.0 ? fitting_lip(lines, kRoomToMove * fits_mm, tolerance_mm) : std::nullopt)
+    return *std::move(lip);
+  return {lines, 0.0};
 }
 
-LargestFillet largest_fillet(const PieceWalls& piece, const Cuts& cuts, const WallLines& lines) {
+double largest_fillet_mm(const PieceWalls& piece, const Cuts& cuts) {
   std::size_t run = piece.size() - 1;
   while (cuts.outer[run] == 0 && cuts.bore[run] == 0) --run;
-  const double width = lines.outer.back().rho - lines.bore.back().rho;
-  const double height = piece.level.back() - piece.level[run];
-  if (width <= height) return {kHalf * width, FilletLimit::lip_width};
-  return {kHalf * height, FilletLimit::height_below};
+  return kHalf * (piece.level.back() - piece.level[run]);
 }
 
 std::string_view reason_of(FilletLimit limit) {
   switch (limit) {
     case FilletLimit::lip_width:
-      return "half the width of the lip does not allow more";
+      return "the arcs of inside and outside would meet in a larger one";
     case FilletLimit::height_below:
       return "half the height between the lip and the step below it does not allow more";
-    case FilletLimit::inclined_walls:
-      return "with a larger one the arcs of the inclined walls would meet";
     case FilletLimit::none:
       break;
   }

@@ -4,8 +4,9 @@
 namespace clay::solid::inline smoothing {
 
 /// Rounds both edges of the lip by arcs that touch the top and the wall (or a bend of the wall).
-/// The chords are within `tolerance_mm` of the arcs. The radius is at most that of
-/// `largest_fillet`; it is smaller if the arcs of inclined walls would meet.
+/// The chords are within `tolerance_mm` of the arcs. The radius is smaller than asked for if the
+/// arcs of inside and outside would meet: in a straight wall half its thickness, more in a lip that
+/// is narrower than the wall below it. An edge without width stays, with a radius of 0.
 struct FilletedLip {
   WallLines lines;
   double radius_mm = 0.0;  ///< radius as made
@@ -22,13 +23,7 @@ struct RoundedEdge {
 [[nodiscard]] RoundedEdge with_rounded_edge(const Polygon& line, double radius_mm,
                                             double tolerance_mm);
 
-struct LargestFillet {
-  double radius_mm = 0.0;
-  FilletLimit limit = FilletLimit::none;  ///< what does not allow more
-};
-/// Half the width of the lip (half its radius if there is no bore), or half the height of the last
-/// run below it, whichever is smaller.
-[[nodiscard]] LargestFillet largest_fillet(const PieceWalls& piece, const Cuts& cuts,
-                                           const WallLines& lines);
+/// Half the height of the last run: a larger arc could reach the step below it.
+[[nodiscard]] double largest_fillet_mm(const PieceWalls& piece, const Cuts& cuts);
 
 }  // namespace clay::solid::inline smoothing

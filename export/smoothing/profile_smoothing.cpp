@@ -160,11 +160,11 @@ class PieceSmoother {
 
   void finish(Correction correction, const RingFlags& rings) {
     if (options_.lip_fillet_mm > 0.0 && !piece_.carries_piece) {
-      const LargestFillet most = largest_fillet(piece_, plan_.cuts(), lines_);
-      const double fillet = std::min(options_.lip_fillet_mm, most.radius_mm);
-      if (fillet < options_.lip_fillet_mm) result_.lip_fillet_limit = most.limit;
-      if (fillet > 0.0) correction = corrected(rings, fillet);
-      if (correction.fillet_mm < fillet) result_.lip_fillet_limit = FilletLimit::inclined_walls;
+      const double fillet =
+          std::min(options_.lip_fillet_mm, largest_fillet_mm(piece_, plan_.cuts()));
+      if (fillet < options_.lip_fillet_mm) result_.lip_fillet_limit = FilletLimit::height_below;
+      correction = corrected(rings, fillet);
+      if (correction.fillet_mm < fillet) result_.lip_fillet_limit = FilletLimit::lip_width;
     }
     result_.overshoot_mm = correction.moved_mm;
     result_.lip_fillet_mm = correction.fillet_mm;
@@ -181,7 +181,7 @@ class PieceSmoother {
       if (fillet_mm > 0.0) {
         FilletedLip lip = with_lip_fillet(scaled, fillet_mm, 0.5 * options_.tolerance_mm);
         made.lines = std::move(lip.lines);
-        made.fillet_mm = lip.radius_mm;
+        made.fillet_mm = fillet_mm = lip.radius_mm;
       }
       const double wanted = piece_.clay_over_pi + swept_over_pi(made.lines.bore);
       made.lacking_over_pi += wanted - swept_over_pi(made.lines.outer);

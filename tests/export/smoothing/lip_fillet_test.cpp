@@ -90,6 +90,26 @@ TEST(LipFillet, IsAtMostHalfTheLip) {
   EXPECT_TRUE(certify(made.section.profile));
 }
 
+/// A lip of 2 mm on a wall of 6 mm, which tapers by 45 degrees.
+TEST(LipFillet, OfATaperedLipIsWiderThanHalfItsTop) {
+  std::vector<Radii> radii(240, {40.0, 34.0});
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double taper = 0.25 * (static_cast<double>(i) + 0.5);
+    radii[232 + i] = {40.0 - taper, 34.0 + taper};
+  }
+  const SmoothedProfile made = rounded(stack_of(0.25, radii), 2.0);
+  EXPECT_EQ(made.lip_fillet_mm, 2.0);
+  EXPECT_EQ(made.lip_fillet_limit, FilletLimit::none);
+  const auto walls = oracles::walls_of(made.section.profile.pieces.at(0));
+  // The circle of 2 mm in a corner of 135 degrees takes 2 tan(22.5 degrees) of the flat of 1 mm
+  // on each side, so that 0.17 mm of it remain; the taper of the steps ends half a ring below.
+  EXPECT_NEAR(static_cast<double>(walls.outer.back().rho - walls.bore.back().rho),
+              2.0 * (1.0 - 2.0 * std::tan(M_PI / 8.0)), 0.3);
+  // The arc ends where it touches the taper, 2 sin(45 degrees) above its centre.
+  for (const oracles::Point& p : above(walls.outer, kTop - 2.0 + 1.45))
+    EXPECT_LE(std::hypot(p.rho - walls.outer.back().rho, p.y - (kTop - 2.0L)), 2.0L + 1e-9L);
+}
+
 TEST(LipFillet, IsAtMostHalfOfAFlange) {
   std::vector<Radii> radii(60, {40.0, 30.0});
   radii[58].outer_mm = radii[59].outer_mm = 46.0;

@@ -75,8 +75,8 @@ struct FairingReport {
 };
 
 /// Why the fillet of a lip has a smaller radius than asked for.
-enum class FilletLimit { none, lip_width, height_below, inclined_walls };
-/// "half the width of the lip does not allow more"; empty for `none`.
+enum class FilletLimit { none, lip_width, height_below };
+/// "half the height between ... does not allow more"; empty for `none`.
 [[nodiscard]] std::string_view reason_of(FilletLimit limit);
 
 struct SmoothedProfile {
