@@ -87,17 +87,6 @@ Result<TriangleMesh> written(const TriangleMesh& mesh, const CheckCommand& comma
   return reread;
 }
 
-/// Only 3MF and GLB state their unit.
-void check_unit(const glm::dvec3& size, MeshFormat format, Verdict& verdict) {
-  constexpr double kLeastMm = 1.0;
-  if (format == MeshFormat::three_mf || format == MeshFormat::glb) return;
-  if (std::max({size.x, size.y, size.z}) < kLeastMm)
-    verdict.add("geometry", Grade::warn,
-                fmt::format("only {:.3g} x {:.3g} x {:.3g} mm: meshes are read in millimetres, "
-                            "this one may be in metres",
-                            size.x, size.y, size.z));
-}
-
 Result<void> measure_wall(const TriangleMesh& mesh, const solid::WallLimit& limit,
                           const CheckCommand& command, const Console& console, Verdict& verdict) {
   Progress progress(console, "walls", command.wall_samples());
@@ -312,7 +301,7 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   check_contents(bytes, *mesh, format, command, verdict);
   progress.clear();
   const glm::dvec3 size = size_mm(*mesh);
-  check_unit(size, format, verdict);
+  if (const auto doubt = doubted_unit(size, format)) verdict.add("geometry", Grade::warn, *doubt);
   if (verdict.certificate) {
     progress.stage("verifying the certificate");
     verify(bytes, format, command, verdict);

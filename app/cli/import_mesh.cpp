@@ -3,6 +3,7 @@
 #include "app/cli/json_output.hpp"
 #include "app/cli/mesh_input.hpp"
 #include "app/cli/pot_copy.hpp"
+#include "app/cli/pot_input.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -28,6 +29,7 @@ using namespace importing;
 
 /// Measured: of mesh_pot, in addition to the mesh.
 constexpr std::uint64_t kImportBytesPerTriangle = 100;
+constexpr const char* kScaleHint = "; --height MM scales it";
 
 Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
@@ -39,7 +41,9 @@ std::vector<std::string> warnings_about(const solid::MeshEnclosure& found) {
   std::vector<std::string> warnings;
   if (found.open_edges > 0)
     warnings.push_back(
-        fmt::format("expected a closed mesh, found {}, {}; an open mesh has no volume",
+        fmt::format("expected a closed mesh, found {}, {}; an open mesh has no volume, and a "
+                    "surface without thickness becomes solid clay: check --repair --thicken MM "
+                    "gives it walls",
                     counted(found.open_edges, "open edge"), at(found.open_at)));
   if (found.flipped_edges > 0)
     warnings.push_back(
@@ -121,22 +125,24 @@ Result<void> import_mesh(const std::string& path, const std::string& pot,
   if (!mesh) return tl::make_unexpected(mesh.error());
   progress.stage("finding the axis and making rings");
   const auto made = mesh_pot(*mesh, settings, path);
+  const auto doubt = doubted_unit(size_mm(*mesh), *format);
+  if (!made && doubt)
+    return failure(made.error().kind, made.error().message + "; " + *doubt + kScaleHint);
   if (!made) return tl::make_unexpected(made.error());
   const solid::MeshEnclosure enclosure = solid::enclosure_of(*mesh);
   const PotEncoding encoding = pot_encoding_of(pot).value_or(PotEncoding::json);
   if (auto done = publish(pot, write_pot(made->pot, encoding)); !done) return done;
   std::optional<double> mesh_mm3 = enclosure.volume_mm3;
-  if (mesh_mm3) mesh_mm3 = std::abs(*mesh_mm3);
+  if (mesh_mm3) mesh_mm3 = std::abs(*mesh_mm3) * std::pow(made->scale, 3);
   if (console.json) print_json(summary(path, *mesh, mesh_mm3, *made, notes));
   print_summary(console, *made, mesh_mm3);
   for (const std::string& note : notes) console.print("note: " + note);
   for (const std::string& warning : warnings_about(enclosure)) console.warn(path + ": " + warning);
-  constexpr double kLeastPotMm = 10.0;
-  if (const double height = made->pot.stack.height_mm(); height < kLeastPotMm)
-    console.warn(
-        fmt::format("{}: the pot is only {:.3g} mm high: meshes are read in millimetres; "
-                    "--height MM scales it",
-                    path, height));
+  constexpr double kUsualPotMm = 10.0;
+  if (settings.height_mm && *settings.height_mm < kUsualPotMm)
+    console.warn(fmt::format("--height: the pot is only {:.3g} mm high", *settings.height_mm));
+  else if (doubt && !settings.height_mm)
+    console.warn(path + ": " + *doubt + kScaleHint);
   console.print("pot: " + pot);
   return {};
 }

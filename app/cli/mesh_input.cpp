@@ -33,6 +33,17 @@ Result<void> expect_room_for(std::uint64_t triangles, std::uint64_t bytes_per_tr
 
 }  // namespace
 
+std::optional<std::string> doubted_unit(const glm::dvec3& size_mm, MeshFormat format) {
+  constexpr double kUsualMm = 10.0;
+  if (format == MeshFormat::three_mf || format == MeshFormat::glb ||
+      std::max({size_mm.x, size_mm.y, size_mm.z}) >= kUsualMm)
+    return {};
+  return fmt::format(
+      "only {:.3g} x {:.3g} x {:.3g} mm: meshes are read in millimetres, this one may be in metres "
+      "or inches",
+      size_mm.x, size_mm.y, size_mm.z);
+}
+
 Result<MeshFile> MeshFile::open(const std::string& path, MeshFormat format, bool keep_bytes) {
   auto reader = FileReader::open(path);
   if (!reader) return tl::make_unexpected(reader.error());

@@ -7,6 +7,7 @@
 #include "core/file_reader.hpp"
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,11 @@ struct MeshWork {
   std::string_view name;  ///< "checking"
   std::uint64_t bytes_per_triangle = 0;
 };
+
+/// A warning if a mesh of this size [mm] is probably in metres or inches; empty for formats that
+/// state their unit.
+[[nodiscard]] std::optional<std::string> doubted_unit(const glm::dvec3& size_mm,
+                                                      solid::MeshFormat format);
 
 /// A mesh file that is open. It is streamed unless its format, a pipe or the caller needs all of
 /// its bytes.

@@ -11,6 +11,8 @@
 namespace clay::importing {
 namespace {
 
+constexpr double kSameScale = 1e-9;
+
 /// A mesh about its axis, with what its cuts have in common.
 struct Revolved {
   std::vector<std::vector<Segment>> cuts;  ///< heights from the foot
@@ -123,10 +125,13 @@ Result<MeshPot> mesh_pot(solid::TriangleMesh mesh, const MeshPotSettings& settin
     result.axis.direction = -result.axis.direction;
     pot = revolved(mesh, result.axis, name);
   }
-  if (pot && settings.height_mm) {
+  // Twice, because the heights of a mesh in metres are known to a thousandth only.
+  for (int k = 0; k < 2 && pot && settings.height_mm; ++k) {
     const double scale = *settings.height_mm / pot->section.height_mm;
+    if (std::abs(scale - 1.0) < kSameScale) break;
     for (glm::dvec3& p : mesh.points) p *= scale;
     result.axis.through *= scale;
+    result.scale *= scale;
     pot = revolved(mesh, result.axis, name);
   }
   if (!pot) return tl::make_unexpected(pot.error());

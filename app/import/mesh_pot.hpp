@@ -20,6 +20,7 @@ struct MeshPot {
   Pot pot;
   MeshAxis axis;             ///< through the middle of the foot
   double section_mm3 = 0.0;  ///< volume of the revolved section
+  double scale = 1.0;        ///< of lengths in the mesh, from `MeshPotSettings::height_mm`
   /// Of the rings from the mesh in half-planes through the axis, in both directions, at azimuths
   /// without parts.
   Deviation deviation;

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -163,12 +164,35 @@ TEST(MeshPot, CommandReportsAxisAndDeviationAndRefusesOptionsOfDrawings) {
   EXPECT_EQ(test::claystack("export -q " + pot + " " + sample.folder.file("b.stl")).status, 0);
   const auto small = test::claystack("import --height 0.1 " + sample.stl + " -o " + pot);
   EXPECT_EQ(small.status, 0) << small.err;
-  EXPECT_THAT(small.err, HasSubstr("mm high: meshes are read in millimetres; --height MM scales"));
+  EXPECT_THAT(small.err, HasSubstr("--height: the pot is only 0.1 mm high"));
   for (const char* option : {"--wall 5", "--axis left", "--layer a"}) {
     const auto refused = test::claystack("import " + sample.stl + " -o " + pot + " " + option);
     EXPECT_EQ(refused.status, 2) << option;
     EXPECT_THAT(refused.err, HasSubstr("expected a drawing, found the mesh"));
   }
+}
+
+TEST(MeshPot, CommandScalesAMeshInMetresAndItsVolume) {
+  const Exported sample("vase");
+  solid::TriangleMesh metres = sample.mesh;
+  for (glm::dvec3& p : metres.points) p *= 1e-3;
+  const std::string file = sample.folder.file("metres.stl"),
+                    pot = " -o " + sample.folder.file("again.pot.json");
+  test::write_text(file, *solid::encode_mesh(metres, solid::MeshFormat::stl_binary, {}));
+  const auto unscaled = test::claystack("import " + file + pot);
+  EXPECT_THAT(unscaled.err, HasSubstr("this one may be in metres or inches; --height MM scales"));
+  EXPECT_THAT(test::claystack("check " + file).out, HasSubstr("this one may be in metres"));
+  double height_mm = 0.0;
+  for (const glm::dvec3& p : sample.mesh.points) height_mm = std::max(height_mm, p.z);
+  const auto run =
+      test::claystack("import --json --height " + std::to_string(height_mm) + " " + file + pot);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, testing::Not(HasSubstr("metres")));
+  EXPECT_NEAR(run.json().at("height_mm").get<double>(), height_mm, 0.02);
+  // Coordinates in float32, read with an absolute tolerance of about 1 um: 0.1 % of 1 mm.
+  const double mm3 = sample.volume_mm3;
+  EXPECT_NEAR(run.json().at("mesh_mm3").get<double>(), mm3, 2e-3 * mm3);
+  EXPECT_NEAR(run.json().at("volume_mm3").get<double>(), mm3, 2e-3 * mm3);
 }
 
 TEST(MeshPot, CommandWarnsOfAnOpenMeshAndAnInvertedOne) {
