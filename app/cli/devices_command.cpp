@@ -19,7 +19,7 @@ namespace clay::cli {
 namespace {
 
 struct DevicesOptions {
-  std::string which;
+  std::string device;
   falcon::FalconSettings falcon;
   bool monitor = false;
   servo::MappingSettings mapping;
@@ -86,7 +86,7 @@ Result<void> list(const falcon::DeviceSettings& settings, const Console& console
 
 Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& settings,
                   const Console& console) {
-  auto device = open_chosen(options.which.empty() ? "auto" : options.which, settings.falcon,
+  auto device = open_chosen(options.device.empty() ? "auto" : options.device, settings.falcon,
                             falcon::simulated_and_loaded());
   if (!device) return tl::make_unexpected(device.error());
   falcon::HapticDevice& open = **device;
@@ -120,7 +120,7 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
   CLI::App* command = app.add_subcommand(
       "devices", "List connected devices, whether each can be used, and what to do if not");
   command
-      ->add_option("which", options->which,
+      ->add_option("device", options->device,
                    "Device to open: auto, falcon, bridge, spacemouse, simulated, or its place")
       ->check(check_device_name);
   add_falcon_options(*command, options->falcon);
@@ -137,7 +137,7 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
   command->callback([options, &console, &exit] {
     falcon::DeviceSettings settings;
     settings.falcon = options->falcon;
-    const bool one = options->monitor || !options->which.empty();
+    const bool one = options->monitor || !options->device.empty();
     const auto done = one ? show(*options, settings, console) : list(settings, console);
     exit = done ? kDone : report(done.error());
   });

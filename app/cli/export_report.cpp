@@ -194,11 +194,10 @@ void print_solid(const Console& console, const ExportReport& report) {
       report.size.triangles, counted(report.size.shells, "shell")));
   console.detail(
       fmt::format("volume {:.3f} cm3, relative difference {}to the counted clay {:.1e}; minimum "
-                  "wall {:.2f} mm at "
-                  "height {:.1f} mm; chordal error {:.3g} mm",
+                  "wall {:.2f} mm at {}; chordal error {:.3g} mm",
                   report.volume.solid_mm3 / 1000.0, report.collapsed ? "with overlap " : "",
-                  report.volume.error_relative, report.walls.min_wall_mm,
-                  report.walls.thinnest.from.y, report.size.chordal_error_mm));
+                  report.volume.error_relative, report.walls.min_wall_mm, thinnest_height(report),
+                  report.size.chordal_error_mm));
   if (!report.walls.parts.empty())
     console.detail("thinnest places: " + solid::text_of(report.walls.parts));
   print_shrinkage(console, report);
@@ -356,11 +355,16 @@ std::string verdict_of(const ExportReport& report) {
 }
 
 std::string wall_row(const ExportReport& report) {
-  return fmt::format("at least {:.2f} mm, thinnest at a height of {:.1f} mm", report.thinnest_mm(),
-                     report.walls.thinnest.from.y);
+  return fmt::format("at least {:.2f} mm, thinnest at {}", report.thinnest_mm(),
+                     thinnest_height(report));
 }
 
 }  // namespace
+
+std::string thinnest_height(const ExportReport& report) {
+  return fmt::format("a height of {:.1f} mm{}", report.walls.thinnest.from.y,
+                     report.collapsed ? " before the fall" : "");
+}
 
 Json wall_parts_json(const std::vector<solid::PartWall>& parts) {
   Json json = Json::array();

@@ -17,6 +17,10 @@ namespace clay::cli {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> finish_rows(
     const solid::ExportReport& report);
 
+/// "a height of 12.3 mm", or "a height of 12.3 mm before the fall": walls of a collapsed pot are
+/// measured on its parts as they stood.
+[[nodiscard]] std::string thinnest_height(const solid::ExportReport& report);
+
 /// Wall, lip and flange, each with its thinnest place.
 [[nodiscard]] Json wall_parts_json(const std::vector<solid::PartWall>& parts);
 

@@ -230,9 +230,8 @@ class Page {
 
   void walls() {
     table("Walls and making", [&] {
-      const solid::Wall& thinnest = report_.walls.thinnest;
-      row({"minimum wall", fmt::format("{:.2f} mm at a height of {:.1f} mm", report_.thinnest_mm(),
-                                       thinnest.from.y)},
+      row({"minimum wall",
+           fmt::format("{:.2f} mm at {}", report_.thinnest_mm(), thinnest_height(report_))},
           "td", false);
       for (const auto& [part, thickness_mm, at] : report_.walls.parts)
         row({fmt::format("thinnest {}", solid::name_of(part)),

@@ -68,15 +68,19 @@ void print_contact(const Console& console, const servo::ServoContact& contact, d
 }
 
 void add_servo_options(CLI::App& command, PlanOptions& options) {
-  command
-      .add_option("--rate", options.rate_hz,
-                  "Servo rate at which to check whether an arm can render the scene's contact [Hz]")
-      ->check(in_range(10.0, 1e5));
+  CLI::Option* rate =
+      command
+          .add_option(
+              "--rate", options.rate_hz,
+              "Servo rate at which to check whether an arm can render the scene's contact [Hz]")
+          ->check(in_range(10.0, 1e5));
   command.add_option("--damping", options.damping_ns_per_mm, "Damping of the arm [N s/mm]")
       ->check(in_range(0.0, 1.0))
+      ->needs(rate)
       ->capture_default_str();
   command.add_option("--delay", options.delay_ticks, "Delay from a reading to its force [ticks]")
       ->check(in_whole_range(0, 8))
+      ->needs(rate)
       ->capture_default_str();
 }
 #endif

@@ -14,6 +14,7 @@
 #endif
 
 #include <algorithm>
+#include <utility>
 
 namespace clay::cli {
 namespace {
@@ -41,13 +42,24 @@ Result<void> expect_room_for_pot(std::string_view bytes, std::string_view name) 
   return expect_room(std::string(name) + ": reading the pot", kBytesPerValue * count_values(bytes));
 }
 
+/// The command that makes a pot from a mesh or a drawing.
+Error with_import(Error error, std::string_view name) {
+  constexpr std::string_view kImported[] = {".stl", ".obj", ".off", ".ply", ".glb",
+                                            ".drc", ".svg", ".dxf", ".csv"};
+  if (std::ranges::any_of(kImported, [&](auto ending) { return ends_ignoring_case(name, ending); }))
+    error.message += "; claystack import makes a pot from a mesh or a drawing";
+  return error;
+}
+
 }  // namespace
 
 bool is_3mf(std::string_view path) { return ends_ignoring_case(path, ".3mf"); }
 
 Result<Pot> pot_from(std::string_view bytes, std::string_view name) {
   if (!bytes.starts_with("PK"))
-    return expect_room_for_pot(bytes, name).and_then([&] { return parse_pot(bytes, name); });
+    return expect_room_for_pot(bytes, name)
+        .and_then([&] { return parse_pot(bytes, name); })
+        .map_error([&](Error error) { return with_import(std::move(error), name); });
 #ifdef CLAYSTACK_EXPORT
   return solid::parts_in_3mf(bytes, name).and_then([&](const solid::PackedParts& parts) {
     if (!parts.pot.empty())

@@ -46,7 +46,8 @@ Result<double> quantity_of(std::string_view text, std::span<const Unit> units) {
   const auto number = number_in(text, units);
   if (number && *number > 0.0 && *number < kMost) return *number;
   return failure(ErrorKind::bad_input,
-                 fmt::format("expected a number above 0 in {}, found {}", names_of(units), text));
+                 fmt::format("expected a number above 0 and below {:g} {} (units: {}), found {}",
+                             kMost, units.front().name, names_of(units), text));
 }
 
 Result<double> length_of(std::string_view text, double low_mm, double high_mm) {

@@ -266,7 +266,10 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
   const Json json = summary(*wheel, stats, *session, pot);
   if (console.json) print_json(json);
   print_result(console, json);
-  if (!options.pot.empty()) console.print("pot: " + options.pot);
+  for (const auto& [kind, path] : {std::pair("pot", &options.pot),
+                                   {"trace", &options.trace},
+                                   {"error plot", &options.error_plot}})
+    if (!path->empty()) console.print(fmt::format("{}: {}", kind, *path));
   return {};
 }
 

@@ -84,7 +84,7 @@ Result<std::optional<double>> take_axis_lines(std::vector<Line>& lines, std::opt
     return failure(
         ErrorKind::bad_input,
         fmt::format("{}: expected one axis line, found unconnected vertical lines at x = "
-                    "{:g} and {:g} mm; --axis chooses the axis",
+                    "{:g} and {:g} mm; --axis chooses the axis, --layer one layer of a drawing",
                     name, found.front(), found.back()));
   const double axis = asked.value_or(found.front());
   std::erase_if(lines, [&](const Line& line) {

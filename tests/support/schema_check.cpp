@@ -183,6 +183,8 @@ class Editor {
   }
 
   static Json stepped(const Json& schema, const Json& limit, bool down) {
+    if (schema["type"] == "integer" && !down && limit.get<std::int64_t>() >= 0)
+      return limit.get<std::uint64_t>() + 1;  // the limit may be the largest std::int64_t
     if (schema["type"] == "integer") return limit.get<std::int64_t>() + (down ? -1 : 1);
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     return std::nextafter(limit.get<double>(), down ? -kInfinity : kInfinity);

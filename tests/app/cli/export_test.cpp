@@ -213,6 +213,11 @@ class ExportCollapsed : public testing::Test {
   nlohmann::json collapse;
 };
 
+TEST_F(ExportCollapsed, StatesTheThinnestWallAtAHeightBeforeTheFall) {
+  const Ran run = claystack("export " + pot + " " + stl);
+  EXPECT_NE(run.out.find("mm before the fall"), std::string::npos) << run.out;
+}
+
 TEST_F(ExportCollapsed, IsOneSoundFileThatHoldsTheUnion) {
   const std::string drc = folder.file("c.drc");
   const Ran run = claystack("export --json " + pot + " " + stl + " " + drc);

@@ -74,6 +74,9 @@ TEST(Plan, ReportsWhetherAnArmCanRenderTheContact) {
   EXPECT_NE(stiff.err.find("found 0.02; or a rate of at least 615 Hz"), std::string::npos)
       << stiff.err;
   EXPECT_EQ(claystack("plan -q --rate 615 " + folder.file("s.scene.json")).status, 0);
+  const auto no_rate = claystack("plan --damping 0.01 " + folder.file("s.scene.json"));
+  EXPECT_EQ(no_rate.status, 2);
+  EXPECT_NE(no_rate.err.find("--damping: expected --rate too"), std::string::npos) << no_rate.err;
   EXPECT_EQ(claystack("plan -q --rate 5 " + folder.file("s.scene.json")).status, 2);
 }
 

@@ -57,6 +57,11 @@ TEST_P(Samples, PaperErrorIsBelowItsTopRingAtEveryTick) {
   EXPECT_LE(json.at("volume_error_quanta"), 0);
   EXPECT_LT(json.at("max_missing_over_top_ring"), 1.0);
   EXPECT_GT(json.at("max_volume_error_percent"), 0.0);
+  const std::string plot = folder.file("e.svg");
+  const auto named =
+      claystack("throw " + sample(std::string("paper/") + GetParam() + ".scene.json") +
+                " --error-plot " + plot);
+  EXPECT_NE(named.out.find("error plot: " + plot), std::string::npos) << named.out;
   // The same from the trace, tick by tick.
   std::istringstream lines(read_text(folder.file("t.csv")));
   std::string line;

@@ -22,7 +22,8 @@ TEST(WrongKind, IsNamedInTheMessage) {
   };
   const std::string wants_pot = ": expected a pot (.pot.json, .pot.cbor), found ";
   const std::vector<Case> cases = {
-      {"export " + stl + " " + folder.file("x.obj"), stl + wants_pot + "an STL mesh"},
+      {"export " + stl + " " + folder.file("x.obj"),
+       stl + wants_pot + "an STL mesh; claystack import makes a pot from a mesh"},
       {"export " + scene + " " + folder.file("x.obj"), scene + wants_pot + "a scene"},
       {"render " + session + " -o " + folder.file("x.png"), session + wants_pot + "a session"},
       {"throw " + pot + " -o " + folder.file("y.pot.json"),
