@@ -136,9 +136,9 @@ void print_collapse(const Console& console, const solid::CollapsedSolid& collaps
 /// What fairing moved, and where the walls made its length shorter.
 void print_fairing(const Console& console, const solid::FairingReport& fairing) {
   if (fairing.length_mm == 0.0) return;
-  console.detail(
-      fmt::format("faired over {:g} mm: walls moved by at most {:.3f} mm, at a height of {:.1f} mm",
-                  fairing.length_mm, fairing.moved_mm, fairing.moved_at_mm));
+  console.detail(fmt::format(
+      "faired over {:.3g} mm: walls moved by at most {:.3f} mm, at a height of {:.1f} mm",
+      fairing.length_mm, fairing.moved_mm, fairing.moved_at_mm));
   if (fairing.shortened.empty()) return;
   const solid::ShortenedFairing& first = fairing.shortened.front();
   console.detail(fmt::format(

@@ -243,14 +243,15 @@ class Page {
       if (const auto& fairing = report_.section.smoothed.fairing; fairing.length_mm > 0.0)
         row({"fairing",
              fmt::format(
-                 "over {:g} mm; moved the walls by at most {:.2f} mm, at a height of {:.1f} "
+                 "over {:.3g} mm; moved the walls by at most {:.2f} mm, at a height of {:.1f} "
                  "mm",
                  fairing.length_mm, fairing.moved_mm, fairing.moved_at_mm)},
             "td", false);
       for (const auto& [what, clay] : finish_rows(report_)) row({what, clay}, "td", false);
       if (const auto& overhang = report_.process.overhang)
-        row({"steepest overhang", fmt::format("{:.0f} degrees from the vertical at {:.1f} mm",
-                                              overhang->angle_deg, overhang->from.y)},
+        row({"steepest overhang",
+             fmt::format("{:.0f} degrees from the vertical at a height of {:.1f} mm",
+                         overhang->angle_deg, overhang->from.y)},
             "td", false);
       if (const auto& process = report_.process.limits) fits(*process);
     });

@@ -95,6 +95,23 @@ bool opens_below(const HalfSection& section) {
   return section.slabs.front().inner_from_mm > 0.0 && !(section.slabs.back().inner_to_mm > 0.0);
 }
 
+/// Scales the mesh, and what `result` states of it.
+Result<Revolved> scaled_to(double height_mm, Revolved pot, solid::TriangleMesh& mesh,
+                           MeshPot& result, const std::string& name) {
+  // Twice, because the height of a mesh in metres is known to a thousandth only.
+  for (int k = 0; k < 2; ++k) {
+    const double scale = height_mm / pot.section.height_mm;
+    if (std::abs(scale - 1.0) < kSameScale) break;
+    for (glm::dvec3& p : mesh.points) p *= scale;
+    result.axis.through *= scale;
+    result.scale *= scale;
+    auto again = revolved(mesh, result.axis, name);
+    if (!again) return again;
+    pot = std::move(*again);
+  }
+  return pot;
+}
+
 double largest_radius(const HalfSection& section) {
   double largest = 0.0;
   for (const Slab& slab : section.slabs)
@@ -125,15 +142,8 @@ Result<MeshPot> mesh_pot(solid::TriangleMesh mesh, const MeshPotSettings& settin
     result.axis.direction = -result.axis.direction;
     pot = revolved(mesh, result.axis, name);
   }
-  // Twice, because the heights of a mesh in metres are known to a thousandth only.
-  for (int k = 0; k < 2 && pot && settings.height_mm; ++k) {
-    const double scale = *settings.height_mm / pot->section.height_mm;
-    if (std::abs(scale - 1.0) < kSameScale) break;
-    for (glm::dvec3& p : mesh.points) p *= scale;
-    result.axis.through *= scale;
-    result.scale *= scale;
-    pot = revolved(mesh, result.axis, name);
-  }
+  if (pot && settings.height_mm)
+    pot = scaled_to(*settings.height_mm, std::move(*pot), mesh, result, name);
   if (!pot) return tl::make_unexpected(pot.error());
   const double limit = part_limit_mm(largest_radius(pot->section));
   const std::vector<CutOff> cuts = offsets(*pot, limit);
