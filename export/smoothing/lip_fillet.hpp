@@ -1,4 +1,5 @@
 #pragma once
+#include "claystack/export/smoothing.hpp"
 #include "export/smoothing/wall_guard.hpp"
 
 namespace clay::solid::inline smoothing {
