@@ -70,7 +70,10 @@ TEST(Certify, RefusesTriangleWithoutArea) {
 }
 
 TEST(Certify, RefusesPinchAtTheAxis) {
+  // At whichever vertex the polygon begins.
   EXPECT_TRUE(refused({{{{2, 0}, {2, 2}, {0, 1}}}}, "single point"));
+  EXPECT_TRUE(refused({{{{0, 1}, {2, 0}, {2, 2}}}}, "single point"));
+  EXPECT_TRUE(refused({{{{2, 2}, {0, 1}, {2, 0}}}}, "single point"));
   // An hourglass on the axis: both halves have an axis segment, the waist has none.
   EXPECT_TRUE(refused({{{{2, 0}, {1, 2}, {2, 4}, {1, 4}, {0, 2}, {1, 0}}}}, "single point"));
 }
