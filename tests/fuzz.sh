@@ -20,12 +20,20 @@ for format in svg dxf csv; do
   cp samples/drawings/*.$format build/fuzz/corpus/drawing_$format
 done
 
+# An input that took too long on a busy machine, but does not when it runs alone, is no finding.
 # shellcheck disable=SC2016  # the inner shell expands these
 printf '%s\n' $readers | xargs -P "${JOBS:-2}" -I{} sh -c '
-  log=build/fuzz/findings/{}.log
-  if ASAN_OPTIONS=quarantine_size_mb=16 "$1/fuzz_{}" -max_total_time="$2" -timeout=5 -rss_limit_mb=512 \
-    -print_final_stats=1 -dict=tests/fuzz/json.dict -artifact_prefix=build/fuzz/findings/{}- \
-    "build/fuzz/corpus/{}" >"$log" 2>&1
-  then echo "{}: $(sed -n "s/stat::number_of_executed_units: *//p" "$log") runs, no finding"
-  else echo "{}: FINDING, see $log"; exit 1
-  fi' sh "$programs" "$seconds"
+  program=$1/fuzz_{} log=build/fuzz/findings/{}.log end=$(($(date +%s) + $2))
+  export ASAN_OPTIONS=quarantine_size_mb=16
+  : >"$log"
+  while left=$((end - $(date +%s))); [ $left -gt 0 ]; do
+    "$program" -max_total_time=$left -timeout=5 -rss_limit_mb=512 -print_final_stats=1 \
+      -dict=tests/fuzz/json.dict -artifact_prefix=build/fuzz/findings/{}- \
+      "build/fuzz/corpus/{}" >>"$log" 2>&1 && break
+    slow=$(ls build/fuzz/findings/{}-timeout-* 2>/dev/null | head -n 1)
+    if [ -n "$slow" ] && timeout 5 "$program" "$slow" >>"$log" 2>&1; then rm "$slow"; continue; fi
+    echo "{}: FINDING, see $log"
+    exit 1
+  done
+  runs=$(sed -n "s/stat::number_of_executed_units: *//p" "$log" | paste -s -d + - | sed "s/^$/0/")
+  echo "{}: $(($runs)) runs, no finding"' sh "$programs" "$seconds"
