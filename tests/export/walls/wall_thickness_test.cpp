@@ -103,7 +103,12 @@ TEST(WallThickness, EqualsTheDiameterOfARoundSection) {
   Polygon ring = arc({30, 0}, 5, 0, 2 * M_PI, 720);
   ring.pop_back();
   // No disc has three diameters of boundary beside it.
-  EXPECT_TRUE(min_wall({{ring}}).compact);
+  const Wall wall = min_wall({{ring}});
+  EXPECT_TRUE(wall.compact);
+  // Its places are the ends of a diameter.
+  EXPECT_NEAR(std::hypot(wall.from.rho - 30.0, wall.from.y), 5.0, 0.02);
+  EXPECT_NEAR(0.5 * (wall.from.rho + wall.to.rho), 30.0, 0.02);
+  EXPECT_NEAR(0.5 * (wall.from.y + wall.to.y), 0.0, 0.02);
   EXPECT_LT(wall_of(ring), 10.0);
   EXPECT_GT(wall_of(ring), 10.0 * (1.0 - 2e-3));
 }
