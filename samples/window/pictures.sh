@@ -2,14 +2,17 @@
 # sh samples/window/pictures.sh PROGRAM FOLDER [NAME...]: renders the panels and dialogs of the window
 # in both themes, in a small, a normal, a large and a double-scale size, as FOLDER/NAME-THEME-SIZE-SCALE.png; all
 # pictures, or those named. With ImageMagick, FOLDER/sheet-THEME-SIZE-SCALE-NUMBER.png shows twelve of
-# them beside each other. They are for inspection by eye; no test compares them.
+# them beside each other. They are for inspection by eye; no test compares them. THEMES and LOOKS
+# choose: THEMES=dark LOOKS="800x600x1" draws one of each. Exit status 1 if a script fails.
 set -eu
-[ $# -ge 2 ] || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
+[ $# -ge 2 ] || { sed -n '2,7s/^# //p' "$0" >&2; exit 2; }
+themes=${THEMES:-dark light} looks=${LOOKS:-800x600x1 1280x800x1 2560x1440x1 2560x1440x2}
 program=$(realpath "$1")
 mkdir -p "$2"
 out=$(realpath "$2")
 shift 2
 wanted=" $* "
+failed=0
 cd "$(dirname "$0")/../.."
 pots=$out/pots
 mkdir -p "$pots"
@@ -28,14 +31,16 @@ sed -e 's/"rings": [0-9]*/"rings": 1/' -e 's/"ring_height_mm": [0-9.]*/"ring_hei
 # picture NAME SCRIPT [FILE]
 picture() {
   [ "$wanted" = "  " ] || case $wanted in *" $1 "*) ;; *) return 0 ;; esac
-  for theme in dark light; do
-    for look in "800x600 1" "1280x800 1" "2560x1440 1" "2560x1440 2"; do
-      size=${look% *} scale=${look#* }
+  for theme in $themes; do
+    for look in $looks; do
+      size=${look%x*} scale=${look##*x}
       rm -f "$pots"/*.3mf  # of the picture before: it would ask whether to replace it
       # The scripts use window coordinates at scale 1.
       awk -v s="$scale" '$1 == "move" { $2 *= s; $3 *= s } 1' "samples/window/$2.script" >"$out/script"
       "$program" studio ${3:+"$3"} --script "$out/script" --screenshot "$out/$1-$theme-$size-$scale.png" \
-        --theme "$theme" --size "$size" --scale "$scale" || echo "$1-$theme-$size: failed" >&2
+        --theme "$theme" --size "$size" --scale "$scale" && continue
+      echo "$1-$theme-$size: failed" >&2
+      failed=1
     done
   done
   rm -f "$out/script"
@@ -88,10 +93,8 @@ sheet() {
 }
 if command -v montage >/dev/null; then
   rm -f "$out"/sheet-*.png
-  for theme in dark light; do
-    sheet $theme 800x600 1
-    sheet $theme 1280x800 1
-    sheet $theme 2560x1440 1
-    sheet $theme 2560x1440 2
+  for theme in $themes; do
+    for look in $looks; do sheet "$theme" "${look%x*}" "${look##*x}"; done
   done
 fi
+exit $failed
