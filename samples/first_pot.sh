@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 packages="g++ cmake ninja-build ccache libglm-dev libexpected-dev nlohmann-json3-dev libcli11-dev
   libfmt-dev libcgal-dev libopenmesh-dev libdraco-dev libmeshoptimizer-dev libxxhash-dev libgtest-dev
   libgmock-dev librapidcheck-dev libsvgpp-dev libxml2-dev libzip-dev libcairo2-dev pkg-config libftdi1-dev
-  libusb-1.0-0-dev libhidapi-dev libepoxy-dev libegl-dev libstb-dev libgif-dev libgl1-mesa-dri
+  libusb-1.0-0-dev libhidapi-dev libepoxy-dev libegl-dev libstb-dev zlib1g-dev libgif-dev libgl1-mesa-dri
   libglfw3-dev libimgui-dev fonts-inter"
 # shellcheck disable=SC2086  # a list of words
 sh samples/install_packages.sh $packages
