@@ -1,6 +1,6 @@
 #include "engine/tick/yielding.hpp"
 
-#include "engine/clay/lanes.hpp"
+#include "engine/clay/packs.hpp"
 
 #include <array>
 #include <cstdint>
@@ -52,18 +52,34 @@ void yield_all(const RemovalPlan& plan, double turn, Yielding& rings, std::size_
   in_lanes([&]() CLAYSTACK_INLINE { yield_rings<plain>(plan, turn, rings, count); });
 }
 
+/// Writes to `other` which rings are not plain: 0 for those that are. Whether there is one.
+bool find_others(double knee, Yielding& rings, std::size_t count, std::int64_t* other) noexcept {
+  for (std::size_t k = count; k < in_packs_of(count); ++k) {
+    rings.depth[k] = rings.advance[k] = 0.0;
+    rings.since[k] = 1.0;
+  }
+  bool found = false;
+  in_packs([=, r = &rings, to = &found](auto n) CLAYSTACK_INLINE {
+    using D = Doubles<n>;
+    Quantas<n> some{};
+    for (std::size_t k = 0; k < count; k += n) {
+      const D start = load_doubles<n>(&r->depth[k]) - load_doubles<n>(&r->advance[k]);
+      const auto plain = (start >= 0.0) & (start <= knee) & (load_doubles<n>(&r->since[k]) == 1.0);
+      store(other + k, Quantas<n>(~plain));
+      some |= ~plain;
+    }
+    *to = any(some);
+  });
+  return found;
+}
+
 }  // namespace
 
 void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept {
-  const double turn = plan.rate_per_s * dt_s, knee = plan.yield_depth_mm;
-  std::array<std::int64_t, Yielding::kMost> other;
-  std::int64_t any = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double start = rings.depth[k] - rings.advance[k];
-    other[k] = ((start >= 0.0) & (start <= knee) & (rings.since[k] == 1.0)) ? 0 : 1;
-    any |= other[k];
-  }
-  if (any == 0) return yield_all<true>(plan, turn, rings, count);
+  const double turn = plan.rate_per_s * dt_s;
+  alignas(kPackBytes) std::array<std::int64_t, Yielding::kMost> other;
+  if (!find_others(plan.yield_depth_mm, rings, count, other.data()))
+    return yield_all<true>(plan, turn, rings, count);
   std::array<std::size_t, Yielding::kMost> others;
   std::size_t few = 0;
   for (std::size_t k = 0; k < count; ++k)
