@@ -1,9 +1,11 @@
 #include "engine/tick/contact.hpp"
 
-#include "engine/clay/lanes.hpp"
+#include "engine/clay/packs.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <variant>
 
 namespace clay {
 namespace {
@@ -70,7 +72,7 @@ void add_edge(const RingContact& part, int end, Contact& contact) noexcept {
   contact.edges[contact.edge_count++] = part;
 }
 
-/// What `meet` does, of rings that the tool covers whole, and whose surface is in quanta yet.
+/// What `meet` does, of rings that the tool covers whole, and whose surface is known.
 template <class Profile>
 CLAYSTACK_INLINE inline void meet_rows(const Profile& profile, const Tool& tool, double hip_y,
                                        double h, const Contact& contact,
@@ -84,7 +86,6 @@ CLAYSTACK_INLINE inline void meet_rows(const Profile& profile, const Tool& tool,
   for (std::size_t k = slice.begin; k < slice.end; ++k) {
     const double t = (first + static_cast<double>(static_cast<int>(k - slice.begin))) * h - hip_y;
     const auto [f, facing] = profile.surface(t, h);
-    rows.surface[k] = std::sqrt(rows.surface[k] * kMm2PerQuantum);
     const double depth = f + outward * (rows.surface[k] - d);
     rows.depth[k] = depth > 0.0 ? depth : 0.0;
     rows.coverage[k] = 1.0;
@@ -123,16 +124,27 @@ void meet_slice(const EllipseProfile& ellipse, const Tool& tool, double hip_y, d
     meet_slice(Round<false>{ellipse}, tool, hip_y, h, contact, slice);
 }
 
+/// Radii of the surface that the tool meets.
+void measure_surfaces(std::span<const Ring> rings, bool outside, double* radii) noexcept {
+  in_packs([=, from = rings.data(), count = rings.size()](auto n) CLAYSTACK_INLINE {
+    std::size_t k = 0;
+    for (; k + n <= count; k += n) {
+      const RingPack<n> pack = load_rings<n>(from + k);
+      store(radii + k,
+            root(doubles_of(outside ? pack.outer2 : pack.inner2) * kMm2PerQuantum));
+    }
+    for (; k < count; ++k) radii[k] = outside ? from[k].outer_mm() : from[k].inner_mm();
+  });
+}
+
 /// Rings first..end-1, each covered whole.
 template <class Profile>
 void touch_whole(const Profile& profile, const Tool& tool, const ClayStack& stack, double hip_y,
                  std::size_t first, std::size_t end, Contact& contact) noexcept {
   const bool outside = contact.side == Side::compressive;
   contact.rings.each_slice(first, end, [&](const TouchedRings::Slice& slice) {
-    const Ring* const rings = &stack.rings()[slice.ring];
-    for (std::size_t k = 0; k < slice.size(); ++k)
-      slice.rows.surface[slice.begin + k] =
-          static_cast<double>(outside ? rings[k].outer2 : rings[k].inner2);
+    measure_surfaces(stack.rings().subspan(slice.ring, slice.size()), outside,
+                     &slice.rows.surface[slice.begin]);
     meet_slice(profile, tool, hip_y, stack.ring_height_mm(), contact, slice);
   });
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include "claystack/engine/tool.hpp"
+#include "engine/clay/packs.hpp"
 
 #include <algorithm>
 #include <array>
@@ -66,10 +67,7 @@ class TouchedRings {
     while (from_ < to_ && !(depth(from_) > 0.0)) ++from_;
     while (from_ < to_ && !(depth(to_ - 1) > 0.0)) --to_;
     touched_ = 0;
-    each_slice([this](const Slice& slice) {
-      for (std::size_t k = slice.begin; k < slice.end; ++k)
-        touched_ += slice.rows.depth[k] > 0.0 ? 1u : 0u;
-    });
+    each_slice([this](const Slice& slice) { touched_ += touched_in(slice); });
   }
 
   /// use(slice) for the rings first..end-1, or for all.
@@ -126,6 +124,17 @@ class TouchedRings {
   }
 
  private:
+  [[nodiscard]] static std::size_t touched_in(const Slice& slice) noexcept {
+    Quanta touched = 0;
+    in_packs([=, depths = &slice.rows.depth[slice.begin], count = slice.size(),
+              to = &touched](auto n) CLAYSTACK_INLINE {
+      Quantas<n> sum{};
+      for (std::size_t k = 0; k < count; k += n)
+        sum -= load_doubles<n>(depths + k, count - k) > 0.0;  // true is -1
+      *to = sum_of(sum);
+    });
+    return static_cast<std::size_t>(touched);
+  }
   template <class Self, class Use>
   static void slices(Self& self, std::size_t first, std::size_t end, Use& use) noexcept {
     while (first < end) {
