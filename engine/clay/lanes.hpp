@@ -56,9 +56,11 @@ CLAYSTACK_INLINE inline double rough_root(double x) noexcept {
 /// Only a test or a benchmark that compares the two writes this.
 inline bool four_lanes = __builtin_cpu_supports("avx2") != 0;
 
+/// A copy of the loop: what it has captured is then in registers, not read again after every store.
 template <class Loop>
 __attribute__((target("avx2"))) void in_four_lanes(const Loop& loop) noexcept {
-  loop();
+  const Loop own = loop;
+  own();
 }
 #else
 inline bool four_lanes = false;

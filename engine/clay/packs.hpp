@@ -69,8 +69,10 @@ template <class Loop>
 void in_packs(const Loop& loop) noexcept {
 #if defined(__x86_64__)
   if (four_lanes)
-    return in_four_lanes([&]()
-                             CLAYSTACK_INLINE { loop(std::integral_constant<std::size_t, 4>{}); });
+    return in_four_lanes([&]() CLAYSTACK_INLINE {
+      const Loop own = loop;
+      own(std::integral_constant<std::size_t, 4>{});
+    });
 #endif
   loop(std::integral_constant<std::size_t, 2>{});
 }
