@@ -130,8 +130,7 @@ void measure_surfaces(std::span<const Ring> rings, bool outside, double* radii) 
     std::size_t k = 0;
     for (; k + n <= count; k += n) {
       const RingPack<n> pack = load_rings<n>(from + k);
-      store(radii + k,
-            root(doubles_of(outside ? pack.outer2 : pack.inner2) * kMm2PerQuantum));
+      store(radii + k, root(doubles_of(outside ? pack.outer2 : pack.inner2) * kMm2PerQuantum));
     }
     for (; k < count; ++k) radii[k] = outside ? from[k].outer_mm() : from[k].inner_mm();
   });

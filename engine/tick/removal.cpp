@@ -93,21 +93,22 @@ std::array<double, 2> pinch_ring(const RemovalPlan& plan, double wall, double le
 /// yielding leaves.
 void load_and_yield(const RemovalPlan& plan, std::span<const Ring> rings, double dt_s, bool outside,
                     const TouchedRings::Slice& slice, Yielding& block) noexcept {
-  const double outward = outside ? 1.0 : -1.0;
-  const std::size_t count = slice.size(), first = slice.begin;
-  const TouchedRings::Block& rows = slice.rows;
-  TouchedRings::Row opposite;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Ring& ring = rings[slice.ring + k];
-    opposite[k] = static_cast<double>(outside ? ring.inner2 : ring.outer2);
-  }
-  in_lanes([&]() CLAYSTACK_INLINE {
-    for (std::size_t k = 0; k < count; ++k) {
-      block.depth[k] = rows.depth[first + k];
-      block.advance[k] = rows.advance[first + k];
-      block.since[k] = rows.since[first + k];
-      block.wall[k] = outward * (rows.surface[first + k] - std::sqrt(opposite[k] * kMm2PerQuantum));
-      block.target[k] = block.wall[k] - block.depth[k];
+  const std::size_t count = slice.size();
+  in_packs([=, from = &rings[slice.ring], touched = &slice.rows, first = slice.begin,
+            outward = outside ? 1.0 : -1.0, to = &block](auto n) CLAYSTACK_INLINE {
+    const auto of_slice = [=](const TouchedRings::Row& row, std::size_t k) CLAYSTACK_INLINE {
+      return load_doubles<n>(&row[first + k], count - k);
+    };
+    for (std::size_t k = 0; k < count; k += n) {
+      const RingPack<n> pack = load_rings<n>(from + k, count - k);
+      const auto opposite = root(doubles_of(outside ? pack.inner2 : pack.outer2) * kMm2PerQuantum);
+      const Doubles<n> depth = of_slice(touched->depth, k);
+      const Doubles<n> wall = outward * (of_slice(touched->surface, k) - opposite);
+      store(&to->depth[k], depth);
+      store(&to->advance[k], of_slice(touched->advance, k));
+      store(&to->since[k], of_slice(touched->since, k));
+      store(&to->wall[k], wall);
+      store(&to->target[k], Doubles<n>(wall - depth));
     }
   });
   yield(plan, dt_s, block, count);

@@ -8,15 +8,25 @@
 namespace clay {
 namespace {
 
+/// How a tool comes to each of some rings.
+struct Approach {
+  using Row = std::array<double, Yielding::kMost>;
+  Row advance;  ///< of the depth, what the tool has gone in the clay [mm]
+  Row pace;     ///< wall times depth at which the clay gives way as fast as the tool comes [mm^2]
+  Row time;     ///< in which the tool is nearer than the knee, times kappa / knee [1/mm]
+  Row at_most;  ///< that gives way [mm]
+};
+
 /// `plain`: the tool has been in each ring all the time, and no deeper than the knee when it came.
-/// So are most rings, and they need half of the divisions.
+/// So are most rings, and they need no divisions here.
 template <bool plain>
-CLAYSTACK_INLINE inline void yield_rings(const RemovalPlan& plan, double turn, Yielding& rings,
-                                         std::size_t count) noexcept {
-  const double knee = plan.yield_depth_mm, min_wall = plan.min_wall_mm, per_knee = 1.0 / knee;
-  const double fraction = 1.0 - exp_neg(turn), pace_of = knee / greater(turn, 1e-300);
+CLAYSTACK_INLINE inline void approach_rings(double knee, double turn, const Yielding& rings,
+                                            std::size_t count, Approach& to) noexcept {
+  const double per_knee = 1.0 / knee, fraction = 1.0 - exp_neg(turn);
+  const double pace_of = knee / greater(turn, 1e-300);
+#pragma GCC unroll 1
   for (std::size_t k = 0; k < count; ++k) {
-    const double wall = rings.wall[k], depth = rings.depth[k], target = rings.target[k];
+    const double wall = rings.wall[k], depth = rings.depth[k];
     double advance = rings.advance[k], pace = advance * pace_of, q = turn, rest = 1.0;
     double at_most = wall * fraction;
     if constexpr (!plain) {
@@ -33,31 +43,50 @@ CLAYSTACK_INLINE inline void yield_rings(const RemovalPlan& plan, double turn, Y
       const double closing = q * (middle - over * over / (12.0 * middle)) - advance;
       rest = closing > over ? 1.0 - over / closing : over > 0.0 ? 0.0 : 1.0;
     }
+    to.advance[k] = advance;
+    to.pace[k] = pace;
+    to.time[k] = q * rest * per_knee;
+    to.at_most[k] = at_most;
+  }
+}
 
-    // Below it: about the depth that stays.
-    const double behind = greater(target + 0.5 * advance, min_wall);
-    const double square = behind * behind, coming = greater(pace, -0.25 * square);
-    const double steady = coming * behind / (square + coming);
-    const double spread = behind + 2.0 * steady;
-    const double fall = exp_of(q * rest * per_knee * spread);
-    const double off = lesser(depth - advance, knee) - steady;
-    const double relaxed = steady + off * spread / ((spread + off) * fall - off);
-
-    rings.left[k] = lesser(greater(greater(relaxed, depth - at_most), 0.0), depth);
+/// Below the knee: about the depth that stays. Three short loops: of one long chain of operations
+/// the processor works on few rows at once. They stay rolled, so that their code is short too.
+CLAYSTACK_INLINE inline void relax_rings(const RemovalPlan& plan, const Approach& how,
+                                         Yielding& rings, std::size_t count) noexcept {
+  const double knee = plan.yield_depth_mm, min_wall = plan.min_wall_mm;
+  Approach::Row steady, spread, fall;
+#pragma GCC unroll 1
+  for (std::size_t k = 0; k < count; ++k) {
+    const double behind = greater(rings.target[k] + 0.5 * how.advance[k], min_wall);
+    const double square = behind * behind, coming = greater(how.pace[k], -0.25 * square);
+    steady[k] = coming * behind / (square + coming);
+    spread[k] = behind + 2.0 * steady[k];
+  }
+#pragma GCC unroll 1
+  for (std::size_t k = 0; k < count; ++k) fall[k] = exp_of(how.time[k] * spread[k]);
+#pragma GCC unroll 1
+  for (std::size_t k = 0; k < count; ++k) {
+    const double depth = rings.depth[k];
+    const double off = lesser(depth - how.advance[k], knee) - steady[k];
+    const double relaxed = steady[k] + off * spread[k] / ((spread[k] + off) * fall[k] - off);
+    rings.left[k] = lesser(greater(greater(relaxed, depth - how.at_most[k]), 0.0), depth);
   }
 }
 
 template <bool plain>
-void yield_all(const RemovalPlan& plan, double turn, Yielding& rings, std::size_t count) noexcept {
-  in_lanes([&]() CLAYSTACK_INLINE { yield_rings<plain>(plan, turn, rings, count); });
+void yield_all(const RemovalPlan& plan, double turn, Yielding& rings, std::size_t some) noexcept {
+  in_lanes([&plan, turn, &rings, some]() CLAYSTACK_INLINE {
+    const std::size_t count = Yielding::filled_up(some);
+    Approach how;
+    approach_rings<plain>(plan.yield_depth_mm, turn, rings, count, how);
+    relax_rings(plan, how, rings, count);
+  });
 }
 
 /// Writes to `other` which rings are not plain: 0 for those that are. Whether there is one.
-bool find_others(double knee, Yielding& rings, std::size_t count, std::int64_t* other) noexcept {
-  for (std::size_t k = count; k < in_packs_of(count); ++k) {
-    rings.depth[k] = rings.advance[k] = 0.0;
-    rings.since[k] = 1.0;
-  }
+bool find_others(double knee, const Yielding& rings, std::size_t count,
+                 std::int64_t* other) noexcept {
   bool found = false;
   in_packs([=, r = &rings, to = &found](auto n) CLAYSTACK_INLINE {
     using D = Doubles<n>;
@@ -77,6 +106,7 @@ bool find_others(double knee, Yielding& rings, std::size_t count, std::int64_t* 
 
 void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept {
   const double turn = plan.rate_per_s * dt_s;
+  rings.fill_up(count);
   alignas(kPackBytes) std::array<std::int64_t, Yielding::kMost> other;
   if (!find_others(plan.yield_depth_mm, rings, count, other.data()))
     return yield_all<true>(plan, turn, rings, count);
@@ -88,6 +118,7 @@ void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t co
   yield_all<true>(plan, turn, rings, count);
   Yielding block;
   for (std::size_t k = 0; k < few; ++k) block.copy(k, rings, others[k]);
+  block.fill_up(few);
   yield_all<false>(plan, turn, block, few);
   for (std::size_t k = 0; k < few; ++k) rings.left[others[k]] = block.left[k];
 }

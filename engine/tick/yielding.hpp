@@ -32,6 +32,17 @@ struct Yielding {
   std::array<double, kMost> target;   ///< wall that the tools on it leave in the end
   std::array<double, kMost> left;     ///< depth that is left
 
+  /// Loops go over whole packs of four rows: those behind the last ring hold a ring that no tool is
+  /// in.
+  [[nodiscard]] static constexpr std::size_t filled_up(std::size_t count) noexcept {
+    return (count + 3) / 4 * 4;
+  }
+  void fill_up(std::size_t count) noexcept {
+    for (std::size_t k = count; k < filled_up(count); ++k) {
+      depth[k] = advance[k] = 0.0;
+      wall[k] = since[k] = target[k] = 1.0;
+    }
+  }
   void copy(std::size_t to, const Yielding& from, std::size_t k) noexcept {
     wall[to] = from.wall[k];
     depth[to] = from.depth[k];
