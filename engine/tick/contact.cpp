@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <type_traits>
 #include <variant>
 
 namespace clay {
@@ -83,8 +84,12 @@ CLAYSTACK_INLINE inline void meet_rows(const Profile& profile, const Tool& tool,
   const double per_rise = std::abs(rise) > 1e-300 ? 1.0 / rise : 0.0;
   const double first = static_cast<double>(slice.ring) + 0.5;
   TouchedRings::Block& rows = slice.rows;
-  for (std::size_t k = slice.begin; k < slice.end; ++k) {
-    const double t = (first + static_cast<double>(static_cast<int>(k - slice.begin))) * h - hip_y;
+  // A sampled profile is not done in lanes.
+  constexpr bool spare = !std::is_same_v<Profile, SampledProfile>;
+  const std::size_t count = spare ? TouchedRings::with_spare(slice.size()) : slice.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = slice.begin + i;
+    const double t = (first + kLevels[i]) * h - hip_y;
     const auto [f, facing] = profile.surface(t, h);
     const double depth = f + outward * (rows.surface[k] - d);
     rows.depth[k] = depth > 0.0 ? depth : 0.0;

@@ -28,7 +28,11 @@ struct RingContact {
 class TouchedRings {
  public:
   static constexpr std::size_t kBlock = 32;
-  using Row = std::array<double, kBlock>;
+  /// Loops in lanes may go on behind the last ring, to a whole number of fours.
+  [[nodiscard]] static constexpr std::size_t with_spare(std::size_t rings) noexcept {
+    return (rings + 3) / 4 * 4;
+  }
+  using Row = std::array<double, kBlock + 4>;
   /// RingContact's members and what gives way, each of 32 rings.
   struct Block {
     Row depth, slope, coverage, normal2, lean, turn, advance, since, surface;
