@@ -38,6 +38,34 @@ CLAYSTACK_INLINE inline F pushed_out(F outer, F inner, F u, float per_min_wall) 
   return lesser(F(by * (2.0f * inner + by)), F(left > 0.0f ? left : F{}));
 }
 
+// How far rings move, in three short loops: of one long chain of operations the processor works on
+// few rows at once.
+
+/// Less where the wall is not thin. `rises`: thickness over the middle radius, times half.
+template <std::size_t n>
+CLAYSTACK_INLINE inline void soften(const float* outers, const float* inners, std::size_t count,
+                                    float* by, float* rises) noexcept {
+  using F = TwiceFloats<n>;
+  for (std::size_t k = 0; k < count; k += 2 * n) {
+    const F bore = load_floats<n>(inners + k) / load_floats<n>(outers + k), bore2 = bore * bore;
+    store(by + k, F(load_floats<n>(by + k) * pliancy(bore2)));
+    store(rises + k, F((1.0f - bore2) / (1.0f + bore2)));
+  }
+}
+/// From mm to the change of R^2 and r^2 [mm^2].
+template <std::size_t n>
+CLAYSTACK_INLINE inline void square(const float* outers, const float* inners, std::size_t count,
+                                    bool outward, float per_min_wall, float* by) noexcept {
+  using F = TwiceFloats<n>;
+  constexpr float kMost = static_cast<float>(kMostLaneQuanta * kMm2PerQuantum);
+  for (std::size_t k = 0; k < count; k += 2 * n) {
+    const F outer = load_floats<n>(outers + k), inner = load_floats<n>(inners + k);
+    const F u = load_floats<n>(by + k);
+    const F way = outward ? pushed_out(outer, inner, u, per_min_wall) : -pushed_in(outer, inner, u);
+    store(by + k, lesser(greater(way, F(F{} - kMost)), F(F{} + kMost)));
+  }
+}
+
 }  // namespace
 
 void Shift::reserve(std::size_t rings) { changes_.resize(in_packs_of(rings)); }
@@ -78,24 +106,20 @@ void Shift::bend(double h, const Band& band, const Shell& shell, std::size_t fir
 }
 
 void Shift::move(const WallRadii& walls, const Push& push, std::size_t first, std::size_t count,
-                 const float* by) noexcept {
+                 float* by) noexcept {
   Quanta sum = 0;  // of 128 rings: fits
-  in_packs([=, outers = walls.outer(first), inners = walls.inner(first),
+  alignas(kPackBytes) float rises[kRows];
+  in_packs([=, outers = walls.outer(first), inners = walls.inner(first), rises = &rises[0],
             changes = &changes_[first - from_], hoop = push.hoop ? 0.5f : 0.0f,
             per_min_wall = static_cast<float>(1.0 / push.min_wall_mm), outward = push.outward,
             total = &sum](auto n) CLAYSTACK_INLINE {
-    using F = TwiceFloats<n>;
-    constexpr float kMost = static_cast<float>(kMostLaneQuanta * kMm2PerQuantum);
+    soften<n>(outers, inners, count, by, rises);
+    square<n>(outers, inners, count, outward, per_min_wall, by);
     Quantas<n> raised{};
     for (std::size_t k = 0; k < count; k += 2 * n) {
-      const F outer = load_floats<n>(outers + k), inner = load_floats<n>(inners + k);
-      const F bore = inner / outer, bore2 = bore * bore;
-      const F u = load_floats<n>(by + k) * pliancy(bore2);
-      const F way =
-          outward ? pushed_out(outer, inner, u, per_min_wall) : -pushed_in(outer, inner, u);
-      const F q = lesser(greater(way, F(F{} - kMost)), F(F{} + kMost));
+      const auto q = load_floats<n>(by + k);
       // Thickness over the middle radius, times half: clay that is pushed up.
-      const auto given = halves<n>(F(-hoop * q * ((1.0f - bore2) / (1.0f + bore2))));
+      const auto given = halves<n>(TwiceFloats<n>(-hoop * q * load_floats<n>(rises + k)));
       const auto moved = halves<n>(q);
       for (std::size_t half = 0; half < 2; ++half) {
         const Quantas<n> by_q = quanta_of(Doubles<n>(moved[half] * kQuantaPerMm2));

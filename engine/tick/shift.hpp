@@ -75,9 +75,10 @@ class Shift {
   void begin(const ClayStack& stack, const Band& band, const Shell& shell) noexcept;
   static void bend(double h, const Band& band, const Shell& shell, std::size_t first,
                    std::size_t count, float* by) noexcept;
-  /// `by`, of whole packs: less where the wall is not thin.
+  /// `by`, of whole packs: how far the rings move [mm], less where the wall is not thin. Afterwards
+  /// by how much R^2 and r^2 change [mm^2].
   void move(const WallRadii& walls, const Push& push, std::size_t first, std::size_t count,
-            const float* by) noexcept;
+            float* by) noexcept;
   void settle(const ClayStack& stack) noexcept;
 
   std::size_t from_ = 0, count_ = 0;
