@@ -166,12 +166,16 @@ CLAYSTACK_INLINE inline Doubles<n> doubles(Floats<n> x) noexcept {
   for (std::size_t k = 0; k < n; ++k) r[k] = static_cast<double>(x[k]);
   return r;
 }
+template <std::size_t n>
+CLAYSTACK_INLINE inline TwiceFloats<n> joined(Floats<n> low, Floats<n> high) noexcept {
+  if constexpr (n == 4)
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+  else
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3);
+}
 template <class Vector>
 CLAYSTACK_INLINE inline TwiceFloats<kRowsOf<Vector>> floats(Vector low, Vector high) noexcept {
-  if constexpr (kRowsOf<Vector> == 4)
-    return __builtin_shufflevector(floats(low), floats(high), 0, 1, 2, 3, 4, 5, 6, 7);
-  else
-    return __builtin_shufflevector(floats(low), floats(high), 0, 1, 2, 3);
+  return joined<kRowsOf<Vector>>(floats(low), floats(high));
 }
 template <std::size_t n>
 CLAYSTACK_INLINE inline Floats<n> low_half(TwiceFloats<n> x) noexcept {
@@ -210,6 +214,13 @@ CLAYSTACK_INLINE inline Doubles<kRowsOf<Vector>> doubles_of(Vector q) noexcept {
   const auto low = reinterpret_cast<Doubles<n>>((bits & 0xffffffffu) | kLowExponent);
   const auto high = reinterpret_cast<Doubles<n>>((bits >> 32) | kHighExponent);
   return (high - kBothExponents) + low;
+}
+/// The same of quanta from 0 to below 2^52.
+inline constexpr Quanta kSmallQuanta = Quanta{1} << 52;
+template <class Vector>
+CLAYSTACK_INLINE inline Doubles<kRowsOf<Vector>> small_doubles(Vector q) noexcept {
+  constexpr std::size_t n = kRowsOf<Vector>;
+  return reinterpret_cast<Doubles<n>>(reinterpret_cast<Bits<n>>(q) | kLowExponent) - 0x1p52;
 }
 template <class Vector>
 CLAYSTACK_INLINE inline Vector nearest(Vector x) noexcept {

@@ -13,32 +13,66 @@ constexpr double kSlopeWayMm = 0.17;
 constexpr double kMostApart = 64.0;              // rings
 constexpr std::size_t kSpare = 4 * kWidestPack;  // rows that packs may write and read too
 
-/// Rings from..last and, beyond the last, the last again.
+/// R and r of 2 n rings.
 template <std::size_t n>
-CLAYSTACK_INLINE inline RingPack<n> load_up_to(const Ring* rings, std::size_t from,
-                                               std::size_t last) noexcept {
-  const std::size_t i = from < last ? from : last;
-  return load_rings<n>(rings + i, last + 1 - i);
+struct Radii {
+  TwiceFloats<n> outer, inner;
+};
+
+/// Of R and r side by side, ring by ring.
+template <std::size_t n>
+CLAYSTACK_INLINE inline Radii<n> both_of(TwiceFloats<n> low, TwiceFloats<n> high) noexcept {
+  if constexpr (n == 4) {
+    // Within the halves of a register, then across: one shuffle would be three.
+    const auto across = [](TwiceFloats<4> x) CLAYSTACK_INLINE {
+      const auto pairs = reinterpret_cast<Doubles<4>>(x);
+      return reinterpret_cast<TwiceFloats<4>>(__builtin_shufflevector(pairs, pairs, 0, 2, 1, 3));
+    };
+    return {across(__builtin_shufflevector(low, high, 0, 2, 8, 10, 4, 6, 12, 14)),
+            across(__builtin_shufflevector(low, high, 1, 3, 9, 11, 5, 7, 13, 15))};
+  } else {
+    return {__builtin_shufflevector(low, high, 0, 2, 4, 6),
+            __builtin_shufflevector(low, high, 1, 3, 5, 7)};
+  }
 }
 
-template <std::size_t n>
-CLAYSTACK_INLINE inline TwiceFloats<n> lengths(Quantas<n> low, Quantas<n> high) noexcept {
-  return root(floats(doubles_of(low), doubles_of(high)) * static_cast<float>(kMm2PerQuantum));
+/// `small`: all R^2 are below `kSmallQuanta`, as of any pot below 256 mm. Then most of the
+/// conversion is not needed.
+template <std::size_t n, bool small>
+CLAYSTACK_INLINE inline Radii<n> radii_of(const Ring* rings, Quantas<n>& largest) noexcept {
+  // R^2 and r^2 of a ring stay side by side until they are floats.
+  Floats<n> parts[4];
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto squares = load<Quantas<n>>(rings + i * n / 2);
+    largest |= squares;
+    if constexpr (small)
+      parts[i] = floats(small_doubles(squares));
+    else
+      parts[i] = floats(doubles_of(squares));
+  }
+  constexpr auto kMm2 = static_cast<float>(kMm2PerQuantum);
+  return both_of<n>(root(joined<n>(parts[0], parts[1]) * kMm2),
+                    root(joined<n>(parts[2], parts[3]) * kMm2));
 }
 
-template <std::size_t n>
-CLAYSTACK_INLINE inline void measure_rows(const Ring* rings, std::size_t first, std::size_t last,
+/// Rings first..last and, beyond the last, the last again. False if they are not small.
+template <std::size_t n, bool small>
+CLAYSTACK_INLINE inline bool measure_rows(const Ring* rings, std::size_t first, std::size_t last,
                                           std::size_t count, float* outer, float* inner,
                                           float* thickness) noexcept {
+  Quantas<n> largest{};
   for (std::size_t k = 0; k < count; k += 2 * n) {
-    const RingPack<n> low = load_up_to<n>(rings, first + k, last);
-    const RingPack<n> high = load_up_to<n>(rings, first + k + n, last);
-    const TwiceFloats<n> out = lengths<n>(low.outer2, high.outer2);
-    const TwiceFloats<n> in = lengths<n>(low.inner2, high.inner2);
+    const std::size_t i = first + k;
+    RawRings<2 * n> copies;
+    if (i + 2 * n > last + 1)
+      for (std::size_t c = 0; c < 2 * n; ++c) copies.data()[c] = rings[std::min(i + c, last)];
+    const auto [out, in] =
+        radii_of<n, small>(i + 2 * n > last + 1 ? copies.data() : rings + i, largest);
     store(outer + k, out);
     store(inner + k, in);
     store(thickness + k, TwiceFloats<n>(out - in));
   }
+  return !any(largest >= kSmallQuanta);
 }
 
 }  // namespace
@@ -78,7 +112,8 @@ void WallRadii::measure(const ClayStack& stack, std::size_t first, std::size_t e
   in_packs([=, rings = stack.rings().data(), outer = &outer_[row(first)],
             inner = &inner_[row(first)], thickness = &thickness_[row(first)]](auto n)
                CLAYSTACK_INLINE {
-                 measure_rows<n>(rings, first, last, count, outer, inner, thickness);
+                 if (!measure_rows<n, true>(rings, first, last, count, outer, inner, thickness))
+                   measure_rows<n, false>(rings, first, last, count, outer, inner, thickness);
                });
 }
 
