@@ -20,27 +20,38 @@ Stretch sum(std::span<const Stretch> parts) noexcept {
 }
 Stretch sum(std::span<const Ring> rings) noexcept { return stretch_of(rings); }
 
-/// Of an even number of packs, of which the second ones do not wait for the first. The halves of
-/// the volumes are summed apart, so that 64 bits do.
+/// The volumes of n rings, in any order.
+template <std::size_t n>
+CLAYSTACK_INLINE inline Quantas<n> volumes_of(const Ring* rings) noexcept {
+  const auto a = load<Quantas<n>>(rings), b = load<Quantas<n>>(rings + n / 2);
+  if constexpr (n == 2)
+    return __builtin_shufflevector(a, b, 0, 2) - __builtin_shufflevector(a, b, 1, 3);
+  else
+    return __builtin_shufflevector(a, b, 0, 4, 2, 6) - __builtin_shufflevector(a, b, 1, 5, 3, 7);
+}
+
+/// Of an even number of packs, of which the second ones do not wait for the first. What the sum of
+/// 64 bits lacks follows from the sum of the upper halves.
 template <std::size_t n>
 CLAYSTACK_INLINE inline void add_packs(const Ring* rings, std::size_t count,
                                        Stretch* stretch) noexcept {
-  Bits<n> low{}, high{};
+  Bits<n> sum{}, high{};
   auto least = all_of<Quantas<n>>(stretch->least), second = least;
-  const auto add = [&](const RingPack<n>& pack, Quantas<n>& smallest) CLAYSTACK_INLINE {
-    const Quantas<n> volume = pack.outer2 - pack.inner2;
+  const auto add = [&](Quantas<n> volume, Quantas<n>& smallest) CLAYSTACK_INLINE {
     const auto bits = reinterpret_cast<Bits<n>>(volume);
-    low += bits & 0xffffffffu;
+    sum += bits;
     high += bits >> 32;
     smallest = volume < smallest ? volume : smallest;
   };
   for (std::size_t k = 0; k < count; k += 2 * n) {
-    add(load_rings<n>(rings + k), least);
-    add(load_rings<n>(rings + k + n), second);
+    add(volumes_of<n>(rings + k), least);
+    add(volumes_of<n>(rings + k + n), second);
   }
   least = second < least ? second : least;
   for (std::size_t k = 0; k < n; ++k) {
-    stretch->volume += (WideQuanta{high[k]} << 32) + WideQuanta{low[k]};
+    // The lower halves: what is left of the sum, as long as 2^32 rings have no more.
+    const auto low = static_cast<std::uint64_t>(sum[k] - (high[k] << 32));
+    stretch->volume += (WideQuanta{high[k]} << 32) + WideQuanta{low};
     stretch->least = std::min(stretch->least, Quanta{least[k]});
   }
 }
