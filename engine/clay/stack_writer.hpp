@@ -33,6 +33,24 @@ class StackWriter {
     gained_ -= amount;
     assert(stack_.rings_[i].volume() > 0);
   }
+  /// The same of the rings from `first` on. Returns the sum.
+  WideQuanta take(std::size_t first, std::span<const Quanta> amounts, bool outside) noexcept {
+    Ring* const rings = stack_.rings_.data() + first;
+    WideQuanta sum = 0;
+    for (std::size_t k = 0; k < amounts.size(); ++k) {
+      const Quanta amount = amounts[k];
+      if (outside) {
+        rings[k].outer2 -= amount;
+      } else {
+        opened_ += rings[k].inner2 == 0 && amount > 0 ? 1u : 0u;
+        rings[k].inner2 += amount;
+      }
+      assert(rings[k].volume() > 0);
+      sum += amount;
+    }
+    gained_ -= sum;
+    return sum;
+  }
   /// Each returns the amount that found room: up to the axis inside, up to the largest radius
   /// outside. Amounts are Quanta or WideQuanta. The caller reports their total with `gain`.
   template <class Amount>

@@ -26,15 +26,8 @@ constexpr int kLipPasses = 4;  // from the rim down to where the wall is as thic
 WideQuanta take(std::span<const ToolRemoval> removals, ClayStack& stack) noexcept {
   StackWriter writer(stack);
   WideQuanta total = 0;
-  for (const auto& [contact, removed] : removals) {
-    for (std::size_t k = 0; k < removed.size(); ++k) {
-      if (contact.side == Side::compressive)
-        writer.take_outside(contact.rings.from() + k, removed[k]);
-      else
-        writer.take_inside(contact.rings.from() + k, removed[k]);
-      total += removed[k];
-    }
-  }
+  for (const auto& [contact, removed] : removals)
+    total += writer.take(contact.rings.from(), removed, contact.side == Side::compressive);
   return total;
 }
 
