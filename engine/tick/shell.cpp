@@ -40,23 +40,39 @@ Stiffness stiffness_of(const float* outer, const float* inner, std::size_t count
   Stiffness stiffness{};
   in_packs([=, to = &stiffness](auto n) CLAYSTACK_INLINE {
     using F = TwiceFloats<n>;
-    F sum{}, most{};
-    for (std::size_t k = 0; k < count; k += 2 * n) {
+    const auto of_pack = [=](std::size_t k) CLAYSTACK_INLINE {
       const F bore = load_floats<n>(inner + k) / load_floats<n>(outer + k);
-      const F row = load_floats<n>(&kFloatLevels[0]) + static_cast<float>(k);
-      const F stiff = row < static_cast<float>(count) ? 1.0f - pliancy(F(bore * bore)) : F{};
+      return F(1.0f - pliancy(F(bore * bore)));
+    };
+    F sum{}, most{};
+    std::size_t k = 0;
+    for (; k + 2 * n <= count; k += 2 * n) {
+      const F stiff = of_pack(k);
       sum += stiff;
       most = greater(most, stiff);
     }
-    for (std::size_t k = 0; k < 2 * n; ++k) to->sum += sum[k];
-    to->most = most_of(most);
+    if (k < count) {
+      const auto left = static_cast<float>(static_cast<int>(count - k));
+      const F stiff = load_floats<n>(&kFloatLevels[0]) < left ? of_pack(k) : F{};
+      sum += stiff;
+      most = greater(most, stiff);
+    }
+    float all = 0.0f;
+    for (std::size_t i = 0; i < 2 * n; ++i) all += sum[i];
+    *to = {all, most_of(most)};
   });
   return stiffness;
 }
 
-/// What each of these rings adds to a stop: nothing where it is pliant.
+/// What each of these rings, at most `kRows`, adds to a stop: nothing where it is pliant.
 void stops_of(const Ring* rings, std::size_t count, double per_stop, double* stops) noexcept {
-  for (std::size_t k = 0; k < count; ++k) stops[k] = per_stop * (1.0 - pliancy(rings[k]));
+  in_packs([=](auto n) CLAYSTACK_INLINE {
+    for (std::size_t k = 0; k < count; k += n) {
+      const RingPack<n> pack = load_rings<n>(rings + k, count - k);
+      const Doubles<n> bore2 = doubles_of(pack.inner2) / doubles_of(pack.outer2);
+      store(stops + k, Doubles<n>(per_stop * (1.0 - pliancy(bore2))));
+    }
+  });
 }
 
 /// How far the wall is free to bend from an end of the band: to the floor, to a solid part, or
@@ -80,13 +96,14 @@ double free_length(const ClayStack& stack, WallRadii& walls, double end_mm, bool
   }
   const double within = level - static_cast<double>(first);
   double piece = h * (up ? 1.0 - within : within);  // of the ring that the end lies in
-  double stops[kRows], length = 0.0, stopped = 0.0;
+  alignas(kPackBytes) double stops[kRows];
+  double length = 0.0, stopped = 0.0;
   for (std::size_t done = 0; length < most; done += kRows) {
     if (done >= there) return up ? most : length;  // nothing above the rim holds the wall
     const std::size_t some = std::min(kRows, there - done);
     const Ring* const from = rings.data() + (up ? first + done : first + 1 - done - some);
     stops_of(from, some, h * per_stop, stops);
-    if (done == 0) stops_of(&rings[first], 1, piece * per_stop, &stops[up ? 0 : some - 1]);
+    if (done == 0) stops[up ? 0 : some - 1] = piece * per_stop * (1.0 - pliancy(rings[first]));
     for (std::size_t k = 0; k < some && length < most; ++k) {
       const std::size_t ring = up ? first + done + k : first - done - k;
       if (foot_mm != nullptr && !(pliancy(rings[ring]) > 0.0)) {
