@@ -47,42 +47,42 @@ template <unsigned rules>
 void reach_of(const RulePress& press, const ClayStack& stack, std::span<const ToolRemoval> removals,
               RuleWork& work) noexcept {
   const Contact& contact = removals.front().contact;
-  const std::size_t top = stack.size() - 1;
-  work.lowest = contact.bottom;
-  work.highest = contact.top;
-  const auto widen = [&](double low_mm, double high_mm) {
-    const double h = stack.ring_height_mm(), last = static_cast<double>(top);
-    work.lowest =
-        std::min(work.lowest, static_cast<std::size_t>(std::clamp(low_mm / h - 1.0, 0.0, last)));
-    work.highest =
-        std::max(work.highest, static_cast<std::size_t>(std::clamp(high_mm / h + 1.0, 0.0, last)));
+  const bool lifts = (rules & kLift) && removals.size() == 2;
+  double low_mm = 1e300, high_mm = -1e300;
+  for (std::size_t k = 0; k < removals.size(); ++k) {
+    const Band& band = work.bands[k];
+    if (removals[k].contact.rings.empty()) continue;
+    const auto widen = [&](double below_mm, double above_mm) {
+      low_mm = std::min(low_mm, band.low_mm - below_mm);
+      high_mm = std::max(high_mm, band.high_mm + above_mm);
+    };
+    if constexpr (rules & kHeave) {
+      if (work.cones[k][0].meets) widen(kReliefMm, 0.0);
+      if (work.cones[k][1].meets) widen(0.0, kReliefMm);
+    }
+    if (press.trim) continue;
+    if constexpr (rules & kSmear) widen(band.height_mm(), band.height_mm());
+    if constexpr (rules & kHeave) {
+      if (!lifts) {
+        const double reach = work.reach_mm[k] = heave_reach(press.plan.tool, stack, band);
+        widen(2.0 * reach, 2.0 * reach);
+      }
+    }
+  }
+  const double h = stack.ring_height_mm(), top = static_cast<double>(stack.size() - 1);
+  const auto ring_at = [=](double level) {
+    return static_cast<std::size_t>(std::clamp(level, 0.0, top));
   };
+  work.lowest = std::min(contact.bottom, ring_at(low_mm / h - 1.0));
+  work.highest = std::max(contact.top, ring_at(high_mm / h + 1.0));
   if (!work.shift.empty()) {
     work.lowest = std::min(work.lowest, work.shift.from());
     work.highest = std::max(work.highest, work.shift.to() - 1);
   }
-  const bool lifts = (rules & kLift) && removals.size() == 2;
-  for (std::size_t k = 0; k < removals.size(); ++k) {
-    const Band& band = work.bands[k];
-    if (removals[k].contact.rings.empty()) continue;
-    if constexpr (rules & kHeave) {
-      if (work.cones[k][0].meets) widen(band.low_mm - kReliefMm, band.high_mm);
-      if (work.cones[k][1].meets) widen(band.low_mm, band.high_mm + kReliefMm);
-    }
-    if (press.trim) continue;
-    const double c = band.height_mm();
-    if constexpr (rules & kSmear) widen(band.low_mm - c, band.high_mm + c);
-    if constexpr (rules & kHeave) {
-      if (!lifts) {
-        const double reach = work.reach_mm[k] = heave_reach(press.plan.tool, stack, band);
-        widen(band.low_mm - 2.0 * reach, band.high_mm + 2.0 * reach);
-      }
-    }
-  }
   if (!press.trim && !lifts && !(rules & kHeave)) {
     const std::size_t reach = flow_reach(press.plan.kernel);
     work.lowest = std::min(work.lowest, contact.bottom - std::min(contact.bottom, reach));
-    work.highest = std::max(work.highest, std::min(top, contact.top + reach));
+    work.highest = std::max(work.highest, std::min(stack.size() - 1, contact.top + reach));
   }
 }
 
