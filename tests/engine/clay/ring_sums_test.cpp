@@ -1,5 +1,6 @@
 #include "engine/clay/ring_sums.hpp"
 
+#include "engine/clay/lanes.hpp"
 #include "tests/engine/clay/stack_samples.hpp"
 
 #include <gtest/gtest.h>
@@ -49,6 +50,18 @@ RC_GTEST_PROP(RingSums, EqualTheSumsOfTheRings, ()) {
     for (std::size_t i = rings.size(); i-- > 0; above += rings[i].volume())
       RC_ASSERT(sums.above(rings, i) == above);
   }
+}
+
+/// Volumes that 64 bits cannot add up.
+TEST(RingSums, AddUpTheLargestRings) {
+  const bool supported = four_lanes;
+  const std::vector<Ring> rings(200, Ring{quanta_from_radius(kMaxRadiusMm), 1});
+  for (const bool four : {false, supported}) {
+    four_lanes = four;
+    EXPECT_TRUE(stretch_of(rings).volume == 200 * WideQuanta{rings[0].volume()});
+    EXPECT_EQ(stretch_of(rings).least, rings[0].volume());
+  }
+  four_lanes = supported;
 }
 
 /// A predicate that is always true visits every ring once, from the top, with its load.
