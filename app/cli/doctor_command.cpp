@@ -38,13 +38,6 @@ struct Finding {
   std::string fix;    ///< a command; empty if good
 };
 
-bool runs(std::string_view program) {
-  std::istringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "");
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
-  return false;
-}
-
 Finding examine_memory() {
   constexpr std::uint64_t kLeast = std::uint64_t{1} << 30;
   const MemoryRoom room = memory_room();
@@ -82,6 +75,13 @@ Finding examine_graphics() {
 #endif
 
 #ifdef CLAYSTACK_STUDIO
+bool runs(std::string_view program) {
+  std::istringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
 bool is_set(const char* variable) {
   const char* value = std::getenv(variable);
   return value != nullptr && *value != '\0';
