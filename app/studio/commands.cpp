@@ -6,6 +6,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -59,10 +61,21 @@ bool has_written(View view) {
 }
 bool can_draw(View view) { return view.between_strokes() && PictureWriter::available(); }
 const char* why_no_pictures(View) {
-  return PictureWriter::available()
-             ? nullptr
-             : "A web page cannot write pictures. Open the pot in the program "
-               "for the desktop.";
+  return PictureWriter::available() ? nullptr
+                                    : "a web page cannot write pictures; open the pot in the "
+                                      "program for the desktop";
+}
+const char* why_no_undo(View view) {
+  return can_undo(view) ? nullptr : "there is no stroke to undo";
+}
+const char* why_no_redo(View view) {
+  return can_redo(view) ? nullptr : "no stroke was undone";
+}
+const char* why_no_work(View view) {
+  return has_work(view) ? nullptr : "there is no clay on the wheel";
+}
+const char* why_not_between(View view) {
+  return between(view) ? nullptr : why_no_work(view) ? why_no_work(view) : "a stroke is in progress";
 }
 bool can_import(View view) {
   const auto* import = std::get_if<ImportDialog>(&view.ui.dialog);
@@ -71,6 +84,11 @@ bool can_import(View view) {
 /// Smoothing is a clay rule; works thrown without the rules have none.
 bool has_rules(View view) {
   return view.document.has_work() && view.document.scene().clay.has_value();
+}
+const char* why_no_rules(View view) {
+  return !has_work(view) ? why_no_work(view)
+         : has_rules(view) ? nullptr
+                           : "this pot was thrown without the clay rules, which it needs";
 }
 bool pinching(View view) { return view.settings.tool.mode == ToolMode::pinch; }
 bool rearmable(View view) { return view.waits_for_rearm(); }
@@ -122,16 +140,16 @@ const std::array kCommands = {
     C{"file.learn_bottle", "Throw a bottle step by step", kNone, kNone, BeginLesson{2, false}, always},
     C{"file.learn_cylinder", "Throw a cylinder step by step", kNone, kNone, BeginLesson{3, false}, always},
     C{"file.open", "Open...", key(GLFW_KEY_O, kCtrl), kNone, ShowDialog{Kind::open_file}, always},
-    C{"file.save", "Save", key(GLFW_KEY_S, kCtrl), kNone, Save{}, between},
+    C{"file.save", "Save", key(GLFW_KEY_S, kCtrl), kNone, Save{}, between, nullptr, why_not_between},
     C{"file.save_as", "Save as...", key(GLFW_KEY_S, kCtrlShift), kNone, ShowDialog{Kind::save_file}, between},
-    C{"file.export", "Export...", key(GLFW_KEY_E, kCtrl), kNone, ShowDialog{Kind::export_files}, between},
+    C{"file.export", "Export...", key(GLFW_KEY_E, kCtrl), kNone, ShowDialog{Kind::export_files}, between, nullptr, why_not_between},
     C{"file.picture", "Export picture...", key(GLFW_KEY_E, kCtrlShift), kNone, ShowDialog{Kind::picture}, can_draw, nullptr, why_no_pictures},
     C{"file.turntable", "Export turntable...", kNone, kNone, ShowDialog{Kind::turntable}, can_draw, nullptr, why_no_pictures},
     C{"file.settings", "Settings...", key(GLFW_KEY_COMMA, kCtrl), kNone, ShowDialog{Kind::settings}, always},
     C{"file.quit", "Quit", key(GLFW_KEY_Q, kCtrl), kNone, Quit{}, always},
 
-    C{"edit.undo", "Undo stroke", key(GLFW_KEY_Z, kCtrl), kNone, Undo{}, can_undo},
-    C{"edit.redo", "Redo stroke", key(GLFW_KEY_Z, kCtrlShift), key(GLFW_KEY_Y, kCtrl), Redo{}, can_redo},
+    C{"edit.undo", "Undo stroke", key(GLFW_KEY_Z, kCtrl), kNone, Undo{}, can_undo, nullptr, why_no_undo},
+    C{"edit.redo", "Redo stroke", key(GLFW_KEY_Z, kCtrlShift), key(GLFW_KEY_Y, kCtrl), Redo{}, can_redo, nullptr, why_no_redo},
     C{"edit.to_start", "Go to the start", key(GLFW_KEY_HOME, kCtrl), kNone, GoToStroke{0}, can_undo},
     C{"edit.other_branch", "Switch branch", key(GLFW_KEY_B, kCtrl), kNone, OtherBranch{}, can_switch},
     C{"edit.branch", "Branch at this moment", key(GLFW_KEY_B, kCtrlShift), kNone, BranchHere{}, scrubbing},
@@ -160,10 +178,10 @@ const std::array kCommands = {
     C{"tool.press", "Press", key(GLFW_KEY_P), kNone, SetToolMode{ToolMode::press}, always, is_mode<ToolMode::press>},
     C{"tool.trim", "Trim", key(GLFW_KEY_T), kNone, SetToolMode{ToolMode::trim}, always, is_mode<ToolMode::trim>},
     C{"tool.pinch", "Pinch", key(GLFW_KEY_H), kNone, SetToolMode{ToolMode::pinch}, always, is_mode<ToolMode::pinch>},
-    C{"tool.smooth", "Smooth", key(GLFW_KEY_M), kNone, SetToolMode{ToolMode::smooth}, has_rules, is_mode<ToolMode::smooth>},
-    C{"tool.needle", "Level the rim", key(GLFW_KEY_L), kNone, SetToolMode{ToolMode::needle}, always, is_mode<ToolMode::needle>},
-    C{"tool.wire", "Cut off the wheel", key(GLFW_KEY_K), kNone, SetToolMode{ToolMode::wire}, always, is_mode<ToolMode::wire>},
-    C{"tool.trim_foot", "Trim the foot", key(GLFW_KEY_U), kNone, SetToolMode{ToolMode::trim_foot}, always, is_mode<ToolMode::trim_foot>},
+    C{"tool.smooth", "Smooth", key(GLFW_KEY_M), kNone, SetToolMode{ToolMode::smooth}, has_rules, is_mode<ToolMode::smooth>, why_no_rules},
+    C{"tool.needle", "Needle: level the rim", key(GLFW_KEY_L), kNone, SetToolMode{ToolMode::needle}, always, is_mode<ToolMode::needle>},
+    C{"tool.wire", "Wire: cut off the wheel", key(GLFW_KEY_K), kNone, SetToolMode{ToolMode::wire}, always, is_mode<ToolMode::wire>},
+    C{"tool.trim_foot", "Foot: trim upside down", key(GLFW_KEY_U), kNone, SetToolMode{ToolMode::trim_foot}, always, is_mode<ToolMode::trim_foot>},
     C{"tool.next", "Next tool", kNone, kNone, StepTool{1}, always},
     C{"tool.previous", "Previous tool", kNone, kNone, StepTool{-1}, always},
     C{"tool.sphere", "Sphere", key(GLFW_KEY_S), kNone, SetToolShape{Shape::sphere}, always, is_shape<Shape::sphere>},
@@ -186,7 +204,7 @@ const std::array kCommands = {
     C{"view.top", "Top", key(GLFW_KEY_7), key(GLFW_KEY_KP_7), LookFrom{ViewFrom::top}, has_work},
     C{"view.nearer", "Nearer", key(GLFW_KEY_PAGE_UP), kNone, Zoom{1.0}, has_work},
     C{"view.farther", "Farther", key(GLFW_KEY_PAGE_DOWN), kNone, Zoom{-1.0}, has_work},
-    C{"view.cut_half", "Cut away a half", key(GLFW_KEY_C), kNone, ToggleCut{render::Cut::half}, has_work, is_cut<render::Cut::half>},
+    C{"view.cut_half", "Cut away a half", key(GLFW_KEY_C), kNone, ToggleCut{render::Cut::half}, has_work, is_cut<render::Cut::half>, why_no_work},
     C{"view.cut_quarter", "Cut away a quarter", key(GLFW_KEY_C, kShift), kNone, ToggleCut{render::Cut::quarter}, has_work, is_cut<render::Cut::quarter>},
     C{"view.wall_map", "Wall thickness map", key(GLFW_KEY_W), kNone, ToggleWallMap{}, always, has_wall_map},
     C{"view.throwing_lines", "Throwing lines", kNone, kNone, ToggleThrowingLines{}, always, has_throwing_lines},
@@ -222,6 +240,13 @@ constexpr std::array kMenus = {Menu{"file.", "File"}, Menu{"edit.", "Edit"},
 
 std::span<const Command> commands() { return kCommands; }
 std::span<const Menu> menus() { return kMenus; }
+
+std::string tip_of(const Command& command, const ViewModel& model) {
+  std::string tip = command.title;
+  if (command.chord.key != 0) tip += fmt::format(" ({})", text_of(command.chord));
+  const char* why = command.why_not != nullptr ? command.why_not(model) : nullptr;
+  return why != nullptr ? fmt::format("{}: {}", tip, why) : tip;
+}
 
 const Command* find_command(std::string_view id) {
   const auto* found = std::ranges::find(kCommands, id, &Command::id);

@@ -22,9 +22,12 @@ struct Command {
   Action action;
   bool (*enabled)(const ViewModel&);
   bool (*checked)(const ViewModel&) = nullptr;  ///< state of a command that toggles something
-  /// Why this program never offers the command; null: it does.
+  /// Why it is disabled now, for the end of a sentence; null: it is enabled.
   const char* (*why_not)(const ViewModel&) = nullptr;
 };
+
+/// Title, keys, and why the command is disabled.
+[[nodiscard]] std::string tip_of(const Command& command, const ViewModel& model);
 
 /// In the order of the menus.
 [[nodiscard]] std::span<const Command> commands();

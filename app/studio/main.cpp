@@ -96,7 +96,8 @@ Result<void> run_window(const StudioOptions& options, const LogLine& log) {
     log(fmt::format("recovery offered: {}", state.recoverable.size()));
     if (!state.ui.shows<GalleryDialog>())
       state.ui.notices.show(Grade::note,
-                            "There is an unsaved work: File, New offers to recover it");
+                            "A work was not saved when the program ended. New (Ctrl+N) lists it.",
+                            0.0, "recover.take");
   }
   log("window open");
   const servo::ForceSignals signals;

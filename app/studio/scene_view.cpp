@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kRoomForTool = 1.35;   // size of the view relative to the whole pot
 constexpr double kSizingPerPx = 0.006;  // drag: change of the logarithm of the size per pixel
-constexpr double kLessonRad = 0.22, kGrowth = 2.6;   // a pot that is pulled grows to that
+constexpr double kLessonRad = 0.22, kGrowth = 2.4;   // a pot that is pulled grows to that
 constexpr double kSoftest = 1e-4, kStiffest = 10.0;  // N/mm^2
 
 std::optional<Tool> chosen_tool(const ViewModel& view) {
@@ -67,8 +67,6 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
       render::PotView grown = pot;
       grown.height_mm *= kGrowth;
       camera_ = render::framed(grown, viewport().aspect(), camera);
-      camera_.distance_mm *= kRoomForTool;
-      lift_foot();
       return;
     }
     case ViewFrom::front:
@@ -87,20 +85,8 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
   camera_.distance_mm *= kRoomForTool;
 }
 
-/// Leaves room for the card of the lesson below the wheel.
-void SceneView::lift_foot() {
-  constexpr float kFootAt = 0.58f;  // of the height of the view
-  constexpr double kStepMm = 2.0;
-  constexpr int kMostSteps = 200;
-  const auto low = [&] {
-    const auto foot = pixel_of({0.0, 0.0});
-    return foot && foot->y > rect_.corner_px.y + kFootAt * free_height_px();
-  };
-  for (int step = 0; step < kMostSteps && low(); ++step) camera_.target_mm.y -= kStepMm;
-}
-
 void SceneView::keep_rim_in_view(const render::PotView& pot) {
-  constexpr double kAboveMm = 60.0, kBack = 1.03;
+  constexpr double kAboveMm = 40.0, kBack = 1.03;
   constexpr int kMostSteps = 60;
   const double top_mm = pot.height_mm + kAboveMm;
   const auto hidden = [&] {
@@ -351,6 +337,7 @@ std::optional<render::ToolView> SceneView::tool_view(const ViewModel& view) cons
 std::optional<render::ToolView> SceneView::hovering_tool(const ViewModel& view,
                                                          const Tool& tool) const {
   if (!view.ui.shows<NoDialog>() || turning() || !rect_.holds(pointer_px())) return std::nullopt;
+  if (over_panel_ && !led_mm_) return std::nullopt;  // a press would be for the panel
   const auto pointed = pointed_mm();
   if (!pointed) return std::nullopt;
   const render::PotView pot = shown_pot(view);

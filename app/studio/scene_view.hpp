@@ -59,6 +59,8 @@ class SceneView {
   /// The point (rho, y) [mm] of the section plane under it; empty: it points past the plane.
   [[nodiscard]] std::optional<glm::dvec2> pointed_mm() const;
   [[nodiscard]] glm::vec2 pointer_px() const noexcept;
+  /// Whether a panel that lies over the view is under the mouse. Call once a frame.
+  void set_over_panel(bool over) noexcept { over_panel_ = over; }
   /// Another hand than the mouse leads the pointer until the mouse moves.
   void lead(glm::dvec2 place_mm) noexcept { led_mm_ = place_mm; }
   /// Such a point nearby at which the tool is clear of the clay.
@@ -67,7 +69,7 @@ class SceneView {
 
   // --- Camera. -----------------------------------------------------------------------------------
   void look(const render::PotView& pot, ViewFrom from);
-  /// Moves back if the rim and 60 mm above it are not in sight.
+  /// Moves back if the rim and 40 mm above it are not in sight.
   void keep_rim_in_view(const render::PotView& pot);
   void zoom(double notches) { camera_ = render::zoomed(camera_, notches); }
   /// To the right and up.
@@ -104,7 +106,6 @@ class SceneView {
   [[nodiscard]] bool pinch_from(const ViewModel& view, const Tool& tool, glm::dvec2& place_mm,
                                 ToolSpec& spec, Actions& actions);
   void drag(const ViewModel& view, glm::vec2 by_px, Actions& actions);
-  void lift_foot();
   [[nodiscard]] float free_height_px() const noexcept;
   [[nodiscard]] std::optional<render::ToolView> hovering_tool(const ViewModel& view,
                                                               const Tool& tool) const;
@@ -114,6 +115,7 @@ class SceneView {
   render::Camera camera_;
   Drag drag_ = Drag::none;
   glm::vec2 mouse_px_{-1.0f};
+  bool over_panel_ = false;
   std::optional<double> pen_;         // strength of the pen; none: a mouse
   std::optional<glm::dvec2> led_mm_;  // the place of another pointer
   // Since the press: its strength, and the offset from the pointer to the tool.

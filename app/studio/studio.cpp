@@ -203,7 +203,7 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   if (timeline > 0.0f)
     draw_timeline(model, actions, {left, top + tall - timeline}, {wide, timeline});
   const bool first = state_.scene.rect().size_px.x <= 1.0f;
-  place_view(model, view, timeline, right == 0.0f && below == 0.0f);
+  place_view(model, view, timeline, below == 0.0f);
   if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
   draw_target(model, view);
   const float verdict = draw_verdict(model, view);
@@ -218,13 +218,14 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   draw_banner(model, actions, view, verdict);
 }
 
-/// In a narrow window the card of the guide would lie over the pot: the pot stands above it. The
-/// room for the card grows between strokes only, because the view stands still during a stroke.
-void Studio::place_view(const ViewModel& model, const ViewRect& view, float timeline, bool narrow) {
-  const bool guided = narrow && model.guide.active();
+/// The pot stands above the card of the guide. The room for the card grows between strokes only,
+/// because the view stands still during a stroke.
+void Studio::place_view(const ViewModel& model, const ViewRect& view, float timeline, bool card) {
+  const bool guided = card && model.guide.active();
   const float before = std::exchange(guide_px_, guided ? guide_px_ : 0.0f);
   if (guided && !model.stroke.throwing()) guide_px_ = std::max(before, guide_height());
   state_.scene.place(view, timeline + std::min(guide_px_, 0.5f * view.size_px.y));
+  state_.scene.set_over_panel(ImGui::GetIO().WantCaptureMouse);
   if (before == 0.0f && guide_px_ > 0.0f) state_.scene.look(model.stroke.view(), ViewFrom::lesson);
 }
 

@@ -65,7 +65,7 @@ const char* name_of(ToolMode mode) noexcept {
     case ToolMode::trim_foot:
       break;
   }
-  return "Trim the foot";
+  return "Foot";
 }
 
 ToolSpec tool_of(const ToolChoice& choice, bool inverted) {

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -21,14 +22,16 @@ enum class Grade { note, warning, fault };
 struct Notice {
   Grade grade = Grade::note;
   std::string text;
-  double until_s = 0.0;  ///< on the host's clock; 0: until the user closes it
+  double until_s = 0.0;      ///< on the host's clock; 0: until the user closes it
+  std::string_view command;  ///< a button runs it; empty: none
 };
 
 /// One banner at a time, the most severe first, until it is closed or expires.
 class Notices {
  public:
-  void show(Grade grade, std::string text, double until_s = 0.0) {
-    if (!notice_ || grade >= notice_->grade) notice_ = Notice{grade, std::move(text), until_s};
+  void show(Grade grade, std::string text, double until_s = 0.0, std::string_view command = {}) {
+    if (!notice_ || grade >= notice_->grade)
+      notice_ = Notice{grade, std::move(text), until_s, command};
   }
   void close() { notice_.reset(); }
   /// Closes a notice that no longer applies.

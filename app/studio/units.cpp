@@ -18,9 +18,9 @@ UnitText unit_text(LengthUnit unit) {
   return {1.0, "mm", 1};
 }
 
-std::string length_text(double mm, LengthUnit unit) {
+std::string length_text(double mm, LengthUnit unit, int more_digits) {
   const UnitText text = unit_text(unit);
-  return fmt::format("{:.{}f} {}", mm / text.mm, text.digits, text.name);
+  return fmt::format("{:.{}f} {}", mm / text.mm, text.digits + more_digits, text.name);
 }
 
 std::string mass_text(double grams) {

@@ -14,8 +14,8 @@ struct UnitText {
 };
 [[nodiscard]] UnitText unit_text(LengthUnit unit);
 
-/// "12.5 mm", "1.25 cm", "0.49 in".
-[[nodiscard]] std::string length_text(double mm, LengthUnit unit);
+/// "12.5 mm", "1.25 cm", "0.49 in"; with `more_digits` 1 "12.51 mm".
+[[nodiscard]] std::string length_text(double mm, LengthUnit unit, int more_digits = 0);
 /// "3.2 g", "1.250 kg".
 [[nodiscard]] std::string mass_text(double grams);
 /// "9.5 ml", "340 ml", "1.20 l".

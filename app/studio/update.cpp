@@ -90,8 +90,7 @@ void update_strokes(AppState& state) {
   if (news.ending == servo::Ending::collapsed) {
     state.fall.begin(state.document.shared_pot(), state.now_s());
     state.ui.notices.show(Grade::warning,
-                          "The pot has fallen: the clay could not carry its own weight. Undo "
-                          "removes the stroke.");
+                          "The pot has fallen: the clay could not carry its own weight.");
   }
   if (news.ring_limit)
     state.ui.notices.show(Grade::warning,

@@ -94,12 +94,12 @@ auto members(Like<studio::PotRemark> auto& of) {
 }
 auto members(Like<studio::PotCheck> auto& of) {
   auto& [live, stopped, proved, why_not, fault_mm, remarks, fallen, triangles, tolerance_mm,
-         counted_mm3, proved_mm3, volume_error_relative, least_wall_mm, thinnest_mm, thinnest_from,
-         thinnest_to, limit, problems, walls, height_mm, maker, off, seconds] = of;
+         counted_mm3, proved_mm3, volume_error_relative, least_wall_mm, hollow, thinnest_mm,
+         thinnest_from, thinnest_to, limit, problems, walls, height_mm, maker, off, seconds] = of;
   return std::tie(live, stopped, proved, why_not, fault_mm, remarks, fallen, triangles,
                   tolerance_mm, counted_mm3, proved_mm3, volume_error_relative, least_wall_mm,
-                  thinnest_mm, thinnest_from, thinnest_to, limit, problems, walls, height_mm, maker,
-                  off, seconds);
+                  hollow, thinnest_mm, thinnest_from, thinnest_to, limit, problems, walls,
+                  height_mm, maker, off, seconds);
 }
 auto members(Like<studio::ExportChoices> auto& of) {
   auto& [meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm, smoothing,

@@ -79,6 +79,7 @@ struct PotRecord {
   std::optional<Rim> rim;
   std::optional<Motion> motion;
   std::optional<ThrowSettings> thrown_with;
+  std::optional<ToolSpec> shaped_with;
   std::optional<Collapse> collapse;
 
   [[nodiscard]] std::size_t size() const {
@@ -103,6 +104,7 @@ void describe(auto& io, Is<PotRecord> auto& pot) {
   io.part("rim", pot.rim);
   io.part("motion", pot.motion);
   io.part("thrown_with", pot.thrown_with);
+  io.part("shaped_with", pot.shaped_with);
   io.part_or_null("collapse", pot.collapse);
   io.check([&](ObjectReader& reader) {
     if (!pot.rings && !pot.rounded_rings) return reader.require({"rings"});
@@ -137,6 +139,7 @@ PotRecord record_of(const Pot& pot, bool for_people) {
                    .rim = pot.rim == Rim{} ? std::nullopt : std::optional(pot.rim),
                    .motion = pot.motion == Motion{} ? std::nullopt : std::optional(pot.motion),
                    .thrown_with = pot.thrown_with,
+                   .shaped_with = pot.shaped_with,
                    .collapse = pot.collapse};
   if (const auto grid = grid_of(pot)) {
     record.rounded_rings = rounded_ring_arrays(*record.rings, *pot.rounding, *grid);
@@ -167,7 +170,8 @@ Result<Pot> pot_from(const LocatedJson& document, const PotRecord& record) {
           std::nullopt,
           record.rim.value_or(Rim{}),
           record.motion.value_or(Motion{}),
-          record.thrown_with};
+          record.thrown_with,
+          record.shaped_with};
   if (rounded) pot.rounding = {rounded->rounded_to_mm, rounded->exact_volume};
   return pot;
 }

@@ -38,8 +38,10 @@ struct Wheel::State {
   RuleSteps rules;
   std::optional<double> turned_mm;  // height of a pot that stands upside down
   ThrowSettings settings;
-  std::optional<ThrowSettings> settings_before;  // of the pot that was put on the wheel
-  bool thrown = true;  // false: no pose yet on the pot that was put on the wheel
+  // Of the pot that was put on the wheel.
+  std::optional<ThrowSettings> settings_before;
+  std::optional<ToolSpec> shaped_before;  // the tool that left the marks on its walls
+  bool thrown = true;                     // false: no pose yet on the pot that was put on the wheel
   std::optional<Failure> failure;
   glm::dvec3 failure_hip{0.0};
   StepReport (*tick)(State&, const Pose&) noexcept = nullptr;
@@ -326,6 +328,13 @@ constexpr auto probe_table(std::index_sequence<sets...>) {
   return std::array{&probe<static_cast<unsigned>(sets), State>...};
 }
 
+/// The tool that left the marks on the walls of a pot.
+std::optional<ToolSpec> shaping_tool(const Pot& pot) {
+  if (pot.shaped_with || !pot.thrown_with || cuts_level(pot.thrown_with->tool.mode))
+    return pot.shaped_with;
+  return pot.thrown_with->tool;
+}
+
 }  // namespace
 
 Wheel::Wheel(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
@@ -365,6 +374,7 @@ Result<Wheel> Wheel::build(const SceneSpec& scene, const Pot& start) {
   if (scene.clay) state.motion = start.motion;
   state.settings = settings_of(scene);
   state.settings_before = start.thrown_with;
+  state.shaped_before = shaping_tool(start);
   state.thrown = false;
   return wheel;
 }
@@ -430,6 +440,7 @@ Pot Wheel::pot() const {
   Pot pot{s.stack, s.ledger, s.plan.model, s.plan.density_g_cm3, {}, {}, {}, s.motion};
   if (pot.model == Model::conserving) pot.rim = s.rim;
   pot.thrown_with = s.thrown ? s.settings : s.settings_before;
+  if (pot.thrown_with && cuts_level(pot.thrown_with->tool.mode)) pot.shaped_with = s.shaped_before;
   if (s.failure)
     pot.collapse = settle(s.stack, s.plan.density_g_cm3, *s.failure, s.failure_hip,
                           s.plan.stability.max_stress_kpa);

@@ -298,7 +298,7 @@ class RevolvedExport {
 
 double tool_length_mm(const Pot& pot) {
   if (!pot.thrown_with) return 0.0;
-  const auto tool = Tool::build(pot.thrown_with->tool.shape);
+  const auto tool = Tool::build(pot.shaped_with.value_or(pot.thrown_with->tool).shape);
   return tool ? std::min(tool->widest(), 0.5 * (tool->high() - tool->low())) : 0.0;
 }
 

@@ -3,6 +3,7 @@
 
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
+#include "claystack/engine/tick.hpp"
 
 #include <fmt/format.h>
 
@@ -18,6 +19,7 @@ namespace {
 constexpr double kBoreMm = 2.0;       // a bore begins at this radius
 constexpr double kHardPullMm = 15.0;  // way of the spring at which the hand pulls with its strength
 constexpr double kSlackMm = 2.0;
+constexpr double kFiguresMm = 20.0;  // a tool so near the clay has figures
 
 const render::Row* row_at(const render::PotView& pot, double y_mm) {
   if (pot.rows.empty() || y_mm < 0.0 || y_mm >= pot.height_mm) return nullptr;
@@ -47,6 +49,12 @@ std::vector<std::string> figures_at(const ViewModel& model, const render::ToolVi
     lines.push_back(fmt::format("floor {}", length_text(*floor, unit)));
   lines.push_back(fmt::format("radius {}", length_text(rho, unit)));
   lines.push_back(fmt::format("height {}", length_text(tool.place_mm.y, unit)));
+  const ToolMode mode = model.settings.tool.mode;
+  if (cuts_level(mode) && row != nullptr)
+    lines.push_back(fmt::format(
+        "cuts off {}",
+        length_text(mode == ToolMode::needle ? pot.height_mm - tool.place_mm.y : tool.place_mm.y,
+                    unit)));
   if (const auto& strength = model.scene.strength(); strength && model.stroke.throwing())
     lines.push_back(fmt::format("strength {:.0f} %", 100.0 * *strength));
   return lines;
@@ -110,6 +118,18 @@ void draw_floor(const ViewModel& model, ImDrawList* draw, float view_left) {
   shaded_text(draw, at, text, ImGui::GetStyleColorVec4(ImGuiCol_Text));
 }
 
+/// Needle and wire are too thin to see: a line shows the level at which they cut.
+void draw_cut_level(const ViewModel& model, ImDrawList* draw, double y_mm, double widest_mm) {
+  constexpr double kBesideMm = 12.0;
+  const double reach = widest_mm + kBesideMm;
+  const auto left = model.scene.pixel_of({-reach, y_mm}),
+             right = model.scene.pixel_of({reach, y_mm});
+  if (!left || !right) return;
+  const float em = ImGui::GetFontSize();
+  draw->AddLine({left->x, left->y}, {right->x, right->y}, ImGui::GetColorU32(ImGuiCol_Text),
+                0.14f * em);
+}
+
 }  // namespace
 
 void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
@@ -127,8 +147,9 @@ void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
                      {rect.corner_px.x + rect.size_px.x, rect.corner_px.y + rect.size_px.y});
   const render::Row* row = row_at(model.stroke.view(), tool->place_mm.y);
   const double widest = row != nullptr ? static_cast<double>(row->outer_mm) : 0.0;
-  const bool near = model.stroke.throwing() || rho < widest + 40.0;
+  const bool near = model.stroke.throwing() || rho < widest + kFiguresMm;
   if (near && (tool->inside || rho < kBoreMm + 20.0)) draw_floor(model, draw, rect.corner_px.x);
+  if (cuts_level(model.settings.tool.mode)) draw_cut_level(model, draw, tool->place_mm.y, widest);
   draw_pull(model, draw, at);
   if (near) draw_lines(draw, figures_at(model, *tool), at, rect.corner_px.x + rect.size_px.x);
   draw->PopClipRect();

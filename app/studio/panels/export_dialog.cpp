@@ -46,7 +46,7 @@ class BoxRow {
 
 /// A box for each ending that can be written, in the order of the table of formats.
 void draw_meshes(ExportChoices& choices) {
-  BoxRow row("Files");
+  BoxRow row("Meshes");
   std::string_view last_ending;
   for (const solid::FormatFacts& facts : solid::kFormatFacts) {
     if (!facts.written || facts.ending == last_ending) continue;
@@ -64,7 +64,7 @@ void draw_meshes(ExportChoices& choices) {
 /// Each function edits its own part of `choices`.
 void draw_formats(const ViewModel& model, ExportChoices& choices) {
   draw_meshes(choices);
-  BoxRow also("Also");
+  BoxRow also("Other files");
   also.box("STEP", choices.step);
   also.box("SVG", choices.section);
   also.box("DXF", choices.dxf);
@@ -80,16 +80,19 @@ void draw_formats(const ViewModel& model, ExportChoices& choices) {
 }
 
 /// Shows the usual length until another one is chosen.
-void choose_smooth_length(const Pot& pot, ExportChoices& choices) {
+void choose_smooth_length(const Pot& pot, LengthUnit unit, ExportChoices& choices) {
   std::optional<double>& length_mm = choices.smooth_length_mm;
   double shown_mm =
       length_mm ? *length_mm : solid::usual_smooth_length_mm(pot, choices.tolerance_mm);
-  if (form_length("Smoothing length", shown_mm, 0.0, kLongestFairingMm, LengthUnit::mm, "none"))
+  if (form_length("Smoothing length", shown_mm, 0.0, kLongestFairingMm, unit, "none"))
     length_mm = shown_mm;
+  tip("Marks that are shorter along the height are smoothed away.");
 }
 
 void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actions) {
-  form_length("Tolerance", choices.tolerance_mm, kFinestMm, kCoarsestMm, LengthUnit::mm);
+  const LengthUnit unit = model.settings.unit;
+  form_length("Tolerance", choices.tolerance_mm, kFinestMm, kCoarsestMm, unit);
+  tip("The largest distance between the triangles and the smooth pot.");
   constexpr std::array kSmooth = {solid::Smoothing::fair, solid::Smoothing::exact,
                                   solid::Smoothing::none};
   constexpr std::array kSmoothTitles = {"Fair", "Exact", "None"};
@@ -98,11 +101,12 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
   form_row("Smoothing");
   if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth); chosen >= 0)
     choices.smoothing = kSmooth[static_cast<std::size_t>(chosen)];
+  tip("Fair: smooth walls. Exact: keeps the volume of every ring. None: keeps the steps.");
   if (choices.smoothing == solid::Smoothing::fair)
-    choose_smooth_length(model.document.pot(), choices);
+    choose_smooth_length(model.document.pot(), unit, choices);
   form_row("Process");
   (void)choose_process(model, "None", choices.process, actions);
-  form_length("Minimum wall", choices.min_wall_mm, 0.0, kThickestDemandMm, model.settings.unit,
+  form_length("Minimum wall", choices.min_wall_mm, 0.0, kThickestDemandMm, unit,
               choices.process.empty() ? "no limit" : "by the process");
   float percent = static_cast<float>(choices.shrinkage_percent);
   if (form_slider("Shrinkage", percent, 0.0f, 25.0f,
@@ -110,6 +114,7 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
     // Rounded to tenths, as shown, so that the command line gives the same file for the same
     // number.
     choices.shrinkage_percent = std::round(10.0 * static_cast<double>(percent)) / 10.0;
+  tip("How much shorter each length becomes in firing. The file is larger by as much.");
 }
 
 std::string size_text(const ExportFigures& figures, double factor, LengthUnit unit) {
@@ -129,25 +134,22 @@ void draw_figures(const ViewModel& model, const ExportFigures& figures) {
     value_row(colours, "Fired size", size_text(figures, 1.0 - figures.shrinkage, unit));
   if (!figures.fallen)
     value_row(colours, "Thinnest wall",
-              fmt::format("{:.2f} mm, at a height of {:.1f} mm", figures.thinnest_mm,
-                          figures.thinnest_at_mm));
+              fmt::format("{}, at a height of {}", length_text(figures.thinnest_mm, unit, 1),
+                          length_text(figures.thinnest_at_mm, unit)));
   if (figures.faired_mm > 0.0)
     value_row(colours, "Walls moved by",
-              fmt::format("at most {:.2f} mm, at a height of {:.1f} mm", figures.moved_mm,
-                          figures.moved_at_mm));
+              fmt::format("at most {}, at a height of {}", length_text(figures.moved_mm, unit, 1),
+                          length_text(figures.moved_at_mm, unit)));
   for (const std::string& problem : figures.problems)
     wrapped_text(sentence(problem), colours.warning);
 }
 
 /// Progress, figures or the problem, in an area of fixed height, so that the dialog keeps its
-/// height, and its buttons are in sight in a low view as well.
-void draw_preview(const ViewModel& model, const ViewRect& rect) {
+/// height.
+void draw_preview(const ViewModel& model) {
   const ExportState& exporting = model.ui.exporting;
-  constexpr float kHeightEm = 12.5f, kLowestEm = 4.0f, kButtonsEm = 5.0f;
-  const float em = ImGui::GetFontSize();
-  const float room = rect.size_px.y - ImGui::GetCursorPosY() - kButtonsEm * em;
-  const ImVec2 size(0.0f, std::clamp(room, kLowestEm * em, kHeightEm * em));
-  ImGui::BeginChild("##preview", size, true);
+  constexpr float kHeightEm = 12.5f;
+  ImGui::BeginChild("##preview", {0.0f, kHeightEm * ImGui::GetFontSize()}, true);
   const bool running = model.export_running.has_value();
   if (model.writing())
     faint_text(model.colours(), "Writing: " + model.export_stage);
@@ -172,7 +174,7 @@ void draw_buttons(const ViewModel& model, Actions& actions) {
   } else {
     faint_text(model.colours(),
                standing.empty()
-                   ? "Each file is written completely or not at all"
+                   ? "No file will be replaced"
                    : fmt::format("{} will be replaced",
                                  standing.size() == 1
                                      ? std::filesystem::path(standing.front()).filename().string()
@@ -197,13 +199,15 @@ void draw_buttons(const ViewModel& model, Actions& actions) {
 void draw(const ExportDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
   begin_dialog("##export", rect, 44.0f);
   dialog_title(model, "Export");
+  begin_body(rect);
   ExportChoices choices = model.ui.exporting.choices;
   draw_formats(model, choices);
   form_place(choices.name, choices.folder, actions);
   draw_choices(model, choices, actions);
   if (choices != model.ui.exporting.choices) actions.emplace_back(EditExport{choices});
   ImGui::Spacing();
-  draw_preview(model, rect);
+  draw_preview(model);
+  end_body();
   draw_buttons(model, actions);
   ImGui::End();
 }

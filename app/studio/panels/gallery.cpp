@@ -41,7 +41,7 @@ void draw_sample(std::size_t index, float width, const ViewModel& model, Actions
   ImGui::BeginGroup();
   ImGui::PushID(sample.title);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const bool clicked = ImGui::Button("##card", {width, (kPictureEm + 5.2f) * em});
+  const bool clicked = ImGui::Button("##card", {width, (kPictureEm + 6.8f) * em});
   const float inset = 0.5f * (width - kPictureEm * em);
   draw_half_section(section_of(sample), {at.x + inset, at.y + 0.5f * em}, kPictureEm * em, colours);
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -50,13 +50,15 @@ void draw_sample(std::size_t index, float width, const ViewModel& model, Actions
                 ImGui::GetColorU32(ImGuiCol_Text), sample.title);
   draw->AddText(ImGui::GetFont(), em, {x, at.y + (kPictureEm + 2.4f) * em},
                 ImGui::GetColorU32(colours.faint), sample.description, nullptr, kPictureEm * em);
+  draw->AddText(ImGui::GetFont(), em, {x, at.y + (kPictureEm + 5.2f) * em},
+                ImGui::GetColorU32(ImGuiCol_Text), "Step by step >");
   const float half = 0.5f * (width - ImGui::GetStyle().ItemInnerSpacing.x);
   if (clicked) actions.emplace_back(BeginLesson{index, false});
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Throw it step by step");
   if (ImGui::Button("Show me", {half, 0.0f})) actions.emplace_back(BeginLesson{index, true});
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Watch the pot being thrown");
   ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
-  if (ImGui::Button("Lump", {half, 0.0f})) actions.emplace_back(BeginSample{index});
+  if (ImGui::Button("No guide", {half, 0.0f})) actions.emplace_back(BeginSample{index});
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Begin with the lump, without a guide");
   ImGui::PopID();
   ImGui::EndGroup();
@@ -73,7 +75,7 @@ void draw_lump(const ViewModel& model, Actions& actions) {
   slider_label("Clay mass", fmt::format("{:.2f} kg", kg));
   if (ImGui::SliderFloat("##clay", &kg, static_cast<float>(kLeastClayKg),
                          static_cast<float>(kMostClayKg), "",
-                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+                         kSlider | ImGuiSliderFlags_Logarithmic))
     kept.SetFloat(kg_id, kg);
   ImGui::NextColumn();
   if (length_slider("Radius", radius_mm, 20.0, 200.0, model.settings.unit))

@@ -20,8 +20,7 @@ bool slider(const char* label, double& value, double most, const char* format, c
   slider_label(label, value > 0.0 ? fmt::format(fmt::runtime(format), value) : none);
   float shown = static_cast<float>(value);
   const std::string id = fmt::format("##{}", label);
-  if (!ImGui::SliderFloat(id.c_str(), &shown, 0.0f, static_cast<float>(most), "",
-                          ImGuiSliderFlags_AlwaysClamp))
+  if (!ImGui::SliderFloat(id.c_str(), &shown, 0.0f, static_cast<float>(most), "", kSlider))
     return false;
   value = std::round(static_cast<double>(shown));
   return true;
@@ -50,8 +49,7 @@ void draw_goal(const ViewModel& model, Actions& actions) {
     slider_label(label, mm > 0.0 ? length_text(mm, unit) : "any");
     float shown = static_cast<float>(mm);
     const std::string id = fmt::format("##{}", label);
-    if (ImGui::SliderFloat(id.c_str(), &shown, 0.0f, static_cast<float>(kUsualMm), "",
-                           ImGuiSliderFlags_AlwaysClamp))
+    if (ImGui::SliderFloat(id.c_str(), &shown, 0.0f, static_cast<float>(kUsualMm), "", kSlider))
       mm = std::round(static_cast<double>(shown));
   };
   length("Height", goal.height_mm);

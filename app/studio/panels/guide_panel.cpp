@@ -120,7 +120,8 @@ double distance_mm(const LessonPlan& plan, const glm::dvec3& tool_mm) {
 
 float guide_height() {
   const ImGuiWindow* card = ImGui::FindWindowByName(kCardId);
-  const bool settled = card != nullptr && card->WasActive && card->AutoFitFramesY <= 0;
+  // In its first frame ImGui measures a window and does not show it.
+  const bool settled = card != nullptr && card->WasActive && card->HiddenFramesCannotSkipItems <= 0;
   return settled ? card->Size.y + ImGui::GetFontSize() : 0.0f;
 }
 
@@ -204,6 +205,19 @@ float draw_pill(const std::string& words, const ImVec4& colour, const ViewRect& 
   return high.y;
 }
 
+/// The colours of a traffic light.
+const ImVec4& colour_of(Verdict verdict, const Palette& colours) {
+  switch (verdict) {
+    case Verdict::ready:
+      return colours.good;
+    case Verdict::doubtful:
+      return colours.warning;
+    case Verdict::not_ready:
+      break;
+  }
+  return colours.fault;
+}
+
 }  // namespace
 
 float draw_verdict(const ViewModel& model, const ViewRect& rect) {
@@ -214,8 +228,8 @@ float draw_verdict(const ViewModel& model, const ViewRect& rect) {
       fallen ? "Fallen: undo removes the last stroke" : ready_text(*check, model.settings.unit);
   const Palette& colours = model.colours();
   const float em = ImGui::GetFontSize();
-  float top = draw_pill(text, check->ready() && !fallen ? colours.good : colours.warning, rect,
-                        rect.corner_px.y + 0.45f * em);
+  const Verdict verdict = fallen ? Verdict::not_ready : check->verdict();
+  float top = draw_pill(text, colour_of(verdict, colours), rect, rect.corner_px.y + 0.45f * em);
   if (fallen) return top;
   if (check->maker && model.settings.goal.set()) {
     const GoalReading goal = read_goal(model.settings.goal, *check->maker, model.settings.unit);

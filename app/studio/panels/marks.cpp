@@ -18,6 +18,7 @@ namespace clay::studio {
 namespace {
 
 constexpr float kLeastViewEm = 18.0f;  // minimum height of the view for the scale
+constexpr float kNarrowViewEm = 32.0f;
 constexpr int kSteps = 5;
 constexpr float kNoteEm = 10.0f;  // width of the note below the scale
 
@@ -40,15 +41,18 @@ struct ScaleText {
   std::string text;
 };
 
-std::vector<ScaleText> texts_of_scale(const PotCheck& check, const ImVec2& bar, LengthUnit unit) {
+/// In a narrow view the numbers alone: the panel of the walls has the rest.
+std::vector<ScaleText> texts_of_scale(const PotCheck& check, const ImVec2& bar, LengthUnit unit,
+                                      bool narrow) {
   const float em = ImGui::GetFontSize();
   const render::WallMap map = wall_map_of(check);
-  std::vector<ScaleText> texts{{{0.0f, -1.9f * em}, "Wall thickness"}};
+  std::vector<ScaleText> texts{{{0.0f, -1.9f * em}, narrow ? "Wall" : "Wall thickness"}};
   for (int step = 0; step <= kSteps; ++step)
     texts.push_back(
         {{bar.x + 0.6f * em, bar.y * (1.0f - static_cast<float>(step) / kSteps) - 0.5f * em},
-         length_text(map.top_mm * step / kSteps, unit) + (step == kSteps ? " or more" : "")});
-  if (check.limit)
+         length_text(map.top_mm * step / kSteps, unit) +
+             (step == kSteps && !narrow ? " or more" : "")});
+  if (check.limit && !narrow)
     texts.push_back(
         {{0.0f, bar.y + 0.9f * em},
          wrapped(fmt::format("Hatched red: below {}, {}",
@@ -66,7 +70,8 @@ void draw_scale(const PotCheck& check, const ViewRect& rect, float top_px, Lengt
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
   const ImVec2 bar(1.1f * em, std::round(std::min(11.0f * em, 0.45f * rect.size_px.y)));
   const ImVec2 low(std::round(rect.corner_px.x + 1.4f * em), std::round(top_px + 2.8f * em));
-  const std::vector<ScaleText> texts = texts_of_scale(check, bar, unit);
+  const std::vector<ScaleText> texts =
+      texts_of_scale(check, bar, unit, rect.size_px.x < kNarrowViewEm * em);
   ImVec2 high(low.x + bar.x, low.y + bar.y);
   for (const ScaleText& text : texts) {
     const ImVec2 size = ImGui::CalcTextSize(text.text.c_str());

@@ -107,13 +107,13 @@ void draw_main_buttons(const ViewModel& model, Actions& actions) {
   for (const Shown& shown : kShown) {
     const Command& command = *find_command(shown.id);
     const bool enabled = command.enabled(model);
-    const bool main = shown.id == "file.export" && enabled;
+    const bool main = shown.id == "file.export" && enabled && model.ui.shows<NoDialog>();
     ImGui::BeginDisabled(!enabled);
     const bool clicked =
         main ? main_button(shown.title, model.colours()) : ImGui::Button(shown.title);
     ImGui::EndDisabled();
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s (%s)", command.title, text_of(command.chord).c_str());
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+      ImGui::SetTooltip("%s", tip_of(command, model).c_str());
     if (clicked) actions.emplace_back(RunCommand{shown.id});
     ImGui::SameLine(0.0f, style.ItemInnerSpacing.x);
   }
@@ -220,8 +220,9 @@ float draw_menu(const ViewModel& model, Actions& actions) {
       if (ImGui::MenuItem(command.title, text_of(command.chord).c_str(), on,
                           command.enabled(model)))
         actions.emplace_back(RunCommand{command.id});
-      if (command.why_not != nullptr && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-        if (const char* why_not = command.why_not(model)) ImGui::SetTooltip("%s", why_not);
+      if (!command.enabled(model) && command.why_not != nullptr &&
+          ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        ImGui::SetTooltip("%s", tip_of(command, model).c_str());
       if (command.id == "file.open") used = draw_recent(model, actions);
     }
     ImGui::PopStyleVar();
@@ -283,6 +284,11 @@ void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect,
                   2.0f * ImGui::GetStyle().FramePadding.x);
   const bool closed = ImGui::Button("Close");
   wrapped_text(notice->text);
+  if (const Command* command = find_command(notice->command); command != nullptr)
+    if (ImGui::Button(command->title)) {
+      actions.emplace_back(RunCommand{command->id});
+      actions.emplace_back(CloseNotice{});
+    }
   ImGui::End();
   ImGui::PopStyleColor(2);
   ImGui::PopStyleVar(2);
@@ -291,18 +297,17 @@ void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect,
 
 void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect) {
   if (!model.settings.hints || !model.ui.shows<NoDialog>() || model.stroke.throwing() ||
-      model.guide.active())
+      model.guide.active() || (model.document.has_work() && model.document.work().size() > 1))
     return;
   const char* text =
       model.fingers ? "Drag a finger on the clay to shape it. Two fingers turn the view and zoom."
-                    : "Hold the left button on the clay and drag to shape it.  Middle or right "
-                      "button turns the "
-                      "view, the wheel zooms.  Press ? for all keys.";
+                    : "Hold the left button on the clay and drag to shape it. The middle or right "
+                      "button turns the view, the wheel zooms. ? lists all keys.";
+  // In the corner, beside the pot.
   const float pad = ImGui::GetFontSize();
-  const float width = std::min(rect.size_px.x - 2.0f * pad, 36.0f * pad);
-  ImGui::SetNextWindowPos(
-      {rect.corner_px.x + 0.5f * (rect.size_px.x - width), rect.corner_px.y + rect.size_px.y - pad},
-      ImGuiCond_Always, {0.0f, 1.0f});
+  const float width = std::min(rect.size_px.x - 2.0f * pad, 18.0f * pad);
+  ImGui::SetNextWindowPos({rect.corner_px.x + pad, rect.corner_px.y + rect.size_px.y - pad},
+                          ImGuiCond_Always, {0.0f, 1.0f});
   ImGui::SetNextWindowSize({width, 0.0f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.4f * pad);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));

@@ -69,8 +69,7 @@ void draw_background(PictureFile& file) {
 
 void draw_frames(PictureFile& file) {
   form_row("Frames");
-  ImGui::SliderInt("##frames", &file.look.frames, kFewestFrames, kMostShownFrames, "%d",
-                   ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderInt("##frames", &file.look.frames, kFewestFrames, kMostShownFrames, "%d", kSlider);
 }
 
 /// The result, or what the picture will show, in a place of fixed height.

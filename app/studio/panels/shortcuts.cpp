@@ -5,6 +5,7 @@
 #include "app/studio/panels/widgets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -99,23 +100,36 @@ void draw_section_of_keys(const Section& section, const Palette& colours, float 
   ImGui::Dummy({0.0f, 0.4f * ImGui::GetFontSize()});
 }
 
-float widest_of(const std::vector<Section>& column) {
+/// The width of its keys, or of what they do.
+float widest_of(const std::vector<Section>& column, std::string HelpRow::*part) {
   float widest = 0.0f;
   for (const Section& section : column)
     for (const HelpRow& row : section.rows)
-      widest = std::max(widest, ImGui::CalcTextSize(row.how.c_str()).x);
+      widest = std::max(widest, ImGui::CalcTextSize((row.*part).c_str()).x);
   return widest + 0.8f * ImGui::GetFontSize();
+}
+
+/// As many columns, up to three, as have room.
+const Columns& columns_for(float room_px) {
+  static const std::array kChoices = {columns_of(all_sections(), 1), columns_of(all_sections(), 2),
+                                      columns_of(all_sections(), 3)};
+  for (std::size_t i = kChoices.size() - 1; i > 0; --i) {
+    float width = 0.0f;
+    for (const std::vector<Section>& column : kChoices[i])
+      width += widest_of(column, &HelpRow::how) + widest_of(column, &HelpRow::what);
+    if (width + 2.0f * ImGui::GetFontSize() < room_px) return kChoices[i];
+  }
+  return kChoices.front();
 }
 
 }  // namespace
 
 void draw(const ShortcutsDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
-  static const Columns kTwo = columns_of(all_sections(), 2), kThree = columns_of(all_sections(), 3);
-  constexpr float kWideEm = 68.0f, kThreeColumnsEm = 60.0f;
+  constexpr float kWideEm = 68.0f;
   begin_dialog("##shortcuts", rect, kWideEm);
-  const Columns& columns =
-      ImGui::GetContentRegionAvail().x < kThreeColumnsEm * ImGui::GetFontSize() ? kTwo : kThree;
   dialog_title(model, "Controls");
+  begin_body(rect);
+  const Columns& columns = columns_for(ImGui::GetContentRegionAvail().x);
   const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(spacing.x, 0.3f * spacing.y));
   if (ImGui::BeginTable("##keys", static_cast<int>(columns.size()),
@@ -123,11 +137,12 @@ void draw(const ShortcutsDialog&, const ViewModel& model, Actions& actions, cons
     for (const std::vector<Section>& column : columns) {
       ImGui::TableNextColumn();
       for (const Section& section : column)
-        draw_section_of_keys(section, model.colours(), widest_of(column));
+        draw_section_of_keys(section, model.colours(), widest_of(column, &HelpRow::how));
     }
     ImGui::EndTable();
   }
   ImGui::PopStyleVar();
+  end_body();
   if (ImGui::Button("Close (Esc)")) actions.emplace_back(CloseDialog{});
   ImGui::End();
 }

@@ -3,8 +3,6 @@
 #include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <string>
@@ -102,7 +100,7 @@ struct Icon {
 constexpr std::array kIcons = {
     Icon{"tool.press", "Press", &press_icon},    Icon{"tool.pinch", "Pinch", &pinch_icon},
     Icon{"tool.smooth", "Smooth", &smooth_icon}, Icon{"tool.trim", "Trim", &trim_icon},
-    Icon{"tool.needle", "Level", &needle_icon},  Icon{"tool.wire", "Cut off", &wire_icon},
+    Icon{"tool.needle", "Needle", &needle_icon}, Icon{"tool.wire", "Wire", &wire_icon},
     Icon{"tool.trim_foot", "Foot", &foot_icon},  Icon{"view.cut_half", "Inside", &cut_icon},
     Icon{"view.wall_map", "Walls", &walls_icon},
 };
@@ -141,7 +139,7 @@ bool icon_button(const char* label, void (*draw_icon)(const Pen&), bool enabled,
 void draw_command(const Icon& icon, const ViewModel& model, Actions& actions) {
   const Command& command = *find_command(icon.command);
   if (icon_button(icon.label, icon.draw, command.enabled(model), command.checked(model),
-                  fmt::format("{} ({})", command.title, text_of(command.chord)), model))
+                  tip_of(command, model), model))
     actions.emplace_back(RunCommand{command.id});
 }
 
@@ -161,6 +159,7 @@ void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, g
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::BeginDisabled(!model.ui.shows<NoDialog>());
   for (std::size_t i = 0; i < kIcons.size(); ++i) {
     if (i == kTools) {
       ImGui::Spacing();
@@ -172,6 +171,7 @@ void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, g
   const bool below = below_open(model.settings);
   if (panels && icon_button("Panels", &panels_icon, true, below, "Panels below the view", model))
     actions.emplace_back(FoldPanel{kBelow, !below});
+  ImGui::EndDisabled();
   ImGui::End();
   ImGui::PopStyleVar(3);
 }

@@ -1,8 +1,9 @@
 #include "app/studio/panels/timeline.hpp"
-#include "app/studio/tool_choice.hpp"
 
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
+#include "app/studio/tool_choice.hpp"
+#include "claystack/engine/tick.hpp"
 
 #include <fmt/format.h>
 
@@ -38,10 +39,13 @@ std::string tooltip_of(const ViewModel& model, history::NodeId node) {
   constexpr std::array kShapes = {"sphere", "ellipse", "rib", "custom tool"};
   const history::NodeView stroke = model.document.work().view(node);
   const ToolSpec& tool = stroke.scene->tool;
+  const std::string shape =
+      cuts_level(tool.mode) ? "" : fmt::format(" with a {}", kShapes[tool.shape.index()]);
   return fmt::format(
-      "Stroke {}: {}, {}, {:.1f} s{}{}", node, name_of(tool.mode), kShapes[tool.shape.index()],
-      stroke.seconds,
-      stroke.volume_mm3 ? fmt::format(", {:.1f} ml", 1e-3 * *stroke.volume_mm3) : std::string(),
+      "Stroke {}: {}{}, {:.1f} s{}{}", node, name_of(tool.mode), shape, stroke.seconds,
+      stroke.volume_mm3
+          ? fmt::format(", then {:.1f} ml of clay in the pot", 1e-3 * *stroke.volume_mm3)
+          : std::string(),
       stroke.changed == false ? ", no contact" : "");
 }
 

@@ -47,8 +47,7 @@ bool draw_gap(ToolChoice& tool, LengthUnit unit) {
     slider_label("Gap", fmt::format("{:.0f} % of the wall", 100.0 * tool.gap_share));
     float percent = static_cast<float>(100.0 * tool.gap_share);
     changed = ImGui::SliderFloat("##share", &percent, static_cast<float>(100.0 * kLeastGapShare),
-                                 static_cast<float>(100.0 * kMostGapShare), "",
-                                 ImGuiSliderFlags_AlwaysClamp);
+                                 static_cast<float>(100.0 * kMostGapShare), "", kSlider);
     if (changed) tool.gap_share = 0.01 * std::round(static_cast<double>(percent));
   } else {
     changed = length_slider("Gap", tool.gap_mm, kNarrowestGapMm, kWidestPinchMm, unit);
@@ -123,15 +122,14 @@ void draw_wheel(const ViewModel& model, Actions& actions) {
   slider_label("Speed", fmt::format("{:.0f} rpm", model.settings.wheel_rpm));
   float rpm = static_cast<float>(model.settings.wheel_rpm);
   if (ImGui::SliderFloat("##rpm", &rpm, static_cast<float>(kSlowestRpm),
-                         static_cast<float>(kFastestRpm), "", ImGuiSliderFlags_AlwaysClamp))
+                         static_cast<float>(kFastestRpm), "", kSlider))
     actions.emplace_back(SetWheelSpeed{static_cast<double>(rpm)});
   faint_text(model.colours(), "The clay yields and smooths faster at a higher speed.");
   if (!model.document.has_work() || !model.document.scene().force) return;
   slider_label("Stiffness", fmt::format("{:.3g} N/mm\xc2\xb2", model.document.stiffness()));
   float stiffness = static_cast<float>(model.document.stiffness());
   if (ImGui::SliderFloat("##stiffness", &stiffness, static_cast<float>(kSoftest),
-                         static_cast<float>(kStiffest), "",
-                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+                         static_cast<float>(kStiffest), "", kSlider | ImGuiSliderFlags_Logarithmic))
     actions.emplace_back(SetStiffness{static_cast<double>(stiffness)});
   faint_text(model.colours(), "Affects the force you feel, not the clay.");
 }

@@ -74,6 +74,14 @@ void form_row(const char* label) {
   ImGui::SetNextItemWidth(kToEdge);
 }
 
+void tip(const char* text) {
+  constexpr float kTipEm = 24.0f;
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float left = ImGui::GetWindowPos().x, right = left + ImGui::GetWindowWidth();
+  if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect({left, low.y}, {right, high.y}))
+    ImGui::SetTooltip("%s", wrapped(text, kTipEm * ImGui::GetFontSize()).c_str());
+}
+
 bool form_slider(const char* label, float& value, float low, float high, const std::string& text,
                  int flags) {
   constexpr float kTextEm = 9.5f;
@@ -84,8 +92,7 @@ bool form_slider(const char* label, float& value, float low, float high, const s
   ImGui::SameLine(left);
   ImGui::SetNextItemWidth(room - kTextEm * ImGui::GetFontSize());
   const std::string id = fmt::format("##{}", label);
-  return ImGui::SliderFloat(id.c_str(), &value, low, high, "",
-                            ImGuiSliderFlags_AlwaysClamp | flags);
+  return ImGui::SliderFloat(id.c_str(), &value, low, high, "", kSlider | flags);
 }
 
 bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
@@ -111,7 +118,7 @@ bool length_slider(const char* label, double& mm, double low_mm, double high_mm,
   const std::string id = fmt::format("##{}", label);
   if (!ImGui::SliderFloat(id.c_str(), &shown, static_cast<float>(low_mm / text.mm),
                           static_cast<float>(high_mm / text.mm), "",
-                          ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+                          kSlider | ImGuiSliderFlags_Logarithmic))
     return false;
   mm = std::clamp(static_cast<double>(shown) * text.mm, low_mm, high_mm);
   return true;
@@ -279,6 +286,21 @@ void begin_dialog(const char* id, const ViewRect& rect, float width_em) {
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   ImGui::PopStyleVar(2);
   dim_around(low.y, ImGui::GetIO().DisplaySize.y - status_height());
+}
+
+void begin_body(const ViewRect& rect) {
+  constexpr float kButtonsEm = 6.0f;
+  const float room = std::max(4.0f * ImGui::GetFontSize(), rect.size_px.y - ImGui::GetCursorPosY() -
+                                                               kButtonsEm * ImGui::GetFontSize());
+  // Its height in the frame before.
+  const float height = ImGui::GetStateStorage()->GetFloat(ImGui::GetID("body"), room);
+  ImGui::BeginChild("##body", {0.0f, std::min(height, room)});
+}
+
+void end_body() {
+  const float height = ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y;
+  ImGui::EndChild();
+  ImGui::GetStateStorage()->SetFloat(ImGui::GetID("body"), height);
 }
 
 void draw_half_section(const render::PotView& pot, ImVec2 corner, float side,

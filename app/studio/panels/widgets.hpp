@@ -16,6 +16,9 @@ namespace clay::studio {
 /// A width: up to the right edge of the window's content.
 inline constexpr float kToEdge = -std::numeric_limits<float>::min();
 
+/// Their values stand beside them, so Tab and Ctrl+click open no text field over them.
+inline constexpr int kSlider = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput;
+
 /// A row of buttons of equal width, one of which is selected. Returns the index of a clicked
 /// button, or -1.
 int choice_row(const char* id, std::span<const char* const> titles, int chosen);
@@ -39,6 +42,8 @@ void dialog_title(const ViewModel& model, const char* text);
 /// A label at the left; the next control fills the rest of the line.
 inline constexpr float kFormEm = 10.5f;
 void form_row(const char* label);
+/// Explains the line of the last control under the pointer.
+void tip(const char* text);
 /// A slider in such a line, with its value as text beside it.
 bool form_slider(const char* label, float& value, float low, float high, const std::string& text,
                  int flags = 0);
@@ -80,6 +85,11 @@ void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImV
 /// Begins a window in the middle of the dimmed view, as high as its content. Call ImGui::End() to
 /// end it.
 void begin_dialog(const char* id, const ViewRect& rect, float width_em);
+
+/// The part of a dialog between its title and its buttons. Where the view is too low for all of it,
+/// it scrolls, so that the buttons stay in sight.
+void begin_body(const ViewRect& rect);
+void end_body();
 
 /// A list for choosing `process`. Returns true if it has changed. `none`: label for no process.
 bool choose_process(const ViewModel& model, const char* none, std::string& process,

@@ -101,6 +101,8 @@ void run(const PotQuestion& question, const Pot& pot, const std::function<bool()
          PotCheck& check) {
   check.height_mm = pot.stack.height_mm();
   check.fallen = pot.collapse.has_value();
+  check.hollow =
+      std::ranges::any_of(pot.stack.rings(), [](const Ring& ring) { return ring.inner2 > 0; });
   const auto limits = limits_of(question.process, pot.stack, check.remarks);
   if (limits)
     check.limit = limits->wall_for(4.0 * largest_radius_mm(pot.stack) + pot.stack.height_mm());
@@ -240,6 +242,11 @@ bool PotCheck::ready() const {
   return proved && std::ranges::none_of(problems, &solid::Problem::fails);
 }
 
+Verdict PotCheck::verdict() const {
+  if (!ready()) return Verdict::not_ready;
+  return problems.empty() ? Verdict::ready : Verdict::doubtful;
+}
+
 std::string ready_text(const PotCheck& check, LengthUnit unit) {
   if (check.stopped) return "Not checked";
   if (!check.proved)
@@ -249,7 +256,7 @@ std::string ready_text(const PotCheck& check, LengthUnit unit) {
   const bool ready = check.ready();
   for (const solid::Problem& problem : check.problems)
     if (problem.fails != ready)
-      return (ready ? "Ready to print, but " : "Not ready: ") + text_of(problem, check, unit);
+      return (ready ? "Check before printing: " : "Not ready: ") + text_of(problem, check, unit);
   return "Ready to print";
 }
 
@@ -257,6 +264,7 @@ std::string wall_text(const PotCheck& check, LengthUnit unit) {
   if (check.fallen) return "Fallen: walls are not measured";
   if (check.stopped) return "Walls unknown: the pot is not checked";
   if (!check.proved) return "Walls unknown: the section is not that of one solid";
+  if (!check.hollow) return "Solid clay: there are no walls yet";
   std::string words =
       fmt::format("Thinnest wall {}, at a height of {}", length_text(check.thinnest_mm, unit),
                   length_text(check.thinnest_from.y, unit));

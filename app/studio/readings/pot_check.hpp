@@ -48,6 +48,12 @@ struct PotRemark {
   std::string text;
 };
 
+enum class Verdict {
+  ready,
+  doubtful,  ///< one closed solid, with problems that the export only warns about
+  not_ready,
+};
+
 struct PotCheck {
   bool live = false;     ///< made from the outline during a stroke
   bool stopped = false;  ///< the check could not be finished: nothing is known
@@ -60,6 +66,7 @@ struct PotCheck {
   double tolerance_mm = 0.0;
   double counted_mm3 = 0.0, proved_mm3 = 0.0, volume_error_relative = 0.0;
   double least_wall_mm = 0.0;  ///< proved lower bound of the wall
+  bool hollow = false;         ///< some ring has a bore
   double thinnest_mm = 0.0;    ///< thinnest place of the section, between two points (rho, y) [mm]
   glm::dvec2 thinnest_from{0.0}, thinnest_to{0.0};  ///< rho is negative beyond the axis
   std::optional<solid::WallLimit> limit;
@@ -72,6 +79,7 @@ struct PotCheck {
 
   /// One solid without a problem that fails.
   [[nodiscard]] bool ready() const;
+  [[nodiscard]] Verdict verdict() const;
   [[nodiscard]] bool thin() const { return limit && !fallen && thinnest_mm < limit->min_wall_mm; }
 };
 

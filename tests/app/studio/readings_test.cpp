@@ -316,6 +316,21 @@ TEST(Verdict, NamesPlaceAndMeasureInTheUnit) {
   EXPECT_EQ(verdict(parted, LengthUnit::mm), "Not ready: in two parts at a height of 40.0 mm");
 }
 
+TEST(Verdict, IsDoubtfulWhereTheExportOnlyWarns) {
+  const auto check_of = [](std::vector<Ring> rings, const char* process) {
+    return check_pot(question_of(pot_of(std::move(rings)), process));
+  };
+  EXPECT_EQ(check_of(cup_rings(), "").verdict(), Verdict::ready);
+  auto paper = cup_rings();
+  for (std::size_t i = 80; i < 100; ++i) paper[i].inner2 = quanta_from_radius(39.6);
+  const PotCheck unasked = check_of(paper, "");
+  EXPECT_EQ(unasked.verdict(), Verdict::doubtful);
+  EXPECT_TRUE(unasked.ready());  // the export writes it
+  const std::string words = ready_text(unasked, LengthUnit::mm);
+  EXPECT_EQ(words.find("Check before printing: thin wall of 0."), 0u) << words;
+  EXPECT_EQ(check_of(paper, "porcelain").verdict(), Verdict::not_ready);
+}
+
 TEST(WallMap, FitsItsScaleToThePot) {
   const auto top_mm = [](double wall_mm) {
     return wall_map_of(check_pot(question_of(pot_of(cup_rings(wall_mm))))).top_mm;

@@ -119,6 +119,7 @@ inline Pot arbitrary_pot() {
   pot.motion = {*number_in(-1e12, 1e12), *number_in(-1e12, 1e12)};
   pot.density_g_cm3 = *number_in(0.1, 25);
   pot.thrown_with = maybe<ThrowSettings>([] { return settings_of(arbitrary_scene()); });
+  pot.shaped_with = maybe<ToolSpec>([] { return arbitrary_scene().tool; });
   pot.collapse = maybe<Collapse>([&] {
     const double heading = *number_in(-3, 3);
     const auto position = [] { return *number_in(-1e6, 1e6); };

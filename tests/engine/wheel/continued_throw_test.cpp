@@ -143,6 +143,26 @@ TEST(ContinuedThrow, APotRemembersTheSettingsOfTheLastStroke) {
   EXPECT_EQ(of_drawing.pot().thrown_with, settings_of(scene));
 }
 
+TEST(ContinuedThrow, APotRemembersItsShapingToolWhileNeedleAndWireCutIt) {
+  SceneSpec scene = scene_of(Model::conserving);
+  scene.tool.shape = SphereSpec{7.0};
+  const auto stroke = [&](const Pot& on, ToolMode mode, double radius_mm) {
+    SceneSpec next = scene;
+    next.tool.shape = SphereSpec{radius_mm};
+    next.tool.mode = mode;
+    Wheel wheel = Wheel::build(next, on).value();
+    EXPECT_EQ(wheel.pot(), on);  // no stroke yet
+    wheel.step({1000, kFree, false, 0.0});
+    return wheel.pot();
+  };
+  const Pot lump = Wheel::build(scene).value().pot();
+  EXPECT_FALSE(stroke(lump, ToolMode::press, 7.0).shaped_with);
+  const Pot levelled = stroke(lump, ToolMode::needle, 0.5);
+  EXPECT_EQ(levelled.shaped_with, scene.tool);
+  EXPECT_EQ(stroke(levelled, ToolMode::wire, 0.5).shaped_with, scene.tool);
+  EXPECT_FALSE(stroke(levelled, ToolMode::trim, 3.0).shaped_with);
+}
+
 TEST(ContinuedThrow, UsesTheRingsOfThePot) {
   Pot pot = Wheel::build(scene_of(Model::conserving)).value().pot();
   SceneSpec other = scene_of(Model::conserving);

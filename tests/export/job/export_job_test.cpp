@@ -181,6 +181,9 @@ TEST(RunExport, WallsFollowTheToolUnlessALengthIsGiven) {
   EXPECT_EQ(length_mm(4.0, Smoothing::fair, 0.0, 0.11), 4.0);
   EXPECT_EQ(length_mm({}, Smoothing::exact, 0.0), 0.0);
   EXPECT_EQ(length_mm({}, Smoothing::none, 0.0), 0.0);
+  pot.thrown_with->tool = {.shape = SphereSpec{0.5}, .mode = ToolMode::needle};
+  pot.shaped_with = ToolSpec{.shape = SphereSpec{7.0}};
+  EXPECT_DOUBLE_EQ(length_mm({}, Smoothing::fair, 0.0), 7.0);
 }
 
 TEST(RunExport, WallIsThatOfTheFacets) {

@@ -194,6 +194,9 @@ struct Pot {
   /// The settings of the last stroke, for the next one. Empty: the pot was made otherwise, such as
   /// from a drawing.
   std::optional<ThrowSettings> thrown_with{};
+  /// The tool that left the marks on the walls, if the last stroke was a needle or a wire, which
+  /// leave none. Empty otherwise: `thrown_with` has that tool.
+  std::optional<ToolSpec> shaped_with{};
   friend bool operator==(const Pot&, const Pot&) = default;
 };
 
@@ -204,10 +207,9 @@ struct Pot {
 /// 1 mm. A bore less than half a step wide becomes one step: a bore stays a bore.
 ///
 /// The result is an independent pot: its ledger begins with the clay that it holds, nothing added,
-/// trimmed or outside, and `Pot::rounding` has the volume before. Crown, collapse, model and
-/// `thrown_with`, from which the export takes the smoothing, stay as they are; `Pot::rim`, which a
-/// next stroke would need, is zero. Rounded pots round again to the same precision or a coarser
-/// one.
+/// trimmed or outside, and `Pot::rounding` has the volume before. Crown, collapse, model and the
+/// tools, from which the export takes the smoothing, stay as they are; `Pot::rim`, which a next
+/// stroke would need, is zero. Rounded pots round again to the same precision or a coarser one.
 ///
 /// Refuses, naming the ring, what would change the topology: a wall that would vanish, rings that
 /// would no longer touch each other, an outer radius beyond the limits of ClayStack.
