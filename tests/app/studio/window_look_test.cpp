@@ -118,6 +118,17 @@ TEST_F(Look, MouseRotatesPansAndZoomsTheView) {
   EXPECT_LT(left_edge("near.png", 330), edge - 10);
 }
 
+TEST_F(Look, TheCardOfALessonStandsBelowThePot) {
+  const Ran ran =
+      run("do file.learn_vase\nwait 1\n" + shot("card.png"), "--size 960x600 --scale 1.25");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  // The axis is at 359; the lump is 84 mm wide and cut open to its foot.
+  EXPECT_TRUE(at("card.png", 330, 215).clay()) << "the foot";
+  EXPECT_FALSE(at("card.png", 330, 300).clay()) << "the card";
+  const Colour wheel = at("card.png", 359, 255), card = at("card.png", 359, 300);
+  EXPECT_GT(wheel.red, card.red + 60) << "the wheel is in sight";
+}
+
 TEST_F(Look, ARoundLumpIsRoundFromAbove) {
   const Ran ran = run("key 1\n" + shot("front.png") + "key 7\n" + shot("top.png") + "key 3\n" +
                       shot("side.png"));
