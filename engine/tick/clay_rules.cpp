@@ -22,19 +22,39 @@ double speed_into(Side side, const Motion& motion) noexcept {
   return std::max(side == Side::compressive ? -out : out, 0.0);
 }
 
-/// A ring that is touched moves by its part of what it gives way itself, at least.
-void move_touched(TouchedRings& rings, double share, std::size_t first,
-                  std::span<float> by) noexcept {
-  const std::size_t end = std::min(first + by.size(), rings.to());
-  rings.each_slice(std::max(first, rings.from()), end, [=](const TouchedRings::Slice& slice) {
-    in_lanes([=, give = &slice.rows.give[slice.begin], to = &by[slice.ring - first],
-              count = slice.size()]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count; ++k) {
-        const auto least = static_cast<float>(share * give[k]);
-        to[k] = to[k] > least ? to[k] : least;
-      }
-    });
+// Of the wall's thickness, to either side of a ring: a wall does not follow what is shorter.
+constexpr double kAbout = 0.1;
+
+/// Of what the touched rings give way, before each of them and behind the last.
+void sum_gives(const TouchedRings& rings, std::span<double> sums) noexcept {
+  double sum = 0.0;
+  std::size_t k = 0;
+  rings.each_slice([&](const auto& slice) {
+    for (std::size_t row = slice.begin; row < slice.end; ++row) {
+      sums[k++] = sum;
+      sum += slice.rows.give[row];
+    }
   });
+  sums[k] = sum;
+}
+
+/// A touched ring moves by its share of what the rings about it give way in the mean, at least.
+/// `about`: so many to either side of its middle.
+void move_touched(const TouchedRings& rings, std::span<const double> sums, double share,
+                  double about, std::size_t first, std::span<float> by) noexcept {
+  const std::size_t begin = std::max(first, rings.from());
+  const std::size_t end = std::min(first + by.size(), rings.to()), count = rings.size();
+  // Whole rings beside this one, and a part of the next.
+  const auto whole = static_cast<std::size_t>(about - 0.5);
+  const double part = about - 0.5 - static_cast<double>(whole), scale = 0.5 * share / about;
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t k = i - rings.from(), low = k - std::min(k, whole);
+    const std::size_t high = std::min(k + whole + 1, count);
+    const double beside = sums[low] - sums[low - std::min<std::size_t>(low, 1)] +
+                          sums[std::min(high + 1, count)] - sums[high];
+    const auto least = static_cast<float>(scale * (sums[high] - sums[low] + part * beside));
+    by[i - first] = std::max(by[i - first], least);
+  }
 }
 
 template <unsigned rules>
@@ -94,10 +114,13 @@ void bend(const RulePress& press, const ClayStack& stack, Contact& contact, bool
   const Shell shell = shell_at(stack, work.walls, band, min_wall, press.motion.upward_mm_s,
                                speed_into(contact.side, press.motion));
   if (!(shell.share > 0.0)) return;
+  const double h = stack.ring_height_mm();
+  const double about = std::max(kAbout * shell.wall_mm / h, 0.5);
+  sum_gives(contact.rings, work.gives);
   work.shift.lay(stack, work.walls, band, shell, {contact.side == Side::expansive, hoop, min_wall},
                  [&](std::size_t first, std::span<float> by) {
-                   move_touched(contact.rings, shell.share, first, by);
-                   hold_foot(shell, stack.ring_height_mm(), first, by);
+                   move_touched(contact.rings, work.gives, shell.share, about, first, by);
+                   hold_foot(shell, h, first, by);
                  });
 }
 
@@ -303,7 +326,9 @@ void RuleWork::reserve(const Tool& tool, const ClayStack& stack) {
   const double rings = reach / stack.ring_height_mm() + 8.0;
   walls.reserve(tool, stack);
   shoulders = shoulders_of(tool);
-  over.reserve(most_contacts(tool, stack.ring_height_mm(), stack.max_rings()));
+  const std::size_t contacts = most_contacts(tool, stack.ring_height_mm(), stack.max_rings());
+  over.reserve(contacts);
+  gives.resize(contacts + 1);
   shift.reserve(static_cast<std::size_t>(std::min(rings, static_cast<double>(stack.max_rings()))));
 }
 

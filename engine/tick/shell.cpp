@@ -185,6 +185,7 @@ Shell shell_at(const ClayStack& stack, WallRadii& walls, const Band& band, doubl
     hoop += shell.trail_above * 0.5 * above;
     hinge += shell.trail_above * 2.0 / std::max(above, hinge_mm);
   }
+  shell.wall_mm = w;
   shell.below_mm = 0.5 * c + below;
   shell.above_mm = 0.5 * c + above;
   const double shift_load = thinness * hoop + 0.25 * w * w * hinge, punch_load = kPunch * c;

@@ -22,12 +22,13 @@ inline constexpr double kSlowMmS = 5.0;
 ///     below  trail_below * S(1 - x / below_mm)
 ///     above  trail_above * S(1 - turn x / above_mm), and for turn <= 0: 1 - turn x / above_mm
 ///
-/// with S(t) = t^2 (3 - 2t), from 0 to 1.
+/// with S(t) = t^2 (3 - 2t), from 0 to 1. About the peak one trail passes into the other.
 struct Shell {
   double share = 0.0;  ///< of what gives way, by which the wall moves instead of being squeezed
   double below_mm = 1.0, above_mm = 1.0;        ///< where the wall stands still again
   double turn = 1.0;                            ///< below 1 near the rim, which turns with the wall
   double trail_below = 1.0, trail_above = 1.0;  ///< less than 1 on the side the tool comes from
+  double wall_mm = 1.0;                         ///< at the peak
   double foot_mm = -1e300;                      ///< where the wall stands on what is solid
   double root_mm = 1.0;                         ///< above the foot: so far the solid holds the wall
 

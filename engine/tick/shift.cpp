@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kMostSunk = 64;
 // A bore keeps half of its radius at least, however far a pose leaps.
 constexpr float kMostOfBore = 0.75f;
+// Of the wall's thickness, to either side of the peak: a wall does not bend over less.
+constexpr double kBlend = 0.45;
 // Bound of the relative error of a radius in single precision.
 constexpr float kRounding = 1e-6f;
 
@@ -93,14 +95,29 @@ void Shift::bend(double h, const Band& band, const Shell& shell, std::size_t fir
   in_packs([=, start = single((static_cast<double>(first) + 0.5) * h - band.peak_mm),
             step = single(h), per_below = single(1.0 / shell.below_mm),
             per_above = single(greater(turn, 0.0)), flare = single(greater(-turn, 0.0)),
-            low = single(amplitude * shell.trail_below),
-            high = single(amplitude * shell.trail_above)](auto n) CLAYSTACK_INLINE {
+            most = single(amplitude)](auto n) CLAYSTACK_INLINE {
     using F = TwiceFloats<n>;
     for (std::size_t k = 0; k < count; k += 2 * n) {
       const F x = start + load_floats<n>(&kFloatLevels[k]) * step, ahead = x > 0.0f ? x : F{};
       const F in = 1.0f - ahead * per_above + (x - ahead) * per_below;
-      const F side = x < 0.0f ? F{} + low : F{} + high;
-      store(by + k, F(side * (smooth(F(in > 0.0f ? in : F{})) + ahead * flare)));
+      store(by + k, F(most * (smooth(F(in > 0.0f ? in : F{})) + ahead * flare)));
+    }
+  });
+}
+
+void Shift::trail(double h, const Band& band, const Shell& shell, std::size_t first,
+                  std::size_t count, float* by) noexcept {
+  const auto single = [](double x) { return static_cast<float>(x); };
+  const double per_mm = 0.5 / std::max(kBlend * shell.wall_mm, h);
+  const double start = (static_cast<double>(first) + 0.5) * h - band.peak_mm;
+  in_packs([=, start = single(0.5 + start * per_mm), step = single(h * per_mm),
+            low = single(shell.trail_below),
+            more = single(shell.trail_above - shell.trail_below)](auto n) CLAYSTACK_INLINE {
+    using F = TwiceFloats<n>;
+    for (std::size_t k = 0; k < count; k += 2 * n) {
+      const F t = start + load_floats<n>(&kFloatLevels[k]) * step;
+      const F within = lesser(greater(t, F{}), F(F{} + 1.0f));
+      store(by + k, F(load_floats<n>(by + k) * (low + more * smooth(within))));
     }
   });
 }

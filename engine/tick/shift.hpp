@@ -64,6 +64,8 @@ class Shift {
       const std::size_t count = std::min(kRows, to() - first);
       bend(stack.ring_height_mm(), band, shell, first, count, by);
       limit(first, std::span(by).first(count));
+      if (shell.trail_below != shell.trail_above)
+        trail(stack.ring_height_mm(), band, shell, first, count, by);
       std::fill(by + count, by + in_packs_of(count), 0.0f);
       move(walls, push, first, count, by);
     }
@@ -75,6 +77,9 @@ class Shift {
   void begin(const ClayStack& stack, const Band& band, const Shell& shell) noexcept;
   static void bend(double h, const Band& band, const Shell& shell, std::size_t first,
                    std::size_t count, float* by) noexcept;
+  /// What the tool leaves behind on its way moves less.
+  static void trail(double h, const Band& band, const Shell& shell, std::size_t first,
+                    std::size_t count, float* by) noexcept;
   /// `by`, of whole packs: how far the rings move [mm], less where the wall is not thin. Afterwards
   /// by how much R^2 and r^2 change [mm^2].
   void move(const WallRadii& walls, const Push& push, std::size_t first, std::size_t count,
