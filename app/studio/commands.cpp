@@ -68,14 +68,14 @@ const char* why_no_pictures(View) {
 const char* why_no_undo(View view) {
   return can_undo(view) ? nullptr : "there is no stroke to undo";
 }
-const char* why_no_redo(View view) {
-  return can_redo(view) ? nullptr : "no stroke was undone";
-}
+const char* why_no_redo(View view) { return can_redo(view) ? nullptr : "no stroke was undone"; }
 const char* why_no_work(View view) {
   return has_work(view) ? nullptr : "there is no clay on the wheel";
 }
 const char* why_not_between(View view) {
-  return between(view) ? nullptr : why_no_work(view) ? why_no_work(view) : "a stroke is in progress";
+  return between(view)       ? nullptr
+         : why_no_work(view) ? why_no_work(view)
+                             : "a stroke is in progress";
 }
 bool can_import(View view) {
   const auto* import = std::get_if<ImportDialog>(&view.ui.dialog);
@@ -86,7 +86,7 @@ bool has_rules(View view) {
   return view.document.has_work() && view.document.scene().clay.has_value();
 }
 const char* why_no_rules(View view) {
-  return !has_work(view) ? why_no_work(view)
+  return !has_work(view)   ? why_no_work(view)
          : has_rules(view) ? nullptr
                            : "this pot was thrown without the clay rules, which it needs";
 }

@@ -26,7 +26,7 @@ cmp "$folder/state/claystack/recovery/$left" "$folder/before" || fail "expected 
 
 start_window
 grep -q "recovery offered: 1" "$log" || fail "expected the offer again"
-xdotool mousemove --window "$window" 848 241 sleep 0.2 click 1
+xdotool mousemove --window "$window" 848 228 sleep 0.2 click 1
 until_line "discarded: .*$left"
 [ -z "$(journals)" ] || fail "expected no journal, found: $(journals)"
 close_window
