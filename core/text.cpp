@@ -30,6 +30,36 @@ constexpr Beginning kSchemas[] = {{"claystack-pot-", "a pot"},
                                   {"claystack-studio-", "a settings file"}};
 constexpr std::size_t kSchemaBytes = 4096;
 
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
+
+std::size_t length_by_lead(unsigned char lead) {
+  if (lead < 0x80) return 1;
+  if (lead >= 0xC2 && lead < 0xE0) return 2;
+  if (lead >= 0xE0 && lead < 0xF0) return 3;
+  if (lead >= 0xF0 && lead < 0xF5) return 4;
+  return 0;
+}
+
+/// Length of the first character if XML 1.0 permits it (production 2); otherwise 0.
+std::size_t allowed(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t length = length_by_lead(byte(0));
+  if (length == 0 || length > text.size()) return 0;
+  if (length == 1) {
+    const bool blank = text[0] == '\t' || text[0] == '\n' || text[0] == '\r';
+    return byte(0) >= 0x20 || blank ? 1 : 0;
+  }
+  std::uint32_t code = byte(0) & (0xFFu >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3Fu);
+  }
+  constexpr std::array<std::uint32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xD800 && code < 0xE000;
+  const bool none = code == 0xFFFE || code == 0xFFFF || code > 0x10FFFF;
+  return code < kLeast[length] || surrogate || none ? 0 : length;
+}
+
 /// A header of 80 bytes, the number of triangles, and 50 bytes for each.
 bool is_binary_stl(std::string_view bytes) {
   if (bytes.size() < 84) return false;
@@ -118,6 +148,16 @@ Error kind_error(Error error, std::string_view bytes, std::string_view name,
   if (same || error.kind != ErrorKind::bad_input) return error;
   return {ErrorKind::bad_input,
           std::string(name).append(": expected ").append(expected).append(", found ").append(kind)};
+}
+
+std::string valid_text(std::string_view text) {
+  std::string valid;
+  while (!text.empty()) {
+    const std::size_t length = allowed(text);
+    valid += length == 0 ? kReplacement : text.substr(0, length);
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return valid;
 }
 
 }  // namespace clay

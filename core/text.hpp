@@ -40,6 +40,9 @@ namespace clay {
 /// locale.
 [[nodiscard]] bool ends_ignoring_case(std::string_view text, std::string_view ending) noexcept;
 
+/// Invalid UTF-8, and characters that XML forbids, become U+FFFD: file names may hold any bytes.
+[[nodiscard]] std::string valid_text(std::string_view text);
+
 /// The text without a leading UTF-8 byte order mark.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text) noexcept;
 

@@ -7,6 +7,7 @@
 #include "claystack/core/atomic_file.hpp"
 #include "core/json/object_reader.hpp"
 #include "core/line_reader.hpp"
+#include "core/text.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -225,8 +226,9 @@ Result<int> batch(BatchOptions options, const Console& console) {
   if (!written) return tl::make_unexpected(written.error());
   if (!ran) return tl::make_unexpected(ran.error());
   if (!console.quiet && !options.results.empty())
-    console.print(fmt::format("{} jobs: {} done, {} failed; {} of them were in {} already", asked,
-                              asked - failed, failed, skipped, options.results));
+    console.print(fmt::format("{}: {} done, {} failed; {} of them were in {} already",
+                              counted(asked, "job"), asked - failed, failed, skipped,
+                              options.results));
   return failed == 0 ? kDone : kUnsound;
 }
 

@@ -13,6 +13,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 namespace clay::cli {
@@ -224,6 +227,64 @@ void check_cavities(const CheckCommand& command, Verdict& verdict) {
                           one ? "it needs a drain hole" : "they need drain holes"));
 }
 
+/// Undersides that a printer cannot build without support: triangles that face down by more than
+/// the limit, and do not lie on the bed.
+struct Undersides {
+  double area_mm2 = 0.0;
+  double angle_deg = 0.0, at_mm = 0.0;  ///< of the steepest: from the vertical, and its height
+};
+
+Undersides undersides_of(const TriangleMesh& mesh, double limit_deg) {
+  constexpr double kOnBedMm = 0.05;
+  Undersides found;
+  double bed_mm = std::numeric_limits<double>::infinity();
+  for (const glm::dvec3& p : mesh.points) bed_mm = std::min(bed_mm, p.z);
+  for (const auto& corners : mesh.triangles) {
+    const glm::dvec3 a = mesh.points[corners[0]], b = mesh.points[corners[1]],
+                     c = mesh.points[corners[2]];
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double twice = glm::length(normal), low = std::min({a.z, b.z, c.z});
+    if (!(normal.z < 0.0) || std::max({a.z, b.z, c.z}) <= bed_mm + kOnBedMm) continue;
+    const double deg = std::asin(std::min(-normal.z / twice, 1.0)) * 180.0 / std::numbers::pi;
+    if (!(deg > limit_deg)) continue;
+    found.area_mm2 += 0.5 * twice;
+    if (deg > found.angle_deg) found.angle_deg = deg, found.at_mm = low - bed_mm;
+  }
+  return found;
+}
+
+/// Size and undersides, upright as the file has them.
+void check_process(const TriangleMesh& mesh, const glm::dvec3& size, const CheckCommand& command,
+                   Verdict& verdict) {
+  const auto& process = command.walls.demand().process;
+  if (!process) return;
+  std::string passed = fmt::format("{:.1f} x {:.1f} x {:.1f} mm", size.x, size.y, size.z);
+  if (const auto& most = process->size) {
+    const bool fits = std::min(size.x, size.y) <= std::min(most->width_mm, most->depth_mm) &&
+                      std::max(size.x, size.y) <= std::max(most->width_mm, most->depth_mm) &&
+                      size.z <= most->height_mm;
+    if (!fits)
+      verdict.add("process", Grade::fail,
+                  fmt::format("too large: {}; {}: at most {:g} x {:g} mm and {:g} mm high ({})",
+                              passed, process->name, most->width_mm, most->depth_mm,
+                              most->height_mm, most->source));
+    if (!fits) return;
+  }
+  if (const auto& most = process->overhang) {
+    const Undersides steep = undersides_of(mesh, most->max_deg);
+    constexpr double kLeastMm2 = 4.0;  // smaller ones bridge themselves
+    if (steep.area_mm2 > kLeastMm2)
+      return verdict.add(
+          "process", Grade::warn,
+          fmt::format("overhang of up to {:.1f} degrees ({:.3g} cm2 in all, the steepest at a "
+                      "height of {:.1f} mm); {}: at most {:g} without support ({})",
+                      steep.angle_deg, 0.01 * steep.area_mm2, steep.at_mm, process->name,
+                      most->max_deg, most->source));
+    passed += fmt::format(", no overhang above {:g} degrees", most->max_deg);
+  }
+  verdict.add("process", Grade::pass, process->name + ": " + passed);
+}
+
 /// What the mesh encloses, and what the file holds besides the mesh.
 void check_contents(std::string_view bytes, const TriangleMesh& mesh, MeshFormat format,
                     const CheckCommand& command, Verdict& verdict) {
@@ -302,6 +363,7 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   progress.clear();
   const glm::dvec3 size = size_mm(*mesh);
   if (const auto doubt = doubted_unit(size, format)) verdict.add("geometry", Grade::warn, *doubt);
+  check_process(*mesh, size, command, verdict);
   if (verdict.certificate) {
     progress.stage("verifying the certificate");
     verify(bytes, format, command, verdict);

@@ -116,6 +116,7 @@ Result<void> import_drawing(const ImportOptions& options, const Console& console
   if (!drawing) return tl::make_unexpected(drawing.error());
   const auto section = half_section(std::move(*drawing), options.section, options.drawing);
   if (!section) return tl::make_unexpected(section.error());
+  for (const std::string& note : section->notes) console.warn(note);
   progress.stage("making rings");
   const auto pot = drawn_pot(*section, options.pot_settings, options.drawing);
   if (!pot) return tl::make_unexpected(pot.error());

@@ -101,7 +101,7 @@ void add_shared_options(CLI::App& command, Console& console) {
   const std::string& name = command.get_name();
   begin_group(command, "Options");
   command.add_flag("--json", console.json, "Print data as JSON on standard output");
-  command.add_flag("-q,--quiet", console.quiet, "Print errors only");
+  command.add_flag("-q,--quiet", console.quiet, "Print warnings and errors only");
   add_memory_option(command);
   explain_lengths(command);
   if (writes_files(name))

@@ -43,6 +43,7 @@ std::string unknown_word(const CLI::App& command) {
 }
 
 std::string unknown_argument(const CLI::App& command, std::string_view word) {
+  if (word.empty()) return "expected the options after the command, found one before it";
   if (!word.starts_with('-')) return fmt::format("unexpected argument {}", word);
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options())

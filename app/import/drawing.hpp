@@ -22,6 +22,7 @@ struct Drawing {
   std::vector<Line> lines;
   /// The file defines the axis at x = 0, as a table of radii does.
   bool axis_at_zero = false;
+  std::vector<std::string> notes{};  ///< what a reader left out, each for a warning
 };
 
 /// Maximum distance of chords from their curves.

@@ -138,6 +138,35 @@ std::vector<Edge> edges_of(const std::vector<Line>& lines) {
   return edges;
 }
 
+/// Of the solids of revolution of what lies on one side of the axis: right for `side` 1, left for
+/// -1. [mm^3]
+double volume_beside(const std::vector<Line>& lines, double side) {
+  double sum = 0.0;
+  for (const Line& line : lines)
+    for (std::size_t i = 0; i < line.points_mm.size(); ++i) {
+      glm::dvec2 a = line.points_mm[i], b = line.points_mm[(i + 1) % line.points_mm.size()];
+      a.x *= side, b.x *= side;
+      if (a.x <= 0.0 && b.x <= 0.0) continue;
+      const double crossing = a.y + (b.y - a.y) * (a.x / (a.x - b.x));
+      if (a.x < 0.0) a = {0.0, crossing};
+      if (b.x < 0.0) b = {0.0, crossing};
+      sum += (b.y - a.y) * (a.x * a.x + a.x * b.x + b.x * b.x) / 3.0;
+    }
+  return std::numbers::pi * std::abs(sum);
+}
+
+/// Half of a mirrored drawing is enough; other clay left of the axis is lost.
+void note_left_side(const std::vector<Line>& lines, const std::string& name,
+                    std::vector<std::string>& notes) {
+  constexpr double kSame = 0.01;
+  const double left = volume_beside(lines, -1.0), right = volume_beside(lines, 1.0);
+  if (left < 1e-3 * right || std::abs(left - right) <= kSame * right) return;
+  notes.push_back(fmt::format(
+      "{}: the drawing left of the axis ({:.1f} cm3 as clay) differs from that right of it ({:.1f} "
+      "cm3) and is not used; --axis places the axis",
+      name, 1e-3 * left, 1e-3 * right));
+}
+
 std::vector<double> levels_of(const std::vector<Edge>& edges) {
   std::vector<double> levels;
   for (const Edge& edge : edges) {
@@ -153,7 +182,8 @@ tl::unexpected<Error> crossing(double radius, double y, const std::string& name)
   return failure(
       ErrorKind::bad_input,
       fmt::format("{}: {:.3f} mm from the axis and {:.3f} mm above the foot: expected an "
-                  "outline that does not cross or touch itself, found one that does",
+                  "outline that does not cross or touch itself, found one that does; an outline "
+                  "with a gap is closed along the axis",
                   name, radius, y));
 }
 
@@ -206,7 +236,13 @@ Result<Slab> slab_between(double from, double to, std::vector<const Edge*>& edge
   };
   if (edges.empty()) return refuse("clay at every height from foot to rim", 0);
   if (edges.size() > 2)
-    return refuse("clay in one place, from a bore or the axis to one outer bound", edges.size());
+    return failure(
+        ErrorKind::bad_input,
+        fmt::format("{}: {:.3f} mm above the foot: expected clay in one place, between a "
+                    "bore or the axis and the outside, found {} outlines side by side; "
+                    "hide a frame or background, choose a layer with --layer, or unite "
+                    "shapes that overlap",
+                    name, middle, edges.size()));
   Slab slab{from, to, edges[0]->radius_at(from), edges[0]->radius_at(to), 0.0, 0.0};
   if (edges.size() == 1) return slab;
   slab.inner_from_mm = edges[1]->radius_at(from);
@@ -316,6 +352,8 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
       p = scale * (p - glm::dvec2{section.axis_mm, bounds.low.y});
   straighten(drawing.lines);
   if (auto closed = close(drawing.lines, name); !closed) return tl::make_unexpected(closed.error());
+  section.notes = std::move(drawing.notes);
+  note_left_side(drawing.lines, name, section.notes);
   auto slabs = slabs_of(edges_of(drawing.lines), name);
   if (!slabs) return tl::make_unexpected(slabs.error());
   for (const auto& checked : {check_treads(drawing.lines, name), check_contacts(*slabs, name)})

@@ -38,6 +38,7 @@ struct HalfSection {
   double height_mm = 0.0;
   double axis_mm = 0.0;  ///< in the drawing's coordinates, before scaling
   AxisRule axis = AxisRule::left;
+  std::vector<std::string> notes;  ///< of the drawing, and of what of it is not used
 
   [[nodiscard]] double volume_mm3() const noexcept;  ///< of the solid of revolution
 };

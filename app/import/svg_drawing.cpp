@@ -258,9 +258,9 @@ Result<Drawing> read_svg(std::string_view bytes, const std::string& name,
       &xmlFreeDoc);
   if (!document || xmlDocGetRootElement(document.get()) == nullptr)
     return failure(ErrorKind::bad_input, libxml_problem(name));
-  const auto shapes = svg_shapes(*document, layer, name);
+  auto shapes = svg_shapes(*document, layer, name);
   if (!shapes) return tl::make_unexpected(shapes.error());
-  xmlNode* root = xmlDocGetRootElement(shapes->get());
+  xmlNode* root = xmlDocGetRootElement(shapes->document.get());
   Collector collector;
   try {
     Traversal::load_document(root, collector);
@@ -275,7 +275,7 @@ Result<Drawing> read_svg(std::string_view bytes, const std::string& name,
     return failure(ErrorKind::bad_input, fmt::format("{}: expected an SVG drawing, found: {}", name,
                                                      shortened(error.what())));
   }
-  return Drawing{std::move(collector.lines), false};
+  return Drawing{std::move(collector.lines), false, std::move(shapes->notes)};
 }
 
 }  // namespace clay::importing

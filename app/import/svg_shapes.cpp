@@ -67,7 +67,7 @@ class Copier {
     index(xmlDocGetRootElement(&drawing));
   }
 
-  Result<XmlDocument> copy(xmlNode* root) {
+  Result<SvgShapes> copy(xmlNode* root) {
     Inherited page;
     page.in_layer = layer_.empty();
     if (auto done = element(root, nullptr, page); !done) return tl::make_unexpected(done.error());
@@ -76,7 +76,7 @@ class Copier {
           ErrorKind::bad_input,
           fmt::format("{}: expected a layer \"{}\", found {}", name_, layer_,
                       layers_.empty() ? "no layers" : fmt::format("{}", fmt::join(layers_, ", "))));
-    return std::move(result_);
+    return SvgShapes{std::move(result_), std::move(notes_)};
   }
 
  private:
@@ -98,6 +98,23 @@ class Copier {
     }
   }
 
+  /// "0", "0.0" or "0%".
+  static bool is_zero(const std::optional<std::string>& opacity) {
+    return opacity && opacity->find('0') != std::string::npos &&
+           opacity->find_first_not_of("0.%") == std::string::npos;
+  }
+
+  /// Once for each kind.
+  void note_unapplied(xmlNode* node, std::string_view kind,
+                      const std::optional<std::string>& value) {
+    if (!value || *value == "none" || std::ranges::any_of(notes_, [&](const std::string& note) {
+          return note.find(kind) != std::string::npos;
+        }))
+      return;
+    notes_.push_back(fmt::format("{}:{}: a {} is not applied: the whole shape was read", name_,
+                                 xmlGetLineNo(node), kind));
+  }
+
   Result<void> element(xmlNode* node, xmlNode* parent, Inherited state) {
     if (!of_svg(node)) return {};
     const std::string_view kind = name_of(node);
@@ -114,7 +131,9 @@ class Copier {
     const auto value = [&](SvgProperty property) -> const std::optional<std::string>& {
       return (*values)[static_cast<std::size_t>(property)];
     };
-    if (value(SvgProperty::display) == "none") return {};
+    if (value(SvgProperty::display) == "none" || is_zero(value(SvgProperty::opacity))) return {};
+    note_unapplied(node, "clip-path", value(SvgProperty::clip_path));
+    note_unapplied(node, "mask", value(SvgProperty::mask));
     inherit(state.visible, value(SvgProperty::visibility), "visible");
     inherit(state.filled, value(SvgProperty::fill), nullptr);
     inherit(state.stroked, value(SvgProperty::stroke), nullptr);
@@ -279,12 +298,13 @@ class Copier {
   std::vector<std::string> used_;  ///< the references within which the element is
   std::set<std::string> layers_;
   bool found_layer_ = false;
+  std::vector<std::string> notes_;
   std::size_t count_ = 0;
 };
 
 }  // namespace
 
-Result<XmlDocument> svg_shapes(xmlDoc& drawing, const std::string& layer, const std::string& name) {
+Result<SvgShapes> svg_shapes(xmlDoc& drawing, const std::string& layer, const std::string& name) {
   xmlNode* root = xmlDocGetRootElement(&drawing);
   if (!of_svg(root) || name_of(root) != "svg")
     return failure(ErrorKind::bad_input,

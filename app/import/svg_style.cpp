@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kMostComparisons = 20'000'000;
 constexpr std::string_view kXlink = "http://www.w3.org/1999/xlink";
 constexpr std::array<std::string_view, kSvgProperties> kNames = {
-    "display", "visibility", "fill", "stroke", "transform", "transform-origin"};
+    "display",          "visibility", "fill",      "stroke", "transform",
+    "transform-origin", "opacity",    "clip-path", "mask"};
 
 std::string_view stripped(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kSvgBlank);

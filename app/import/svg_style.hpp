@@ -15,8 +15,18 @@
 
 namespace clay::importing {
 
-enum class SvgProperty { display, visibility, fill, stroke, transform, transform_origin };
-inline constexpr std::size_t kSvgProperties = 6;
+enum class SvgProperty {
+  display,
+  visibility,
+  fill,
+  stroke,
+  transform,
+  transform_origin,
+  opacity,
+  clip_path,
+  mask,
+};
+inline constexpr std::size_t kSvgProperties = 9;
 
 /// White space of style sheets and lists.
 inline constexpr std::string_view kSvgBlank = " \t\r\n\f";

@@ -2,7 +2,11 @@
 // Coordinates in files: float32, and never -0, because readers that compare bytes treat -0 and 0 as
 // two points and find an open edge.
 
+#include "core/text.hpp"
+
+#include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
@@ -53,10 +57,13 @@ inline void append_point_line(std::string& text, std::string_view prefix, const 
   text += '\n';
 }
 
-/// Shortens a name so that it cannot end or continue its line, or exceed the limits of readers.
+/// Valid UTF-8 that cannot end or continue its line, or exceed the limits of readers.
 [[nodiscard]] inline std::string one_line(std::string_view name) {
   constexpr std::size_t kLongestName = 200;
-  std::string line(name.substr(0, kLongestName));
+  std::string line = valid_text(name);
+  std::size_t end = std::min(line.size(), kLongestName);
+  while (end < line.size() && (line[end] & 0xC0) == 0x80) --end;  // before a whole character
+  line.resize(end);
   for (char& c : line) {
     const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
     if (control || c == '\\') c = '_';

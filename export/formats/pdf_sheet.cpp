@@ -63,7 +63,7 @@ class PdfSheet {
     cairo_translate(page_, at.x, at.y);
     if (text.upright) cairo_rotate(page_, -0.5 * std::numbers::pi);
     cairo_move_to(page_, -part * extents.x_advance, 0.0);
-    cairo_show_text(page_, text.words.c_str());
+    cairo_show_text(page_, valid_text(text.words).c_str());
     cairo_restore(page_);
   }
 
@@ -78,7 +78,8 @@ Result<std::string> pdf_of(const Sheet& sheet) {
   std::string pdf;
   const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
       cairo_pdf_surface_create_for_stream(append, &pdf, size.x, size.y), cairo_surface_destroy);
-  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, sheet.title.c_str());
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE,
+                                 valid_text(sheet.title).c_str());
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                  "1980-01-01T00:00:00Z");
   const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> page(cairo_create(surface.get()),

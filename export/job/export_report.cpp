@@ -52,7 +52,7 @@ std::optional<Problem> steep_overhang(const ProcessReport& process) {
       overhang->angle_deg <= process.limits->overhang->max_deg)
     return std::nullopt;
   return Problem{
-      fmt::format("overhang of {:.0f} degrees at a height of {:.1f} mm; {}: at most {:g} without "
+      fmt::format("overhang of {:.1f} degrees at a height of {:.1f} mm; {}: at most {:g} without "
                   "support ({})",
                   overhang->angle_deg, overhang->from.y, process.limits->name,
                   process.limits->overhang->max_deg, process.limits->overhang->source),

@@ -56,7 +56,9 @@ Result<void> check_aims(const std::vector<Aim>& aims, const Goal& goal,
     if (!(aim.target > 0.0 && std::isfinite(aim.target)))
       return wrong(aim.name + ": expected more than 0, found " + in_mm(aim.target));
   if (aims.size() > 2 || (aims.size() == 2 && aims[0].power_of_radius == 2.0))
-    return wrong("goal: expected one number, or a height or diameter with one other");
+    return wrong(
+        "goal: expected one figure, or a height or diameter with one other (--holds, --weighs, "
+        "--height, --diameter)");
   if (goal.fired && options.shrinkage == 0.0)
     return wrong("goal of the fired pot: expected a shrinkage, found none");
   return {};

@@ -226,7 +226,7 @@ std::string text_of(const solid::Problem& problem, const PotCheck& check, Length
     case solid::ProblemKind::cavity:
       return fmt::format("closed cavity at a height of {}", length_text(y_mm, unit));
     case solid::ProblemKind::overhang:
-      return fmt::format("overhang of {:.0f} degrees at a height of {}: print it with supports",
+      return fmt::format("overhang of {:.1f} degrees at a height of {}: print it with supports",
                          problem.figure, length_text(y_mm, unit));
     case solid::ProblemKind::lip_fillet:
       return fmt::format("the lip is rounded by only {}", length_text(problem.figure, unit));

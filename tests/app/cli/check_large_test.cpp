@@ -191,7 +191,7 @@ TEST(MemoryLimit, IsAnOptionOfEveryCommand) {
 
 TEST(CheckLarge, RefusesATooLongTextInAdvance) {
   const ScratchFolder folder;
-  write_text(folder.file("long.stl"), "solid long\n");
+  write_text(folder.file("long.stl"), "solid long\n" + std::string(200, ' '));
   std::filesystem::resize_file(folder.file("long.stl"), std::uintmax_t{9} << 30);
   const Ran run = claystack("check " + folder.file("long.stl"));
   EXPECT_EQ(run.status, 2);

@@ -206,6 +206,36 @@ TEST(CheckPot, APassContainsNoWordOfFailure) {
   EXPECT_NE(run.out.find("  process: "), std::string::npos) << run.out;
 }
 
+/// As the same pot: its size, and its undersides.
+TEST(Check, ComparesAMeshWithTheLimitsOfTheProcess) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("p.pot.json"), mesh = folder.file("p.stl");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  ASSERT_EQ(claystack("export -q " + pot + ' ' + mesh).status, 0);
+  const auto process = [&](const std::string& limits) {
+    const std::string file = folder.file("kiln.process.json");
+    write_text(file, R"({"schema": "claystack-process-1", "name": "kiln",
+      "walls": [{"min_wall_mm": 1, "source": "s"}], )" +
+                         limits + "}");
+    return "check --process " + file + ' ';
+  };
+  const std::string small =
+      process(R"("size": {"width_mm": 200, "depth_mm": 20, "height_mm": 200, "source": "s"})");
+  for (const std::string& file : {pot, mesh}) {
+    const Ran ran = claystack(small + file);
+    EXPECT_EQ(ran.status, 1) << ran.out;
+    EXPECT_NE(ran.out.find("process: fail: too large: 1"), std::string::npos) << ran.out;
+  }
+  const std::string steep = process(R"("overhang": {"max_deg": 30, "source": "s"})");
+  for (const std::string& file : {pot, mesh}) {
+    const Ran ran = claystack(steep + file);
+    EXPECT_EQ(ran.status, 0) << ran.out;
+    EXPECT_NE(ran.out.find("process: warn: overhang of "), std::string::npos) << ran.out;
+  }
+  const Ran fits = claystack(process(R"("overhang": {"max_deg": 89, "source": "s"})") + mesh);
+  EXPECT_NE(fits.out.find("process: pass: kiln: 1"), std::string::npos) << fits.out;
+}
+
 TEST(CheckPot, ReportsACollapsedPotAsUnsound) {
   const ScratchFolder folder;
   const std::string pot = folder.file("c.pot.json");

@@ -31,6 +31,21 @@ double number_after(const std::string& text, const std::string& label) {
   return std::stod(match[1]);
 }
 
+/// File names on Linux are bytes; formats are UTF-8.
+TEST(Export, ANameThatIsNotUtf8FitsIntoEveryFormat) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file(
+      "Sch\xFC"
+      "ssel.pot.json");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  std::string files;
+  for (const char* name : {"a.3mf", "a.glb", "a.pdf", "a.svg", "a.stl", "a.step"})
+    files += ' ' + folder.file(name);
+  const Ran ran = claystack("export " + pot + files);
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(claystack("check " + folder.file("a.3mf")).status, 0);
+}
+
 class ExportedSample : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {

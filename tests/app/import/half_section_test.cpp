@@ -52,6 +52,20 @@ TEST(HalfSection, RefusesOutlinesThatCrossThemselvesAndNamesThePlace) {
               HasSubstr("20.000 mm from the axis and 10.000 mm above the foot"));
 }
 
+TEST(HalfSection, ReportsClayLeftOfTheAxisThatIsNotUsed) {
+  const auto notes_of = [](const char* csv, double axis_mm) {
+    return section_of(csv, "pot.csv", {AxisRule::at, axis_mm, {}}).value().notes;
+  };
+  const char* const square = "0,0\n40,0\n40,20\n0,20\n0,0\n";
+  EXPECT_TRUE(notes_of(square, 0.0).empty());
+  EXPECT_TRUE(notes_of(square, 20.0).empty()) << "mirrored";
+  const auto notes = notes_of(square, 10.0);
+  ASSERT_EQ(notes.size(), 1u);
+  // 100 pi 20 mm3 and 900 pi 20 mm3.
+  EXPECT_THAT(notes[0], HasSubstr("left of the axis (6.3 cm3 as clay)"));
+  EXPECT_THAT(notes[0], HasSubstr("right of it (56.5 cm3)"));
+}
+
 TEST(HalfSection, RecognisesAnAxisLineAnywhere) {
   const std::vector<glm::dvec2> cone{{40, 0}, {20, 90}};
   const double volume = std::numbers::pi * 90.0 / 3.0 * (1600.0 + 800.0 + 400.0);

@@ -155,8 +155,22 @@ TEST(SvgDrawing, IgnoresHiddenElements) {
   const double wanted = kPi * 900.0 * 60.0;
   for (const std::string& wrapped :
        {"<defs>" + hidden + "</defs>", "<g display='none'>" + hidden + "</g>",
-        "<g style='display:none'>" + hidden + "</g>", "<clipPath id='c'>" + hidden + "</clipPath>"})
+        "<g style='display:none'>" + hidden + "</g>", "<g opacity='0'>" + hidden + "</g>",
+        "<g style='opacity:0.0'>" + hidden + "</g>", "<clipPath id='c'>" + hidden + "</clipPath>"})
     EXPECT_NEAR(volume_of(wrapped + pot), wanted, 1e-6) << wrapped;
+}
+
+TEST(SvgDrawing, ReportsClipPathsAndMasksOnce) {
+  const std::string start = "<svg xmlns='http://www.w3.org/2000/svg'>";
+  const auto notes_of = [&](const std::string& shapes) {
+    return read_drawing(start + shapes + "</svg>", "pot.svg").value().notes;
+  };
+  const std::string path = "<path d='M 0 0 H 90 V 60 H 0 Z' ";
+  EXPECT_TRUE(notes_of(path + "clip-path='none'/>").empty());
+  EXPECT_EQ(
+      notes_of(path + "clip-path='url(#c)'/>\n" + path + "style='clip-path:url(#c)'/>"),
+      std::vector<std::string>{"pot.svg:1: a clip-path is not applied: the whole shape was read"});
+  EXPECT_EQ(notes_of(path + "mask='url(#m)' clip-path='url(#c)'/>").size(), 2u);
 }
 
 TEST(SvgDrawing, CupOfTwoOutlinesEqualsCupOfOne) {

@@ -307,6 +307,16 @@ TEST(Stl, RepairsTextWithoutEndsolid) {
   EXPECT_FALSE(decode_stl(cut.substr(0, cut.rfind("endfacet")), "pot.stl", {.repair = true}));
 }
 
+TEST(Stl, ABinaryHeaderMayBeginWithTheWordSolid) {
+  std::string bytes = encode_stl_binary(tetrahedron());
+  const std::string word = "solid cup";
+  bytes.replace(0, word.size() + 1, word + '\0');
+  EXPECT_TRUE(decode_stl(bytes, "pot.stl"));
+  const std::string cut = bytes.substr(0, bytes.size() - 7);
+  EXPECT_NE(message_of(cut).find("284 bytes of binary STL"), std::string::npos) << message_of(cut);
+  EXPECT_EQ(decode_stl(cut, "pot.stl", {.repair = true}).value().triangles.size(), 3u);
+}
+
 TEST(Stl, RefusesBinaryOfAnyOtherSize) {
   const std::string whole = encode_stl_binary(tetrahedron());
   for (std::size_t size = 0; size < whole.size(); ++size) {
