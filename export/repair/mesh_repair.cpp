@@ -15,9 +15,13 @@
 #include "export/repair/wrapping.hpp"
 #include "export/solid/mesh_extent.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <glm/geometric.hpp>
+#include <utility>
+#include <vector>
 
 namespace clay::solid::inline repair {
 namespace {
@@ -64,6 +68,26 @@ Result<void> expect_quick_wraps(const TriangleMesh& soup, const RepairOptions& o
       });
 }
 
+/// Each edge has as many triangles in one direction as in the other: the mesh bounds solids, and
+/// any opening comes from taking its faces apart, as where two solids share a face.
+bool is_closed(const TriangleMesh& soup) {
+  std::vector<std::pair<std::uint64_t, int>> edges;  // between points, and the direction
+  edges.reserve(3 * soup.triangles.size());
+  for (const auto& t : soup.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint64_t a = t[i], b = t[(i + 1) % 3];
+      edges.emplace_back(std::min(a, b) << 32 | std::max(a, b), a < b ? 1 : -1);
+    }
+  std::ranges::sort(edges);
+  for (auto it = edges.begin(); it != edges.end();) {
+    int sum = 0;
+    const std::uint64_t edge = it->first;
+    for (; it != edges.end() && it->first == edge; ++it) sum += it->second;
+    if (sum != 0) return false;
+  }
+  return true;
+}
+
 /// The stages in their order.
 Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& options,
                               RepairedMesh& report, StageReport& stage) {
@@ -71,7 +95,7 @@ Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& opt
   auto surface = make_surface(soup, report.repaired);
   if (!surface) return tl::make_unexpected(surface.error());
   stage.begin("filling holes");
-  auto holes = fill_holes(*surface, options.cap_openings);
+  auto holes = fill_holes(*surface, options.cap_openings || is_closed(soup));
   if (!holes && options.thicken_mm) {
     note_repair(report.repaired, "wall made around an open surface", 1);
     return wrapped_or_error(soup, 0.5 * *options.thicken_mm, kThickenAlpha, holes.error());

@@ -114,6 +114,33 @@ TEST(Repair, CapsWideOpeningsOnRequestOnly) {
   }
 }
 
+/// As of a cup and its lid in one file: the shared face has other diagonals in each.
+TEST(Repair, JoinsSolidsThatShareAFace) {
+  const auto add_box = [](TriangleMesh& mesh, double from, bool turned) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (int corner = 0; corner < 8; ++corner)
+      mesh.points.emplace_back(from + ((corner & 1) != 0 ? 10.0 : 0.0),
+                               (corner & 2) != 0 ? 10.0 : 0.0, (corner & 4) != 0 ? 10.0 : 0.0);
+    const std::uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                       {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (const auto& f : faces) {
+      const std::uint32_t a = first + f[turned ? 1 : 0], b = first + f[turned ? 2 : 1],
+                          c = first + f[turned ? 3 : 2], d = first + f[turned ? 0 : 3];
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
+    }
+  };
+  for (const bool turned : {false, true}) {
+    TriangleMesh boxes;
+    add_box(boxes, 0.0, false);
+    add_box(boxes, 10.0, turned);
+    const auto repaired = repair_mesh(boxes);
+    ASSERT_TRUE(repaired) << repaired.error().message;
+    EXPECT_TRUE(check_mesh(repaired->mesh).sound());
+    EXPECT_NEAR(signed_volume(repaired->mesh), 2000.0, 1e-3) << turned;
+  }
+}
+
 TEST(Repair, FillsAPatchOfEightTrianglesWithoutIntersections) {
   // Curved in both directions; a fill in the plane of the border would fold.
   TriangleMesh mesh =
