@@ -71,7 +71,7 @@ const turns = (page, ms) => page.evaluate(ms => new Promise(done => {
 async function lump(open, before) {
   const page = await open(before);
   await pause(1000);
-  await page.mouse.click(302, 465);
+  await page.mouse.click(302, 478);
   await page.says('work started: bowl');
   await page.says('checked: proved');
   return page;

@@ -61,7 +61,7 @@ async function throwAndExport(browser) {
   const page = await openPage(browser, kDesktop);
   await pause(1500);
   await picture(page, 'gallery');
-  await page.mouse.click(302, 465);  // Lump, of the bowl
+  await page.mouse.click(302, 478);  // No guide, of the bowl
   await page.says('work started: bowl');
   await page.says('checked: proved');
   await pause(2500);
@@ -185,7 +185,7 @@ async function offline(browser) {
   await page.goto(own.address);
   await page.says('window open');
   await pause(1000);
-  await page.mouse.click(302, 465);
+  await page.mouse.click(302, 478);
   await page.says('checked: proved');  // by the worker, whose files are kept too
   await context.close();
   console.log('started without the server');
@@ -198,7 +198,7 @@ async function repeated(browser) {
   const context = await browser.createBrowserContext();
   const page = await openPage(context, kDesktop, '', own.address);
   await pause(1000);
-  await page.mouse.click(302, 465);
+  await page.mouse.click(302, 478);
   await page.says('error: worker: claystack.wasm: the server answers 404');
   await pause(1000);
   await page.shows('pot', /Not checked$/);
@@ -217,7 +217,7 @@ async function recover() {
   let browser = await launch();
   const page = await openPage(browser, kDesktop);
   await pause(1000);
-  await page.mouse.click(302, 465);
+  await page.mouse.click(302, 478);
   await page.says('work started: bowl');
   await drag(page);
   await pause(2500);
@@ -302,7 +302,7 @@ async function quota() {
   const isFull = async () => kFull.test(await page.$eval('#status', e => e.textContent));
   await permit(1000);
   await pause(1000);
-  await page.mouse.click(302, 465);
+  await page.mouse.click(302, 478);
   await page.says('work started: bowl');
   await page.says('checked: proved');
   await full();
