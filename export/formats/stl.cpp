@@ -192,7 +192,7 @@ Result<TriangleMesh> read_either(const ByteSource& source, std::string_view name
       head.size() < kPrologueBytes ? 0 : load_u32(head.data() + kHeaderBytes);
   if (head.size() >= kPrologueBytes && source.size == stl::file_bytes(facets))
     return read_binary(source, stream, facets, name);
-  if (!begins_with_solid(head) || !is_text(head)) {
+  if (!begins_with_solid(head) || (head.size() >= kPrologueBytes && !is_text(head))) {
     if (!options.repair || source.size < stl::file_bytes(1) || is_of_another_kind(head))
       return no_stl(head, source.size, name);
     const std::size_t there = facets_there(source.size, facets);

@@ -177,7 +177,7 @@ TEST(Goal, IsRefusedWithTheReason) {
   };
   EXPECT_EQ(has(why(vase, {}), "expected a capacity"), "");
   EXPECT_EQ(
-      has(why(vase, of([](Goal& g) { g.holds_ml = g.weighs_g = 1.0; })), "expected one number"),
+      has(why(vase, of([](Goal& g) { g.holds_ml = g.weighs_g = 1.0; })), "expected one figure"),
       "");
   EXPECT_EQ(has(why(vase, of([](Goal& g) { g.holds_ml = 350.0, g.fired = true; })),
                 "expected a shrinkage"),
