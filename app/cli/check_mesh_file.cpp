@@ -272,7 +272,7 @@ void check_process(const TriangleMesh& mesh, const glm::dvec3& size, const Check
   }
   if (const auto& most = process->overhang) {
     const Undersides steep = undersides_of(mesh, most->max_deg);
-    constexpr double kLeastMm2 = 4.0;  // smaller ones bridge themselves
+    constexpr double kLeastMm2 = 4.0;  // smaller ones need no support
     if (steep.area_mm2 > kLeastMm2)
       return verdict.add(
           "process", Grade::warn,

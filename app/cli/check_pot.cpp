@@ -88,8 +88,8 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command,
   if (!pot) return tl::make_unexpected(pot.error());
   if (pot->collapse)
     return not_examined(MeshState::will_not_print, "collapsed",
-                        fmt::format("ring {} yielded at {:.4g} kPa; claystack export can write the "
-                                    "fallen pot",
+                        fmt::format("ring {} yielded at {:.4g} kPa; claystack export writes the "
+                                    "fallen pot, with --pieces if it is in several",
                                     pot->collapse->failed_ring, pot->collapse->stress_kpa));
   // The export with its defaults, without a file.
   solid::ExportOptions options;

@@ -8,7 +8,7 @@ namespace clay::importing {
 namespace {
 
 constexpr double kStepMm = 1e-6;   // narrower treads are rounding
-constexpr double kExactMm = 1e-4;  // bounds nearer than this meet the level
+constexpr double kExactMm = 1e-7;  // bounds nearer than this meet the level
 constexpr double kMostTried = 2e7;
 
 }  // namespace

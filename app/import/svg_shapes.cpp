@@ -107,10 +107,7 @@ class Copier {
   /// Once for each kind.
   void note_unapplied(xmlNode* node, std::string_view kind,
                       const std::optional<std::string>& value) {
-    if (!value || *value == "none" || std::ranges::any_of(notes_, [&](const std::string& note) {
-          return note.find(kind) != std::string::npos;
-        }))
-      return;
+    if (!value || *value == "none" || !noted_.insert(kind).second) return;
     notes_.push_back(fmt::format("{}:{}: a {} is not applied: the whole shape was read", name_,
                                  xmlGetLineNo(node), kind));
   }
@@ -299,6 +296,7 @@ class Copier {
   std::set<std::string> layers_;
   bool found_layer_ = false;
   std::vector<std::string> notes_;
+  std::set<std::string_view> noted_;  // kinds that have a note
   std::size_t count_ = 0;
 };
 

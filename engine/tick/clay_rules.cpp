@@ -22,10 +22,10 @@ double speed_into(Side side, const Motion& motion) noexcept {
   return std::max(side == Side::compressive ? -out : out, 0.0);
 }
 
-// Of the wall's thickness, to either side of a ring: a wall does not follow what is shorter.
+// The part of the wall's thickness, above and below a ring, over which its motion is averaged.
 constexpr double kAbout = 0.1;
 
-/// Of what the touched rings give way, before each of them and behind the last.
+/// Running sums of how far the touched rings give way [mm]: before each ring, and after the last.
 void sum_gives(const TouchedRings& rings, std::span<double> sums) noexcept {
   double sum = 0.0;
   std::size_t k = 0;
@@ -38,8 +38,9 @@ void sum_gives(const TouchedRings& rings, std::span<double> sums) noexcept {
   sums[k] = sum;
 }
 
-/// A touched ring moves by its share of what the rings about it give way in the mean, at least.
-/// `about`: so many to either side of its middle.
+/// A touched ring moves at least by the given share of the mean distance by which it and its
+/// neighbours give way. `about`: the mean covers this many rings above the middle of the ring, and
+/// as many below.
 void move_touched(const TouchedRings& rings, std::span<const double> sums, double share,
                   double about, std::size_t first, std::span<float> by) noexcept {
   const std::size_t begin = std::max(first, rings.from());

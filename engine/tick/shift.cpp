@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kMostSunk = 64;
 // A bore keeps half of its radius at least, however far a pose leaps.
 constexpr float kMostOfBore = 0.75f;
-// Of the wall's thickness, to either side of the peak: a wall does not bend over less.
+// The part of the wall's thickness, above and below the peak, over which one trail passes into the
+// other.
 constexpr double kBlend = 0.45;
 // Bound of the relative error of a radius in single precision.
 constexpr float kRounding = 1e-6f;

@@ -64,7 +64,7 @@ class Shift {
       const std::size_t count = std::min(kRows, to() - first);
       bend(stack.ring_height_mm(), band, shell, first, count, by);
       limit(first, std::span(by).first(count));
-      if (shell.trail_below != shell.trail_above)
+      if (shell.trail_below < 1.0 || shell.trail_above < 1.0)
         trail(stack.ring_height_mm(), band, shell, first, count, by);
       std::fill(by + count, by + in_packs_of(count), 0.0f);
       move(walls, push, first, count, by);
@@ -77,7 +77,7 @@ class Shift {
   void begin(const ClayStack& stack, const Band& band, const Shell& shell) noexcept;
   static void bend(double h, const Band& band, const Shell& shell, std::size_t first,
                    std::size_t count, float* by) noexcept;
-  /// What the tool leaves behind on its way moves less.
+  /// The wall behind a moving tool moves less: scales `by` [mm].
   static void trail(double h, const Band& band, const Shell& shell, std::size_t first,
                     std::size_t count, float* by) noexcept;
   /// `by`, of whole packs: how far the rings move [mm], less where the wall is not thin. Afterwards

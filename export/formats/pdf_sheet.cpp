@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <numbers>
+#include <string>
 
 namespace clay::solid::inline formats {
 namespace {
@@ -56,14 +57,15 @@ class PdfSheet {
     cairo_set_font_size(page_, text.height_mm * 1.37);
     cairo_set_source_rgb(page_, style.red, style.green, style.blue);
     cairo_text_extents_t extents;
-    cairo_text_extents(page_, text.words.c_str(), &extents);
+    const std::string words = valid_text(text.words);
+    cairo_text_extents(page_, words.c_str(), &extents);
     const double part = 0.5 * static_cast<double>(text.anchor);
     const glm::dvec2 at = on_page(text.at);
     cairo_save(page_);
     cairo_translate(page_, at.x, at.y);
     if (text.upright) cairo_rotate(page_, -0.5 * std::numbers::pi);
     cairo_move_to(page_, -part * extents.x_advance, 0.0);
-    cairo_show_text(page_, valid_text(text.words).c_str());
+    cairo_show_text(page_, words.c_str());
     cairo_restore(page_);
   }
 

@@ -95,7 +95,8 @@ Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& opt
   auto surface = make_surface(soup, report.repaired);
   if (!surface) return tl::make_unexpected(surface.error());
   stage.begin("filling holes");
-  auto holes = fill_holes(*surface, options.cap_openings || is_closed(soup));
+  auto holes = fill_holes(*surface, options.cap_openings);
+  if (!holes && is_closed(soup)) holes = fill_holes(*surface, true);
   if (!holes && options.thicken_mm) {
     note_repair(report.repaired, "wall made around an open surface", 1);
     return wrapped_or_error(soup, 0.5 * *options.thicken_mm, kThickenAlpha, holes.error());

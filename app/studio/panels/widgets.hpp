@@ -16,7 +16,7 @@ namespace clay::studio {
 /// A width: up to the right edge of the window's content.
 inline constexpr float kToEdge = -std::numeric_limits<float>::min();
 
-/// Their values stand beside them, so Tab and Ctrl+click open no text field over them.
+/// Flags of all sliders. The value is shown beside the slider, so no text field opens over it.
 inline constexpr int kSlider = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput;
 
 /// A row of buttons of equal width, one of which is selected. Returns the index of a clicked
@@ -42,7 +42,7 @@ void dialog_title(const ViewModel& model, const char* text);
 /// A label at the left; the next control fills the rest of the line.
 inline constexpr float kFormEm = 10.5f;
 void form_row(const char* label);
-/// Explains the line of the last control under the pointer.
+/// A tooltip for the line of the last control.
 void tip(const char* text);
 /// A slider in such a line, with its value as text beside it.
 bool form_slider(const char* label, float& value, float low, float high, const std::string& text,

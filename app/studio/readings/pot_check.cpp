@@ -264,7 +264,7 @@ std::string wall_text(const PotCheck& check, LengthUnit unit) {
   if (check.fallen) return "Fallen: walls are not measured";
   if (check.stopped) return "Walls unknown: the pot is not checked";
   if (!check.proved) return "Walls unknown: the section is not that of one solid";
-  if (!check.hollow) return "Solid clay: there are no walls yet";
+  if (!check.hollow && !check.thin()) return "Solid clay: there are no walls yet";
   std::string words =
       fmt::format("Thinnest wall {}, at a height of {}", length_text(check.thinnest_mm, unit),
                   length_text(check.thinnest_from.y, unit));

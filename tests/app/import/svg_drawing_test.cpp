@@ -163,13 +163,13 @@ TEST(SvgDrawing, IgnoresHiddenElements) {
 TEST(SvgDrawing, ReportsClipPathsAndMasksOnce) {
   const std::string start = "<svg xmlns='http://www.w3.org/2000/svg'>";
   const auto notes_of = [&](const std::string& shapes) {
-    return read_drawing(start + shapes + "</svg>", "pot.svg").value().notes;
+    return read_drawing(start + shapes + "</svg>", "mask.svg").value().notes;
   };
   const std::string path = "<path d='M 0 0 H 90 V 60 H 0 Z' ";
   EXPECT_TRUE(notes_of(path + "clip-path='none'/>").empty());
   EXPECT_EQ(
       notes_of(path + "clip-path='url(#c)'/>\n" + path + "style='clip-path:url(#c)'/>"),
-      std::vector<std::string>{"pot.svg:1: a clip-path is not applied: the whole shape was read"});
+      std::vector<std::string>{"mask.svg:1: a clip-path is not applied: the whole shape was read"});
   EXPECT_EQ(notes_of(path + "mask='url(#m)' clip-path='url(#c)'/>").size(), 2u);
 }
 
