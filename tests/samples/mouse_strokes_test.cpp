@@ -69,7 +69,7 @@ TEST(MouseStrokes, LeaveNoLedgesWithTheRules) {
 TEST(MouseStrokes, LeaveSmoothWallsWithTheRules) {
   const auto pots = thrown_again(mouse_work(), ClaySpec{}).value();
   for (std::size_t node = 7; node < pots.size(); ++node)  // before, the pot is being opened
-    EXPECT_LT(bench::measure(pots[node].stack).roughness_um, 150.0) << node;
+    EXPECT_LT(bench::measure(pots[node].stack).roughness_um, 85.0) << node;
 }
 
 TEST(MouseStrokes, DoNotDependOnTheRingHeight) {
