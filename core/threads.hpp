@@ -12,9 +12,11 @@ inline constexpr bool kThreads = false;
 inline constexpr bool kThreads = true;
 #endif
 
-/// For std::async: on another thread if that is worth it and possible, otherwise when waited for.
+/// For std::async: on another thread if that is worth it and the system has one, otherwise when
+/// waited for.
 [[nodiscard]] constexpr std::launch launch_policy(bool worth_a_thread) noexcept {
-  return kThreads && worth_a_thread ? std::launch::async : std::launch::deferred;
+  return kThreads && worth_a_thread ? std::launch::async | std::launch::deferred
+                                    : std::launch::deferred;
 }
 
 }  // namespace clay

@@ -289,7 +289,7 @@ Result<int> export_pot(ExportCommand& command, Console console) {
   if (!pot) return tl::make_unexpected(pot.error());
   const auto copies = add_copies(*pot, command);
   if (!copies) return tl::make_unexpected(copies.error());
-  std::optional<std::string> thumbnail;
+  Thumbnail thumbnail;
   pack_pot(*pot, command.request, thumbnail);
   set_report(*pot, command.request, *copies);
   if (console.verbose && !pot->collapse)

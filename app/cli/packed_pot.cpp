@@ -2,6 +2,7 @@
 
 #include "app/cli/memory_room.hpp"
 #include "claystack/engine/files.hpp"
+#include "core/threads.hpp"
 #ifdef CLAYSTACK_THUMBNAIL
 #include "app/render/image_file.hpp"
 #include "app/render/pot_view.hpp"
@@ -40,7 +41,7 @@ std::string png_of([[maybe_unused]] const Pot& pot, [[maybe_unused]] int pixels)
 std::string picture_of(const Pot& pot) { return png_of(pot, 480); }
 
 void pack_pot(const Pot& pot, solid::ExportRequest& request,
-              [[maybe_unused]] std::optional<std::string>& thumbnail) {
+              [[maybe_unused]] Thumbnail& thumbnail) {
   const bool wanted = std::ranges::any_of(request.files, [](const solid::FileRequest& file) {
     return file.kind == solid::FileKind::mesh && file.format == solid::MeshFormat::three_mf;
   });
@@ -48,10 +49,11 @@ void pack_pot(const Pot& pot, solid::ExportRequest& request,
   request.options.pot_file = write_pot(pot, PotEncoding::cbor);
 #ifdef CLAYSTACK_THUMBNAIL
   constexpr int kPixels = 256;
-  request.options.draw_thumbnail = [&] {
-    if (!thumbnail) thumbnail = render::png_of(render::thumbnail(render::view_of(pot), kPixels));
-    return *thumbnail;
+  const auto draw = [&pot] {
+    return render::png_of(render::thumbnail(render::view_of(pot), kPixels));
   };
+  if (!thumbnail.valid()) thumbnail = std::async(launch_policy(true), draw).share();
+  request.options.draw_thumbnail = [&thumbnail] { return thumbnail.get(); };
 #endif
 }
 

@@ -1,7 +1,6 @@
 #include "app/studio/export_choices.hpp"
 
 #include "app/cli/memory_room.hpp"
-#include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/report_file.hpp"
 
@@ -122,8 +121,7 @@ ExportFigures figures_of(const solid::ExportReport& report) {
 }
 
 Result<ExportFigures> run_export(const Pot& pot, const ExportChoices& choices, ExportKind kind,
-                                 std::optional<std::string>& thumbnail,
-                                 const std::function<bool()>& cancelled,
+                                 cli::Thumbnail& thumbnail, const std::function<bool()>& cancelled,
                                  const std::function<void(std::string_view)>& show_stage) {
   return request_of(choices, pot)
       .and_then([&](solid::ExportRequest request) {

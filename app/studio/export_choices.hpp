@@ -2,6 +2,7 @@
 // What the export dialog asks for and what it shows: values that the window, its export thread and
 // the worker of a web page exchange.
 
+#include "app/cli/packed_pot.hpp"
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
 #include "claystack/export/job.hpp"
@@ -74,10 +75,9 @@ enum class ExportKind {
   preview,  ///< computes the figures without writing
   files
 };
-/// Runs the export. `thumbnail`: picture of the pot for a 3MF, made if it is empty and necessary.
+/// Runs the export. `thumbnail`: picture of the pot for a 3MF, drawn if it is empty and necessary.
 Result<ExportFigures> run_export(const Pot& pot, const ExportChoices& choices, ExportKind kind,
-                                 std::optional<std::string>& thumbnail,
-                                 const std::function<bool()>& cancelled,
+                                 cli::Thumbnail& thumbnail, const std::function<bool()>& cancelled,
                                  const std::function<void(std::string_view)>& show_stage);
 
 }  // namespace clay::studio

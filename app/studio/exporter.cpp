@@ -31,7 +31,7 @@ struct Exporter::State {
   bool closing = false;
   // Used by the thread alone: the picture of a pot serves all its previews.
   history::SharedPot pictured;
-  std::optional<std::string> thumbnail;
+  cli::Thumbnail thumbnail;
   std::thread thread;
 };
 
@@ -128,7 +128,7 @@ Exporter::Outcome Exporter::State::done(const Job& job) {
     const std::lock_guard lock(mutex);
     stage = now;
   };
-  if (pictured != job.pot) thumbnail.reset();
+  if (pictured != job.pot) thumbnail = {};
   pictured = job.pot;
   auto result = run_export(
       *job.pot, job.choices, job.kind, thumbnail,

@@ -25,7 +25,7 @@ ExportAnswer run(ExportQuestion question) {
   fs::remove_all(folder, ignored);
   fs::create_directory(folder, ignored);
   question.choices.folder = folder.string();
-  std::optional<std::string> thumbnail;
+  cli::Thumbnail thumbnail;
   ExportAnswer answer{
       studio::run_export(
           question.pot, question.choices, question.kind, thumbnail, [] { return false; },
