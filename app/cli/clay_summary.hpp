@@ -5,7 +5,12 @@
 #include "app/cli/json_output.hpp"
 #include "claystack/engine/wheel.hpp"
 
+#include <string_view>
+
 namespace clay::cli {
+
+/// For the people who threw without -o.
+inline constexpr std::string_view kPotNotWritten = "pot: not written; -o NAME.pot.json writes it";
 
 [[nodiscard]] const char* name_of(Model model);
 

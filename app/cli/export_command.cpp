@@ -150,6 +150,13 @@ Result<void> check_options(const ExportCommand& command) {
       return failure(ErrorKind::bad_input,
                      fmt::format("{}: expected {} among the files to write, found none",
                                  option.name, option.kind));
+  constexpr solid::ClayFigures kUsual;
+  for (const auto& [name, given] :
+       {std::pair("--drying-shrinkage", options.clay.drying_shrinkage.value_or(0.0) > 0.0),
+        {"--water", options.clay.water != kUsual.water},
+        {"--ignition-loss", options.clay.ignition_loss != kUsual.ignition_loss}})
+    if (given && options.shrinkage == 0.0)
+      return tl::make_unexpected(no_effect_without(name, "--shrinkage"));
   return {};
 }
 

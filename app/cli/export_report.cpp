@@ -94,9 +94,11 @@ Json collapsed_json(const solid::CollapsedSolid& collapsed) {
           {"pockets_mm3", collapsed.pockets_mm3}, {"max_move_mm", collapsed.max_move_mm}};
 }
 
-void print_file(const Console& console, const FileReport& file) {
-  console.print(fmt::format("{}: {} bytes, within {:.2g} mm{}", file.path, file.bytes,
-                            file.max_error_mm, file.read_back ? ", read back" : ""));
+/// `chordal_mm`: how far the facets are from the round surface.
+void print_file(const Console& console, const FileReport& file, double chordal_mm) {
+  console.print(fmt::format("{}: {} bytes, within {:.2g} mm of the round pot{}", file.path,
+                            file.bytes, file.max_error_mm + chordal_mm,
+                            file.read_back ? ", read back" : ""));
   console.detail(fmt::format("  {}; {}{}", words_of_name(solid::name_of(file.format)),
                              proof_of(file), file.full_verification ? "; fully checked" : ""));
   if (const auto& c = file.certificate)
@@ -437,7 +439,7 @@ void print_export(const Console& console, const ExportReport& report,
   for (const FileReport& file : report.files) {
     switch (file.kind) {
       case FileKind::mesh:
-        print_file(console, file);
+        print_file(console, file, report.size.chordal_error_mm);
         break;
       case FileKind::step:
         print_step(console, file);

@@ -137,6 +137,10 @@ Result<void> import_mesh(const std::string& path, const std::string& pot,
   if (console.json) print_json(summary(path, *mesh, mesh_mm3, *made, notes));
   print_summary(console, *made, mesh_mm3);
   for (const std::string& note : notes) console.print("note: " + note);
+  if (carries_pot(path))
+    console.print(
+        "note: the file also carries its exact pot, before any shrinkage: claystack "
+        "throw --from and claystack export read it");
   for (const std::string& warning : warnings_about(enclosure)) console.warn(path + ": " + warning);
   constexpr double kUsualPotMm = 10.0;
   if (settings.height_mm && *settings.height_mm < kUsualPotMm)

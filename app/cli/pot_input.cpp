@@ -80,6 +80,13 @@ Result<Pot> read_pot(const std::string& path) {
 }
 
 #ifdef CLAYSTACK_EXPORT
+bool carries_pot(const std::string& path) {
+  if (!is_3mf(path)) return false;
+  const auto parts = read_file(path).and_then(
+      [&](const std::string& bytes) { return solid::parts_in_3mf(bytes, path); });
+  return parts && !parts->pot.empty();
+}
+
 glm::dvec3 size_mm(const solid::TriangleMesh& mesh) {
   glm::dvec3 low = mesh.points.front(), high = low;
   for (const glm::dvec3& p : mesh.points) {

@@ -29,6 +29,9 @@ Result<Pot> read_pot(const std::string& path);
 Result<Pot> read_pot(const std::string& path, const Console& console);
 
 #ifdef CLAYSTACK_EXPORT
+/// Whether the file is a 3MF that carries its pot.
+[[nodiscard]] bool carries_pot(const std::string& path);
+
 /// Width, depth and height.
 [[nodiscard]] glm::dvec3 size_mm(const solid::TriangleMesh& mesh);
 

@@ -270,6 +270,7 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
                                    {"trace", &options.trace},
                                    {"error plot", &options.error_plot}})
     if (!path->empty()) console.print(fmt::format("{}: {}", kind, *path));
+  if (options.pot.empty()) console.print(kPotNotWritten);
   return {};
 }
 

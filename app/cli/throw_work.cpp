@@ -107,7 +107,10 @@ Result<void> throw_work(const WorkJob& job, Console console) {
   }
   if (console.json) print_json(json);
   print_pot(console, work, node, json);
-  if (!job.pot_path.empty()) console.print("pot: " + job.pot_path);
+  if (!job.pot_path.empty())
+    console.print("pot: " + job.pot_path);
+  else if (!job.list)
+    console.print(kPotNotWritten);
   return {};
 }
 

@@ -14,9 +14,12 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace clay::studio {
 namespace {
@@ -61,6 +64,13 @@ Result<void> run_script(const StudioOptions& options, const LogLine& log) {
   return {};
 }
 
+/// Reported even where no window opens.
+Result<void> expect_file(const std::string& file) {
+  std::error_code unknown;
+  if (file.empty() || std::filesystem::exists(file, unknown) || unknown) return {};
+  return failure(ErrorKind::io, file + ": cannot open: " + std::generic_category().message(ENOENT));
+}
+
 /// How long the picture was behind the mouse, and how many pictures there were.
 void log_motion(const FrameTimes& times, const LogLine& log) {
   const auto text = [](const Histogram& motion) {
@@ -77,6 +87,7 @@ void log_motion(const FrameTimes& times, const LogLine& log) {
 }
 
 Result<void> run_window(const StudioOptions& options, const LogLine& log) {
+  if (auto exists = expect_file(options.file); !exists) return exists;
   LoadedSettings loaded = load_settings(settings_path());
   apply(options, loaded.settings);
   if (options.scale > 0.0) loaded.settings.scale = static_cast<float>(options.scale);

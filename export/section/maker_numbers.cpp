@@ -111,8 +111,9 @@ Result<void> ClayFigures::check() const {
       .and_then([&]() -> Result<void> {
         const double drying = drying_shrinkage.value_or(0.0);
         if (drying >= 0.0 && drying <= shrinkage) return {};
-        return failure(ErrorKind::bad_input, "drying shrinkage: expected 0 to " + in_mm(shrinkage) +
-                                                 ", the total, found " + in_mm(drying));
+        return failure(ErrorKind::bad_input,
+                       "drying shrinkage: expected at most the shrinkage in total, " +
+                           in_mm(shrinkage) + ", found " + in_mm(drying));
       });
 }
 

@@ -121,7 +121,8 @@ const WallLimit& ProcessLimits::wall_for(double size_sum_mm) const noexcept {
 
 Result<ProcessLimits> process_named(std::string_view name) {
   for (const ProcessLimits& process : built_in())
-    if (process.name == name) return process;
+    if (name.size() == process.name.size() && ends_ignoring_case(name, process.name))
+      return process;
   std::string names;
   for (const std::string_view known : kProcessNames)
     names.append(names.empty() ? "" : ", ").append(known);

@@ -44,6 +44,33 @@ TEST_F(ExportOptions, ReportsUnknownProcessesBeforeWriting) {
   EXPECT_FALSE(std::filesystem::exists(stl));
 }
 
+TEST_F(ExportOptions, RefusesFiguresOfFiringWithoutAShrinkage) {
+  for (const std::string option : {"--water 15%", "--ignition-loss 5%", "--drying-shrinkage 4%"}) {
+    const Ran alone = run(option);
+    EXPECT_EQ(alone.status, 2);
+    EXPECT_NE(alone.err.find(option.substr(0, option.find(' ')) + ": expected --shrinkage too"),
+              std::string::npos)
+        << alone.err;
+    EXPECT_FALSE(std::filesystem::exists(stl));
+  }
+  EXPECT_EQ(run("--shrinkage 8% --water 15% --ignition-loss 5% --drying-shrinkage 4%").status, 0);
+}
+
+// The polygon of n sides with the area of the circle: its corners stand out by r (f - 1), the
+// middles of its sides are r (1 - f cos(pi / n)) inside, where f^2 = (2 pi / n) / sin(2 pi / n).
+TEST_F(ExportOptions, TheStatedDistanceIncludesTheFacets) {
+  constexpr double kSides = 16.0, kPi = std::numbers::pi;
+  const double f = std::sqrt(2.0 * kPi / kSides / std::sin(2.0 * kPi / kSides));
+  const double radius_mm =
+      0.5 * nlohmann::json::parse(run("--json").out).at("diameter_mm").get<double>();
+  const double expected_mm = radius_mm * std::max(f - 1.0, 1.0 - f * std::cos(kPi / kSides));
+  const std::string out = run("--segments 16").out;
+  const std::size_t at = out.find(", within ");
+  ASSERT_NE(at, std::string::npos) << out;
+  EXPECT_NEAR(std::stod(out.substr(at + 9)), expected_mm, 0.05 * expected_mm) << out;
+  EXPECT_NE(out.find(" mm of the round pot, read back"), std::string::npos) << out;
+}
+
 TEST_F(ExportOptions, TheReportEqualsTheJsonOutput) {
   const std::string report = folder.file("report.json");
   const Ran printed = run("--json --report " + report);

@@ -130,6 +130,20 @@ TEST(Import, ReadsADrawingOnStandardInput) {
                                      "found an STL mesh in text"));
 }
 
+TEST(Import, PointsToThePotInA3mf) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("a.pot.json"), again = folder.file("b.pot.json");
+  ASSERT_EQ(claystack("import -q " + sample("drawings/jug.svg") + " -o " + pot).status, 0);
+  for (const std::string name : {"a.3mf", "a.stl"}) {
+    const std::string mesh = folder.file(name);
+    ASSERT_EQ(claystack("export -q " + pot + " " + mesh).status, 0);
+    const auto read = claystack("import " + mesh + " -o " + again);
+    EXPECT_EQ(read.status, 0) << read.err;
+    EXPECT_EQ(read.out.find("carries its exact pot") != std::string::npos, name == "a.3mf")
+        << read.out;
+  }
+}
+
 TEST(Import, ReportsErrorsAndLeavesNoFile) {
   const ScratchFolder folder;
   const std::string pot = folder.file("x.pot.json"), drawing = folder.file("x.csv");

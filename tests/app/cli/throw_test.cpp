@@ -137,6 +137,13 @@ TEST(Throw, APotGoesOnWithoutItsScene) {
   EXPECT_EQ(claystack("throw").status, 2);
 }
 
+TEST(Throw, ReportsThatItWritesNoPotWithoutAName) {
+  const auto run = claystack("throw " + sample("cylinder.scene.json"));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("\npot: not written; -o NAME.pot.json writes it\n"), std::string::npos)
+      << run.out;
+}
+
 TEST(Throw, WarnsAboutASessionOfAnotherScene) {
   const auto run =
       claystack("throw " + sample("vase.scene.json") + " --session " + sample("bowl.session"));

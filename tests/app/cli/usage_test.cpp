@@ -161,5 +161,16 @@ TEST(Usage, HelpSaysWhatALengthLooksLike) {
         << command;
 }
 
+#ifdef CLAYSTACK_STUDIO
+TEST(Usage, ReportsAMissingFileEvenWithoutADisplay) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("none.work");
+  const auto run = shell("env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder.file("") +
+                         " " CLAYSTACK_PROGRAM " studio " + file);
+  EXPECT_EQ(run.status, 3);
+  EXPECT_EQ(run.err, "claystack: " + file + ": cannot open: No such file or directory\n");
+}
+#endif
+
 }  // namespace
 }  // namespace clay::test

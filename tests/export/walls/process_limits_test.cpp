@@ -17,6 +17,8 @@ TEST(ProcessLimits, EveryFigureHasASourceAndASize) {
       EXPECT_GT(wall.source.size(), 10u);
     }
   }
+  EXPECT_EQ(process_named("FDM").value().name, "fdm");
+  EXPECT_FALSE(process_named("xfdm"));
   const auto unknown = process_named("bronze");
   ASSERT_FALSE(unknown);
   EXPECT_NE(unknown.error().message.find("porcelain"), std::string::npos);

@@ -9,12 +9,30 @@ TEST(EnergyObserver, SumsForceTimesDistanceMinusDissipation) {
   EnergyObserver observer(kLoop, 0.0, 0.1);
   observer.observe(kTickS, along(0), along(0), along(1));
   double work = 0.0, damped = 0.0;
-  for (const double distance : {-0.1, -0.2, -0.2, 0.1, 0.3}) {
+  for (const double distance : {-0.1, -0.2, -0.2, 0.1, 0.3, -0.2, -0.1, 0.2}) {
     observer.observe(kTickS, along(1.5), along(distance), along(1));
     work += 1.5 * distance;
     damped += 0.002 * distance * distance / kTickS;  // at constant speed in each tick
   }
   EXPECT_NEAR(observer.injected_mj(), work - damped, 1e-15);
+}
+
+// An encoder measures a distance to one step, so the arm dissipates at least b (L - step)^2 / t.
+TEST(EnergyObserver, CreditsTheWayToTheSurfaceLessOneStep) {
+  constexpr double kStep = 0.05;
+  EnergyObserver fast(kLoop, kStep, 0.1), slow(kLoop, kStep, 0.1);
+  fast.observe(kTickS, along(0), along(-0.3), along(1));
+  EXPECT_NEAR(fast.injected_mj(), -0.002 * 0.25 * 0.25 / kTickS, 1e-15);
+  slow.observe(kTickS, along(0), along(-0.02), along(1));
+  EXPECT_EQ(slow.injected_mj(), 0.0);
+}
+
+TEST(EnergyObserver, CreditsNothingToAHandAtRest) {
+  EnergyObserver observer(kLoop, 0.05, 0.1);
+  observer.observe(kTickS, along(0), along(-0.3), along(1));
+  const double before = observer.injected_mj();
+  for (int k = 0; k < 50; ++k) observer.observe(kTickS, along(0), along(0), along(1));
+  EXPECT_EQ(observer.injected_mj(), before);
 }
 
 TEST(EnergyObserver, DropsCreditAfterTheContactAndKeepsDebt) {
@@ -61,6 +79,19 @@ TEST(EnergyObserver, DetectsLoopsDespiteTheCreditOfALongPress) {
   EXPECT_LT(observer.injected_mj(), -15.0);
   EXPECT_NEAR(observer.looped_mj(), 3.0, 1e-12);  // the fourth is not closed
   EXPECT_EQ(observer.debt_mj(), observer.looped_mj());
+  observer.forgive();
+  EXPECT_EQ(observer.debt_mj(), 0.0);
+}
+
+// The first swing is the rise. The force falls back by 0.6 N from its maximum, not from where the
+// swing began.
+TEST(SwingCounter, MeasuresASwingFromTheMaximum) {
+  SwingCounter swings(2, 1.0, 0.5);
+  double time_s = 0.0;
+  for (const double force_n : {0.4, 0.8, 1.2, 1.6})
+    EXPECT_FALSE(swings.swings_too_often(time_s += kTickS, along(force_n))) << force_n;
+  EXPECT_FALSE(swings.swings_too_often(time_s += kTickS, along(1.2)));
+  EXPECT_TRUE(swings.swings_too_often(time_s += kTickS, along(1.0)));
 }
 
 TEST(EnergyObserver, CountsNoEnergyForEncoderFlicker) {
