@@ -33,7 +33,7 @@ Result<Imported> import_drawing(const std::string& bytes, const std::string& nam
   });
   if (!section) return tl::make_unexpected(section.error());
   return importing::drawn_pot(*section, pot_settings, name).map([&](importing::DrawnPot&& drawn) {
-    return Imported{std::move(drawn.pot), section->volume_mm3(), section->axis_mm};
+    return Imported{std::move(drawn.pot), section->volume_mm3(), section->axis_mm, section->notes};
   });
 }
 

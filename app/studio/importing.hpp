@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace clay::studio {
 
@@ -29,6 +30,7 @@ struct ImportSettings {
 struct Imported {
   Pot pot;
   double drawn_mm3 = 0.0, axis_mm = 0.0;
+  std::vector<std::string> notes;  ///< what of the drawing was not used
 };
 /// Makes the same pot as `claystack import`. `name`: file name, for its extension and for errors.
 Result<Imported> import_drawing(const std::string& bytes, const std::string& name,

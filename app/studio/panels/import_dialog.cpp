@@ -61,6 +61,9 @@ void draw_result(const ImportDialog& dialog, const ViewModel& model) {
   faint_text(colours, fmt::format("Axis at {:.2f} mm in the drawing", dialog.made->axis_mm));
   ImGui::EndGroup();
   ImGui::EndChild();
+  ImGui::PushStyleColor(ImGuiCol_Text, colours.warning);
+  for (const std::string& note : dialog.made->notes) wrapped_text(note);
+  ImGui::PopStyleColor();
 }
 
 }  // namespace

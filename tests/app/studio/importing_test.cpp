@@ -47,6 +47,20 @@ TEST(Importing, ErrorsAppearInTheDialog) {
   EXPECT_NE(card.problem.find("odd.csv"), std::string::npos) << card.problem;
 }
 
+TEST(Importing, ShowsWhatOfTheDrawingIsNotUsed) {
+  ImportCard card;
+  card.path = "jug.svg";
+  card.bytes = read_text(test::sample("drawings/jug.svg"));
+  reload(card);
+  ASSERT_TRUE(card.made) << card.problem;
+  EXPECT_TRUE(card.made->notes.empty());
+  card.bytes.insert(card.bytes.find("<path") + 5, " clip-path='url(#c)'");
+  reload(card);
+  ASSERT_TRUE(card.made) << card.problem;
+  ASSERT_EQ(card.made->notes.size(), 1u);
+  EXPECT_NE(card.made->notes.front().find("a clip-path is not applied"), std::string::npos);
+}
+
 TEST(Importing, RecognisesDrawingsByExtension) {
   for (const char* name : {"a.svg", "b.dxf", "c.csv"}) EXPECT_TRUE(is_drawing(name)) << name;
   for (const char* name : {"a.work", "a.pot.json", "svg", "a.svg.gz"})
