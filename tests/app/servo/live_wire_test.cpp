@@ -47,6 +47,10 @@ TEST(LiveWire, JumpIntoTheClayRemovesNothing) {
 TEST(LiveWire, LostHomingZeroesTheForceInTheSameTick) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.2);
+  const auto times_not_ready = [&] {
+    return live.loop->events().flags[std::countr_zero(unsigned{falcon::kGuardNotReady})];
+  };
+  const auto times_before = times_not_ready();
   live.fault(WireFault::homing_lost);
   while (live.status().device == falcon::DeviceState::ready) live.tick();
   const Pot before = live.wheel.pot();
@@ -55,6 +59,7 @@ TEST(LiveWire, LostHomingZeroesTheForceInTheSameTick) {
     ASSERT_EQ(live.model->motors(), falcon::LegCounts{});
     ASSERT_EQ(live.wheel.pot(), before);
   }
+  EXPECT_EQ(times_not_ready(), times_before + 1);
   EXPECT_NE(live.status().guard, GuardState::engaged);
 }
 
