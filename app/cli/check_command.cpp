@@ -152,7 +152,8 @@ void add_repair_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& comm
   add_length(*sub, "--thicken", command->repair_options.thicken_mm,
              "With --repair: thickness of the wall that a surface with a wide opening gets, "
              "half on each side [mm]; default: such a surface is refused",
-             kLeastMm, kMostMm);
+             kLeastMm, kMostMm)
+      ->excludes("--cap");
   add_length(*sub, "--wrap", command->repair_options.wrap_mm,
              "With --repair, if all else fails: replace the surface by a wrap at this distance "
              "around it [mm], which loses smaller details; default: such a mesh is refused",
