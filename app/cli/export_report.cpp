@@ -96,7 +96,7 @@ Json collapsed_json(const solid::CollapsedSolid& collapsed) {
 
 /// `chordal_mm`: how far the facets are from the round surface.
 void print_file(const Console& console, const FileReport& file, double chordal_mm) {
-  console.print(fmt::format("{}: {} bytes, within {:.2g} mm of the round pot{}", file.path,
+  console.print(fmt::format("{}: {} bytes, within {:.2g} mm of the round solid{}", file.path,
                             file.bytes, file.max_error_mm + chordal_mm,
                             file.read_back ? ", read back" : ""));
   console.detail(fmt::format("  {}; {}{}", words_of_name(solid::name_of(file.format)),

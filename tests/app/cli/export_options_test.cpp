@@ -68,7 +68,7 @@ TEST_F(ExportOptions, TheStatedDistanceIncludesTheFacets) {
   const std::size_t at = out.find(", within ");
   ASSERT_NE(at, std::string::npos) << out;
   EXPECT_NEAR(std::stod(out.substr(at + 9)), expected_mm, 0.05 * expected_mm) << out;
-  EXPECT_NE(out.find(" mm of the round pot, read back"), std::string::npos) << out;
+  EXPECT_NE(out.find(" mm of the round solid, read back"), std::string::npos) << out;
 }
 
 TEST_F(ExportOptions, TheReportEqualsTheJsonOutput) {
