@@ -12,6 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -101,6 +103,38 @@ TEST(Servo, WatchdogEndsTheForceDuringAHang) {
   threads.wait_for_writes(20);
   EXPECT_EQ(threads.stop(), Ending::stopped);
   EXPECT_GE(threads.loop.events().watchdog, 1u);
+}
+
+/// Time stands still, so a servo that ticks is never late, however busy the machine is. Counts the
+/// looks of the watchdog, which sleeps for longer than a tick.
+class StoppedClock final : public Clock {
+ public:
+  std::int64_t now_ns() noexcept override { return kNowNs; }
+  void sleep_until_ns(std::int64_t time_ns) noexcept override {
+    if (time_ns > kNowNs + 5'000'000) ++looks;
+    std::this_thread::yield();
+  }
+  std::atomic<std::uint64_t> looks{0};
+
+ private:
+  static constexpr std::int64_t kNowNs = 3'600'000'000'000;
+};
+
+TEST(Servo, WatchdogLeavesATickingServoAlone) {
+  WireLog log;
+  ScriptedDevice device(log);
+  Wheel wheel = Wheel::build(rib_scene()).value();
+  StoppedClock clock;
+  const Bench bench{wheel, device, clock, nullptr};
+  ServoLoop loop = ServoLoop::build(bench, quick()).value();
+  Servo servo{bench, loop, Pace::thread};
+  servo.start();
+  wait_until([&] { return log.writes > 50; }, "forces to be written");
+  wait_until([&, end = clock.looks + 50] { return clock.looks > end; }, "the watchdog to look");
+  ASSERT_TRUE(servo.command({CommandKind::stop, 0.0}));
+  wait_until([&] { return !servo.running(); }, "the servo's end");
+  EXPECT_EQ(servo.join(), Ending::stopped);
+  EXPECT_EQ(loop.events().watchdog, 0u);
 }
 
 TEST(Servo, ReadersGetCompleteValuesInOrder) {
