@@ -30,6 +30,9 @@ TEST(LiveWire, WithoutFramesTheClayRestsAndTheForceEndsIn10Ms) {
     ASSERT_TRUE(n == 0.0 || live.clock.now_us() - last_us < 10'000) << n;
   }
   EXPECT_EQ(n, 0.0);
+  const ServoTiming& timing = live.loop->timing();
+  EXPECT_GE(timing.stale, 19u) << "ticks without a new frame";
+  EXPECT_LT(timing.stale, timing.ticks);
   live.run(3.0);
   EXPECT_NE(live.wheel.pot(), before) << "the throw continues afterwards";
 }
