@@ -218,6 +218,35 @@ TEST(Passivity, LittleEnergyIsOnlyDamped) {
   EXPECT_EQ(controller.state(), PassivityState::damping);
 }
 
+// A debt counts when it arises, and again when its contact ends with a gain. The third reduces the
+// force: here during the second contact, although each gives less than 0.1 mJ.
+TEST(Passivity, TheThirdSmallDebtReducesTheForce) {
+  PassivityController controller = controller_of(kLoop);
+  std::int64_t time_us = 0;
+  const auto tick = [&](double x, double force) {
+    (void)controller.tick(time_us += 1000, along(x), along(force));
+  };
+  // In without force, then out with 0.9 N until a debt arises; there the hand rests.
+  const auto give = [&](double from_mm) {
+    double x = from_mm;
+    tick(x, 0.0);
+    for (int k = 0; k < 20; ++k) tick(x -= 0.05, 1e-6);
+    EXPECT_EQ(controller.state(), PassivityState::watching) << "motion pays the debt";
+    for (int k = 0; k < 20 && controller.state() == PassivityState::watching; ++k)
+      tick(x += 0.05, 0.9);
+    return x;
+  };
+  const double x = give(0.0);
+  tick(x, 0.0);
+  EXPECT_FALSE(controller.observer().in_contact());
+  EXPECT_GT(controller.observer().last_contact_mj(), controller.observer().tolerance_mj());
+  EXPECT_LT(controller.observer().last_contact_mj(), 0.1);
+  EXPECT_EQ(controller.state(), PassivityState::damping);
+  give(x);
+  EXPECT_TRUE(controller.observer().in_contact());
+  EXPECT_EQ(controller.state(), PassivityState::yielding);
+}
+
 TEST(Passivity, OscillationReducesTheForce) {
   for (const double swing : {0.9, 1.1}) {
     for (const int half_period_ticks : {6, 8}) {  // 8 swings in 42 and in 56 ms
