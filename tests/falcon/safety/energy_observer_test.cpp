@@ -9,7 +9,7 @@ TEST(EnergyObserver, SumsForceTimesDistanceMinusDissipation) {
   EnergyObserver observer(kLoop, 0.0, 0.1);
   observer.observe(kTickS, along(0), along(0), along(1));
   double work = 0.0, damped = 0.0;
-  for (const double distance : {-0.1, -0.2, -0.2, 0.1, 0.3, -0.2, -0.1, 0.2}) {
+  for (const double distance : {-0.1, -0.2, -0.2, 0.1, 0.3, -0.2, 0.1, -0.1, 0.2}) {
     observer.observe(kTickS, along(1.5), along(distance), along(1));
     work += 1.5 * distance;
     damped += 0.002 * distance * distance / kTickS;  // at constant speed in each tick
