@@ -135,5 +135,14 @@ TEST(CheckStiffness, RefusesInvalidStiffness) {
   EXPECT_TRUE(std::isinf(undamped.error().lowest_rate_hz));
 }
 
+TEST(SampledLoop, AcceptsSettingsUpToTheirLimitsAndNoOthers) {
+  const auto accepts = [](const SampledLoop& loop) { return check(loop).has_value(); };
+  EXPECT_TRUE(accepts({10.0, 1e-3, 0.0, 0}) && accepts({1e5, 100.0, 1.0, 8}));
+  EXPECT_FALSE(accepts({9.99, 0.1, 0.002, 0}) || accepts({1.001e5, 0.1, 0.002, 0}));
+  EXPECT_FALSE(accepts({1000, 0.99e-3, 0.002, 0}) || accepts({1000, 100.1, 0.002, 0}));
+  EXPECT_FALSE(accepts({1000, 0.1, -1e-9, 0}) || accepts({1000, 0.1, 1.001, 0}));
+  EXPECT_FALSE(accepts({1000, 0.1, 0.002, -1}) || accepts({1000, 0.1, 0.002, 9}));
+}
+
 }  // namespace
 }  // namespace clay::falcon
