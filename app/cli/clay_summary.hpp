@@ -9,7 +9,7 @@
 
 namespace clay::cli {
 
-/// For the people who threw without -o.
+/// Printed after a throw without -o.
 inline constexpr std::string_view kPotNotWritten = "pot: not written; -o NAME.pot.json writes it";
 
 [[nodiscard]] const char* name_of(Model model);

@@ -123,6 +123,10 @@ Result<void> import_mesh(const std::string& path, const std::string& pot,
     return file.read({"importing", kImportBytesPerTriangle}, {.notes = &notes});
   });
   if (!mesh) return tl::make_unexpected(mesh.error());
+  if (carries_pot(path))
+    notes.emplace_back(
+        "the file also carries its exact pot, before any shrinkage: claystack throw "
+        "--from and claystack export read it");
   progress.stage("finding the axis and making rings");
   const auto made = mesh_pot(*mesh, settings, path);
   const auto doubt = doubted_unit(size_mm(*mesh), *format);
@@ -137,10 +141,6 @@ Result<void> import_mesh(const std::string& path, const std::string& pot,
   if (console.json) print_json(summary(path, *mesh, mesh_mm3, *made, notes));
   print_summary(console, *made, mesh_mm3);
   for (const std::string& note : notes) console.print("note: " + note);
-  if (carries_pot(path))
-    console.print(
-        "note: the file also carries its exact pot, before any shrinkage: claystack "
-        "throw --from and claystack export read it");
   for (const std::string& warning : warnings_about(enclosure)) console.warn(path + ": " + warning);
   constexpr double kUsualPotMm = 10.0;
   if (settings.height_mm && *settings.height_mm < kUsualPotMm)
