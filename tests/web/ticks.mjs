@@ -1,6 +1,7 @@
-// How long a tick takes, in any program that throws: the time to throw a session on its lump, less
-// the time to play it where there is no clay to touch, by the number of ticks in contact. The
-// reading of the session is in both.
+// How long a tick takes, in any program that throws. In contact: the time to throw a session on its
+// lump, less the time to play it where there is no clay to touch, by the number of ticks in contact
+// (the reading of the session is in both). On average: the time to throw it, the reading of the
+// session included, by the number of all ticks.
 import {readFileSync} from 'node:fs';
 
 /// {name, scene, empty, session, ticks}: the samples with the rules of clay, and without them.
@@ -17,14 +18,13 @@ export function samplesOf(folder) {
 }
 
 /// `thrown(scene)`: throws the session of the sample on that scene, text both, and returns
-/// {seconds, contacts}. The least of `runs` each [us].
+/// {seconds, contacts, ticks}. The least of `runs` each: {contact, average} [us].
 export async function tickUs(sample, thrown, runs = 5) {
-  let full = Infinity, empty = Infinity, contacts = 0;
+  let full = {seconds: Infinity}, empty = Infinity;
   for (let i = 0; i < runs; ++i) {
-    const with_clay = await thrown(sample.scene);
-    full = Math.min(full, with_clay.seconds);
-    contacts = with_clay.contacts;
+    const withClay = await thrown(sample.scene);
+    if (withClay.seconds < full.seconds) full = withClay;
     empty = Math.min(empty, (await thrown(sample.empty)).seconds);
   }
-  return 1e6 * (full - empty) / contacts;
+  return {contact: 1e6 * (full.seconds - empty) / full.contacts, average: 1e6 * full.seconds / full.ticks};
 }

@@ -1,6 +1,6 @@
 // Times of the program as WebAssembly beside those of the native program, in one run:
 // node tests/web/times.mjs MODULE [NATIVE]. MODULE is build/web/app/claystack.js. Prints the time of a
-// tick in contact (ticks.mjs), and of an export of STL and 3MF with its proof. The least of five runs
+// tick on average and in contact (ticks.mjs), and of an export of STL and 3MF with its proof. The least of five runs
 // each. Times are those of the processor, so other work on the computer matters little.
 import {spawnSync} from 'node:child_process';
 import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
@@ -45,7 +45,8 @@ function thrownBy(program, sample) {
     program.write('it.scene.json', scene);
     program.write('it.session', sample.session);
     const {seconds, text} = program.run(kThrow);
-    return {seconds, contacts: JSON.parse(text).contact_ticks};
+    const {contact_ticks: contacts, ticks} = JSON.parse(text);
+    return {seconds, contacts, ticks};
   };
 }
 
@@ -59,9 +60,10 @@ function exported(program) {
 for (const sample of samplesOf('samples')) {
   const line = [sample.name.padEnd(18)];
   for (const [name, program] of Object.entries(programs)) {
-    const us = await tickUs(sample, thrownBy(program, sample));
+    const {average, contact} = await tickUs(sample, thrownBy(program, sample));
     thrownBy(program, sample)(sample.scene);
-    line.push(`${name}: tick ${us.toFixed(2).padStart(5)} us, export ${exported(program).toFixed(3)} s`);
+    line.push(`${name}: tick ${average.toFixed(2)} us, ` +
+              `in contact ${contact.toFixed(2).padStart(5)} us, export ${exported(program).toFixed(3)} s`);
   }
   console.log(line.join('   '));
 }
