@@ -10,7 +10,9 @@
 #include <charconv>
 #include <concepts>
 #include <cstddef>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 
 namespace clay::cli {
 namespace {
@@ -48,6 +50,9 @@ std::string unknown_argument(const CLI::App& command, std::string_view word) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  std::error_code ignored;
+  if (std::filesystem::exists(word, ignored))
+    return fmt::format("unknown option {}; write ./{} for the file of this name", word, word);
   const std::string_view option = word.substr(0, word.find_first_of("=,]"));
   return fmt::format("unknown option {}{}", word, suggestion(option, names));
 }
@@ -117,8 +122,9 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
     case CLI::ExitCodes::RequiredError:
       if (app.get_require_subcommand_min() > 0 && app.get_subcommands().empty())
         return "expected a command, found none";
-      // A typo in a required option leaves it unset.
-      if (const auto word = unknown_word(command_of(app)); word.starts_with("--"))
+      // A typo in a required option leaves it unset, and so does a file whose name begins with a
+      // dash.
+      if (const auto word = unknown_word(command_of(app)); word.starts_with('-'))
         return unknown_argument(command_of(app), word);
       return fmt::format("expected {}, found none", before(text, " is required"));
     case CLI::ExitCodes::ExtrasError:

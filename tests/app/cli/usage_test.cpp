@@ -125,6 +125,22 @@ TEST(Usage, ErrorsNameTheOptionTheExpectedAndTheFound) {
   }
 }
 
+TEST(Usage, AFileWhoseNameBeginsWithADashIsNotAnOption) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("-dash.stl");
+  ASSERT_EQ(shell("echo solid > " + file).status, 0);
+  const auto run = [&](const std::string& arguments) {
+    return shell("cd " + folder.path().string() + " && " CLAYSTACK_PROGRAM " " + arguments);
+  };
+  const Ran ran = run("check -dash.stl");
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_NE(ran.err.find("unknown option -dash.stl; write ./-dash.stl for the file of this name\n"),
+            std::string::npos)
+      << ran.err;
+  EXPECT_NE(run("check -other.stl").err.find("unknown option -other.stl\n"), std::string::npos);
+  EXPECT_EQ(run("check ./-dash.stl").err.find("option"), std::string::npos);
+}
+
 TEST(Usage, EveryLengthMayHaveAUnit) {
   const ScratchFolder folder;
   const std::string pot = folder.file("bowl.pot.json");
