@@ -27,9 +27,11 @@ def built(commit: str, scratch: str) -> str:
     source = os.path.join(scratch, commit.replace("/", "_"))
     subprocess.run(["git", "worktree", "add", "-q", "--detach", source, commit], check=True)
     build = os.path.join(source, "build", "release")
+    # What both commits share is compiled once, where ccache is installed.
+    environment = dict(os.environ, CCACHE_BASEDIR=source, CCACHE_NOHASHDIR="1")
     for words in (["cmake", "--preset", "release", "-DCLAYSTACK_TESTS=OFF", "-DCLAYSTACK_BENCH=ON"],
                   ["cmake", "--build", build, "--target", "claystack"]):
-        subprocess.run(words, cwd=source, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(words, cwd=source, env=environment, check=True, stdout=subprocess.DEVNULL)
     return os.path.join(build, "app", "claystack")
 
 
