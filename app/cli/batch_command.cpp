@@ -40,6 +40,7 @@ static void describe(auto& io, Is<BatchJob> auto& job) {
 namespace {
 
 constexpr std::size_t kMaxLineValues = 2000, kMaxBatchBytes = std::size_t{256} << 20;
+constexpr const char* kSchema = "claystack-batch-1";
 constexpr std::array kRunnable = {"check",  "export",  "import", "plan",
                                   "render", "strokes", "throw"};
 
@@ -159,9 +160,17 @@ class ResultFile {
       if (status == kDone || status == kUnsound)
         done_[one.at("run").dump() + one.at("id").get<std::string>()] = status;
     }
-    // The line that a killed batch left unfinished.
-    if (!lines.rest().empty() &&
-        ::ftruncate(descriptor_, static_cast<off_t>(text->size() - lines.rest().size())) != 0)
+    return remove_unfinished(lines.rest(), text->size());
+  }
+
+  /// The last line that a killed batch left. Any other file without a line feed at its end stays.
+  Result<void> remove_unfinished(std::string_view rest, std::size_t size) {
+    if (rest.empty()) return {};
+    const std::string begin = fmt::format(R"({{"schema":"{}",)", kSchema);
+    if (!rest.starts_with(begin) && !begin.starts_with(rest))
+      return failure(ErrorKind::bad_input,
+                     path_ + ": expected results of claystack batch, found something else");
+    if (::ftruncate(descriptor_, static_cast<off_t>(size - rest.size())) != 0)
       return io_failure("cannot remove the unfinished last line");
     return {};
   }
@@ -175,7 +184,7 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 
 /// What the job printed with --json, else its text.
 Json result_json(const BatchJob& job, const BatchOutcome& outcome) {
-  Json json = {{"schema", "claystack-batch-1"},
+  Json json = {{"schema", kSchema},
                {"id", job.id},
                {"run", job.words},
                {"status", outcome.status},

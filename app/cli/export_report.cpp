@@ -94,10 +94,9 @@ Json collapsed_json(const solid::CollapsedSolid& collapsed) {
           {"pockets_mm3", collapsed.pockets_mm3}, {"max_move_mm", collapsed.max_move_mm}};
 }
 
-/// `chordal_mm`: how far the facets are from the round surface.
-void print_file(const Console& console, const FileReport& file, double chordal_mm) {
+void print_file(const Console& console, const ExportReport& report, const FileReport& file) {
   console.print(fmt::format("{}: {} bytes, within {:.2g} mm of the round solid{}", file.path,
-                            file.bytes, file.max_error_mm + chordal_mm,
+                            file.bytes, distance_mm(report, file),
                             file.read_back ? ", read back" : ""));
   console.detail(fmt::format("  {}; {}{}", words_of_name(solid::name_of(file.format)),
                              proof_of(file), file.full_verification ? "; fully checked" : ""));
@@ -349,11 +348,10 @@ std::string verdict_of(const ExportReport& report) {
   std::size_t faults = 0, notes = 0;
   for (const solid::Problem& problem : solid::problems_of(report))
     ++(problem.fails ? faults : notes);
-  if (faults > 0)
-    return fmt::format("closed and without self-intersections, but {} failed",
-                       counted(faults, "limit"));
-  return fmt::format("closed and without self-intersections{}",
-                     notes > 0 ? "; " + counted(notes, "warning") : std::string());
+  const std::string solid = std::string(report.collapsed ? "collapsed; " : "") +
+                            "closed and without self-intersections";
+  if (faults > 0) return fmt::format("{}, but {} failed", solid, counted(faults, "limit"));
+  return notes > 0 ? fmt::format("{}; {}", solid, counted(notes, "warning")) : solid;
 }
 
 std::string wall_row(const ExportReport& report) {
@@ -362,6 +360,11 @@ std::string wall_row(const ExportReport& report) {
 }
 
 }  // namespace
+
+double distance_mm(const ExportReport& report, const FileReport& file) {
+  if (file.kind == FileKind::mesh) return file.max_error_mm + report.size.chordal_error_mm;
+  return file.kind == FileKind::step ? file.max_error_mm : 0.0;
+}
 
 std::string thinnest_height(const ExportReport& report) {
   return fmt::format("a height of {:.1f} mm{}", report.walls.thinnest.from.y,
@@ -439,7 +442,7 @@ void print_export(const Console& console, const ExportReport& report,
   for (const FileReport& file : report.files) {
     switch (file.kind) {
       case FileKind::mesh:
-        print_file(console, file, report.size.chordal_error_mm);
+        print_file(console, report, file);
         break;
       case FileKind::step:
         print_step(console, file);

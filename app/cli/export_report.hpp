@@ -21,6 +21,10 @@ namespace clay::cli {
 /// measured on its parts as they stood.
 [[nodiscard]] std::string thinnest_height(const solid::ExportReport& report);
 
+/// How far the mesh in a file lies from the round solid, rounding and facets together, or the solid
+/// of a STEP file from its section [mm]; 0 for other files.
+[[nodiscard]] double distance_mm(const solid::ExportReport& report, const solid::FileReport& file);
+
 /// Wall, lip and flange, each with its thinnest place.
 [[nodiscard]] Json wall_parts_json(const std::vector<solid::PartWall>& parts);
 

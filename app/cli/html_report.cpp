@@ -162,6 +162,7 @@ class Page {
   void verdict() {
     const auto problems = solid::problems_of(report_);
     const bool limits = report_.walls.limit || report_.process.limits;
+    if (report_.collapsed) html_.element("p", {{"class", "bad"}}, "The pot collapsed.");
     if (problems.empty())
       html_.element("p", {{"class", "good"}},
                     std::string("Closed and without self-intersections; ") +
@@ -277,11 +278,13 @@ class Page {
 
   void files() {
     table("Files", [&] {
-      row({"file", "bytes", "largest error", "read back"}, "th");
-      for (const solid::FileReport& file : report_.files)
+      row({"file", "bytes", "distance from the round solid", "read back"}, "th");
+      for (const solid::FileReport& file : report_.files) {
+        const double distance = distance_mm(report_, file);
         row({file.path, std::to_string(file.bytes),
-             file.max_error_mm > 0.0 ? fmt::format("{:.2g} mm", file.max_error_mm) : "",
+             distance > 0.0 ? fmt::format("{:.2g} mm", distance) : "",
              file.read_back ? "yes" : ""});
+      }
     });
     if (!report_.has_solid()) return;
     table("Proof", [&] {

@@ -177,9 +177,14 @@ class Finisher {
   }
   Result<void> cut_foot(const std::optional<FootRing>& foot) {
     if (!foot) return {};
+    const double limit = min_wall_mm_.value_or(0.0);
     const double before = min_wall(made_.profile).thickness_mm;
-    return apply("foot ring", FootCut(lines(), *foot).run(),
-                 std::min(before, min_wall_mm_.value_or(0.0)), made_.ledger.foot_trimmed_mm3, -1.0);
+    const std::string part = before < limit
+                                 ? "foot ring of a pot whose thinnest wall, " + mm(before) +
+                                       ", is below the limit of " + mm(limit) + " already"
+                                 : "foot ring";
+    return apply(part, FootCut(lines(), *foot).run(), std::min(before, limit),
+                 made_.ledger.foot_trimmed_mm3, -1.0);
   }
   /// Adds clay in a corner: no wall becomes thinner.
   Result<void> fill_floor(double radius_mm) {

@@ -126,10 +126,14 @@ TEST_F(Batch, RefusesAWrongLineBeforeTheFirstJob) {
 
 TEST_F(Batch, RefusesAResultFileOfAnotherKind) {
   write_jobs({thrown("a.pot.json")});
-  write_text(folder.file("results.jsonl"), "{\"other\": 1}\n");
-  const Ran ran = run("-o " + folder.file("results.jsonl"));
-  EXPECT_EQ(ran.status, 2);
-  EXPECT_EQ(read_text(folder.file("results.jsonl")), "{\"other\": 1}\n");
+  // With and without a line feed at the end, as JSON on one line and meshes have none.
+  for (const std::string other : {"{\"other\": 1}\n", "{\"other\": 1}", "solid of bytes",
+                                  "{\"schema\":\"claystack-scene-1\",\"lump\":{}}"}) {
+    write_text(folder.file("results.jsonl"), other);
+    const Ran ran = run("-o " + folder.file("results.jsonl"));
+    EXPECT_EQ(ran.status, 2) << other;
+    EXPECT_EQ(read_text(folder.file("results.jsonl")), other);
+  }
 }
 
 }  // namespace

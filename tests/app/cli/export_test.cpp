@@ -228,9 +228,12 @@ class ExportCollapsed : public testing::Test {
   nlohmann::json collapse;
 };
 
-TEST_F(ExportCollapsed, StatesTheThinnestWallAtAHeightBeforeTheFall) {
+TEST_F(ExportCollapsed, StatesTheCollapseAndTheThinnestWallBeforeTheFall) {
   const Ran run = claystack("export " + pot + " " + stl);
   EXPECT_NE(run.out.find("mm before the fall"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("verdict   collapsed; closed and without self-intersections\n"),
+            std::string::npos)
+      << run.out;
 }
 
 TEST_F(ExportCollapsed, IsOneSoundFileThatHoldsTheUnion) {
@@ -295,6 +298,7 @@ TEST_F(ExportCollapsed, HasSizeAndWeightButNoCapacity) {
     EXPECT_TRUE(thrown.at(none).is_null()) << none;
   EXPECT_TRUE(maker.at("empty").is_null() && maker.at("full").is_null());
   EXPECT_NE(read_text(page).find("weight"), std::string::npos);
+  EXPECT_NE(read_text(page).find("The pot collapsed."), std::string::npos);
   EXPECT_EQ(read_text(page).find("capacity to the brim"), std::string::npos);
   // The tables of both commands.
   for (const Ran& run : {claystack("export " + pot + " " + stl),

@@ -98,10 +98,15 @@ TEST_F(SectionFiles, TheReportIsOnePage) {
       run(folder.file("a.stl") + " --shrinkage 12% --process stoneware --report " + page);
   ASSERT_LE(made.status, 1) << made.err;
   const std::string html = read_text(page);
-  for (const char* part :
-       {"<!DOCTYPE html>", "as thrown", "fired", "centre of gravity", "tips at", "thinnest wall",
-        "steepest overhang", "largest error", "Left out", "Time", "closed and embedded", "</html>"})
+  for (const char* part : {"<!DOCTYPE html>", "as thrown", "fired", "centre of gravity", "tips at",
+                           "thinnest wall", "steepest overhang", "distance from the round solid",
+                           "Left out", "Time", "closed and embedded", "</html>"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
+  // The report and the text agree on how far the facets are from the pot.
+  const std::string within = "within ", of = " of the round solid";
+  const std::size_t from = made.out.find(within) + within.size(), to = made.out.find(of);
+  ASSERT_NE(to, std::string::npos) << made.out;
+  EXPECT_NE(html.find(">" + made.out.substr(from, to - from) + "<"), std::string::npos) << made.out;
   // Nothing is fetched from elsewhere.
   for (const char* part : {"src=\"http", "href=", "@import", "url("})
     EXPECT_EQ(html.find(part), std::string::npos) << part;
