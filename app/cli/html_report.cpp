@@ -194,7 +194,7 @@ class Page {
 
   void maker(const Json& maker) {
     const bool fired = !maker["fired"].is_null();
-    table("Size, weight and capacity", [&] {
+    table("Size, weight, capacity and surface", [&] {
       std::vector<std::pair<std::string, const Json*>> states;
       for (const auto& [key, name] :
            {std::pair("thrown", "as thrown"), std::pair("dry", "dry"), std::pair("fired", "fired")})
@@ -218,6 +218,8 @@ class Page {
       line(fmt::format("capacity to the fill line, {:g} mm below the brim{}",
                        number_in(maker, "fill_line_mm"), fired ? " of the fired pot" : ""),
            "to_line_ml", " ml", 0);
+      line("surface inside", "inside_cm2", " cm2", 0);
+      line("surface outside, without the foot", "outside_cm2", " cm2", 0);
     });
     if (maker["empty"].is_null()) return;
     table(fired ? "Balance of the fired pot" : "Balance of the pot as thrown", [&] {

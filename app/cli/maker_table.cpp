@@ -15,7 +15,9 @@ Json state_json(const solid::PotState& state, bool stands) {
           {"foot_diameter_mm", if_standing(state.size.foot_diameter_mm)},
           {"weight_g", state.weight_g},
           {"capacity_ml", if_standing(state.capacity_ml)},
-          {"to_line_ml", if_standing(state.to_line_ml)}};
+          {"to_line_ml", if_standing(state.to_line_ml)},
+          {"inside_cm2", if_standing(state.inside_cm2)},
+          {"outside_cm2", if_standing(state.outside_cm2)}};
 }
 
 Json balance_json(const solid::Balance& balance) {
@@ -55,6 +57,16 @@ std::string capacity_row(const Json& numbers) {
     return to_brim + fmt::format("the fill line, {:g} mm below it, is below the floor", line_mm);
   return to_brim + fmt::format("{:.0f} ml to {:g} mm below it{}", to_line_ml, line_mm,
                                fired ? ", fired" : "");
+}
+
+/// What glaze may cover, of the pot in use.
+std::string surface_row(const Json& numbers) {
+  const bool fired = !numbers["fired"].is_null();
+  const Json& used = fired ? numbers["fired"] : numbers["thrown"];
+  if (used["inside_cm2"].is_null()) return {};
+  return fmt::format("{:.0f} cm2 inside, {:.0f} cm2 outside without the foot{}",
+                     number_in(used, "inside_cm2"), number_in(used, "outside_cm2"),
+                     fired ? ", fired" : "");
 }
 
 }  // namespace
@@ -100,6 +112,7 @@ void print_maker_table(const Console& console, const Json& numbers, const std::s
     row("size", by_state(numbers, size_text));
     row("weight", by_state(numbers, weight_text));
     row("capacity", capacity_row(numbers));
+    row("surface", surface_row(numbers));
   }
   row("wall", wall);
   row("verdict", verdict);

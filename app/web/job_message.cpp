@@ -45,8 +45,8 @@ auto members(Like<solid::PotSize> auto& of) {
   return std::tie(diameter_mm, height_mm, foot_diameter_mm);
 }
 auto members(Like<solid::PotState> auto& of) {
-  auto& [size, weight_g, capacity_ml, to_line_ml] = of;
-  return std::tie(size, weight_g, capacity_ml, to_line_ml);
+  auto& [size, weight_g, capacity_ml, to_line_ml, inside_cm2, outside_cm2] = of;
+  return std::tie(size, weight_g, capacity_ml, to_line_ml, inside_cm2, outside_cm2);
 }
 auto members(Like<solid::Balance> auto& of) {
   auto& [centre_mm, tipping_deg] = of;

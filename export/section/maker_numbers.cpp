@@ -86,7 +86,9 @@ PotState scaled(const PotState& thrown, double factor, double weight) noexcept {
   return {{factor * size.diameter_mm, factor * size.height_mm, factor * size.foot_diameter_mm},
           weight * thrown.weight_g,
           volume * thrown.capacity_ml,
-          volume * thrown.to_line_ml};
+          volume * thrown.to_line_ml,
+          factor * factor * thrown.inside_cm2,
+          factor * factor * thrown.outside_cm2};
 }
 
 Balance balance(double centre_mm, double foot_diameter_mm) noexcept {
@@ -97,6 +99,43 @@ Result<void> check_part(std::string_view name, double value, double below) {
   if (value >= 0.0 && value < below) return {};
   return failure(ErrorKind::bad_input, std::string(name) + ": expected 0 to below " + in_mm(below) +
                                            ", found " + in_mm(value));
+}
+
+/// Visits the lines from the brim down the bore, each by its ends in the order against the walk.
+/// Returns whether they reach the axis: then there is a floor.
+template <class Visit>
+bool along_bore(const Polygon& piece, std::size_t brim, Visit visit) noexcept {
+  std::size_t at = brim;
+  for (std::size_t steps = 0; steps < piece.size() && piece[at].rho > 0.0; ++steps) {
+    const std::size_t next = at + 1 == piece.size() ? 0 : at + 1;
+    visit(piece[next], piece[at]);
+    at = next;
+  }
+  return !(piece[at].rho > 0.0);
+}
+
+/// Of the frustum between two points of the section [mm2].
+double revolved_area(const ProfilePoint& a, const ProfilePoint& b) noexcept {
+  return std::numbers::pi * (a.rho + b.rho) * std::hypot(b.rho - a.rho, b.y - a.y);
+}
+
+/// The surfaces that glaze may cover.
+void measure_surface(const Profile& profile, PotState& pot) noexcept {
+  constexpr double kPerCm2 = 1e-2;
+  const double foot = foot_level(profile);
+  double all = 0.0, inside = 0.0;
+  for (const Polygon& piece : profile.pieces)
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const ProfilePoint &a = piece[i], &b = piece[i + 1 == piece.size() ? 0 : i + 1];
+      if (a.y > foot || b.y > foot) all += revolved_area(a, b);
+    }
+  const Polygon& top = profile.pieces.back();
+  const bool floor =
+      along_bore(top, brim_of(top), [&](const ProfilePoint& low, const ProfilePoint& high) {
+        inside += revolved_area(low, high);
+      });
+  pot.inside_cm2 = floor ? kPerCm2 * inside : 0.0;
+  pot.outside_cm2 = kPerCm2 * all - pot.inside_cm2;
 }
 
 }  // namespace
@@ -128,16 +167,14 @@ RevolvedBody revolved_body(const Profile& profile) noexcept {
 RevolvedBody room_of(const Profile& profile, double depth_mm) noexcept {
   if (profile.pieces.empty() || profile.pieces.back().size() < 3) return {};
   const Polygon& piece = profile.pieces.back();
-  std::size_t at = brim_of(piece);
-  const double level = piece[at].y - depth_mm;
+  const std::size_t brim = brim_of(piece);
   Integrals sum;
-  for (std::size_t steps = 0; steps < piece.size() && piece[at].rho > 0.0; ++steps) {
-    const std::size_t next = at + 1 == piece.size() ? 0 : at + 1;
-    // From the bottom up, so that the room is positive.
-    add_below(sum, piece[next], piece[at], level);
-    at = next;
-  }
-  return piece[at].rho > 0.0 ? RevolvedBody{} : sum.body();
+  // From the bottom up, so that the room is positive.
+  const bool floor =
+      along_bore(piece, brim, [&](const ProfilePoint& low, const ProfilePoint& high) {
+        add_below(sum, low, high, piece[brim].y - depth_mm);
+      });
+  return floor ? sum.body() : RevolvedBody{};
 }
 
 namespace {
@@ -178,6 +215,7 @@ MakerNumbers maker_numbers(const Profile& profile, const ClayFigures& clay, doub
   thrown.weight_g = kPerMl * body.volume_mm3 * clay.density_g_cm3;
   thrown.capacity_ml = kPerMl * room.volume_mm3;
   thrown.to_line_ml = kPerMl * room_of(profile, fill_line_mm / fired).volume_mm3;
+  measure_surface(profile, thrown);
   add_later_states(numbers);
   const PotState& used = numbers.in_use();
   const double foot = foot_level(profile), centre = fired * (body.centre_mm - foot);

@@ -95,7 +95,8 @@ TEST_F(Exporting, WritesTheBytesOfTheCommand) {
     return text;
   };
   EXPECT_EQ(page(folder.file("two.report.html")), page(base + ".report.html"));
-  EXPECT_NE(page(base + ".report.html").find("Size, weight and capacity"), std::string::npos);
+  EXPECT_NE(page(base + ".report.html").find("Size, weight, capacity and surface"),
+            std::string::npos);
   EXPECT_EQ(claystack("check " + folder.file("two.stl")).status, 0);
 }
 

@@ -65,7 +65,8 @@ std::string shown(const studio::PotCheck& check) {
   if (!check.maker) return text.str();
   const auto state = [&](const solid::PotState& of) {
     text << of.size.diameter_mm << ' ' << of.size.height_mm << ' ' << of.size.foot_diameter_mm
-         << ' ' << of.weight_g << ' ' << of.capacity_ml << ' ' << of.to_line_ml << '\n';
+         << ' ' << of.weight_g << ' ' << of.capacity_ml << ' ' << of.to_line_ml << ' '
+         << of.inside_cm2 << ' ' << of.outside_cm2 << '\n';
   };
   const solid::MakerNumbers& maker = *check.maker;
   state(maker.thrown);

@@ -61,6 +61,11 @@ TEST(MakerNumbers, OfACylinder) {
   EXPECT_NEAR(numbers.thrown.weight_g, 2e-3 * (whole - room), 1e-9);
   EXPECT_NEAR(numbers.thrown.capacity_ml, 1e-3 * room, 1e-9);
   EXPECT_NEAR(numbers.thrown.to_line_ml, 1e-3 * kHalfTurn * 36.0 * 36.0 * 44.0, 1e-9);
+  const double bore = 2.0 * kHalfTurn * 36.0 * 54.0, floor = kHalfTurn * 36.0 * 36.0;
+  const double wall = 2.0 * kHalfTurn * 40.0 * 60.0;
+  const double rim = kHalfTurn * (40.0 * 40.0 - 36.0 * 36.0);
+  EXPECT_NEAR(numbers.thrown.inside_cm2, 1e-2 * (bore + floor), 1e-9);
+  EXPECT_NEAR(numbers.thrown.outside_cm2, 1e-2 * (wall + rim), 1e-9);
   EXPECT_EQ(numbers.thrown.size.diameter_mm, 80.0);
   EXPECT_EQ(numbers.thrown.size.height_mm, 60.0);
   EXPECT_EQ(numbers.thrown.size.foot_diameter_mm, 80.0);
@@ -82,6 +87,9 @@ TEST(MakerNumbers, OfAConeBelowItsFillLine) {
   const Frustum outer{20, 45, 0, 80}, room{0, 40, 30, 80}, filled{0, 24, 30, 60};
   EXPECT_NEAR(numbers.thrown.capacity_ml, 1e-3 * room.volume(), 1e-9);
   EXPECT_NEAR(numbers.thrown.to_line_ml, 1e-3 * filled.volume(), 1e-9);
+  EXPECT_NEAR(numbers.thrown.inside_cm2, 1e-2 * kHalfTurn * 40.0 * std::hypot(40.0, 50.0), 1e-9);
+  EXPECT_NEAR(numbers.thrown.outside_cm2,
+              1e-2 * kHalfTurn * (65.0 * std::hypot(25.0, 80.0) + 45.0 * 45.0 - 40.0 * 40.0), 1e-9);
   const double clay = outer.volume() - room.volume();
   const double centre = (outer.volume() * outer.centre() - room.volume() * room.centre()) / clay;
   EXPECT_NEAR(revolved_body(cone).centre_mm, centre + up, 1e-9);
@@ -121,6 +129,8 @@ TEST(MakerNumbers, ShrinkFromThrownToFired) {
   EXPECT_NEAR(numbers.dry->weight_g, 0.75 * numbers.thrown.weight_g, 1e-9);
   EXPECT_NEAR(numbers.fired->weight_g, 0.675 * numbers.thrown.weight_g, 1e-9);
   EXPECT_NEAR(numbers.fired->capacity_ml, 0.681472 * numbers.thrown.capacity_ml, 1e-9);
+  EXPECT_NEAR(numbers.fired->inside_cm2, 0.7744 * numbers.thrown.inside_cm2, 1e-9);
+  EXPECT_NEAR(numbers.fired->outside_cm2, 0.7744 * numbers.thrown.outside_cm2, 1e-9);
   // 8.8 mm of the fired pot are 10 mm as thrown.
   EXPECT_NEAR(numbers.thrown.to_line_ml, 1e-3 * kHalfTurn * 36.0 * 36.0 * 44.0, 1e-9);
   // The empty pot keeps its shape, so it tips at the same angle.
@@ -134,6 +144,8 @@ TEST(MakerNumbers, NothingHoldsWaterWithoutAFloor) {
   const MakerNumbers numbers = maker_numbers(tube, {});
   EXPECT_EQ(numbers.thrown.capacity_ml, 0.0);
   EXPECT_FALSE(numbers.full);
+  EXPECT_EQ(numbers.thrown.inside_cm2, 0.0);
+  EXPECT_NEAR(numbers.thrown.outside_cm2, 1e-2 * kHalfTurn * (2.0 * 70.0 * 60.0 + 700.0), 1e-9);
   EXPECT_NEAR(revolved_body(tube).volume_mm3, kHalfTurn * 700.0 * 60.0, 1e-6);
   // A cup upside down, and a block.
   EXPECT_EQ(room_of({{{{30, 0}, {40, 0}, {40, 60}, {0, 60}, {0, 50}, {30, 50}}}}).volume_mm3, 0.0);

@@ -59,6 +59,8 @@ struct PotState {
   double weight_g = 0.0;
   double capacity_ml = 0.0;  ///< to the brim
   double to_line_ml = 0.0;   ///< to the fill line
+  double inside_cm2 = 0.0;   ///< surface from the brim down to the floor; 0 if it holds nothing
+  double outside_cm2 = 0.0;  ///< the other surface, without the level part on which it stands
 };
 
 struct Balance {
