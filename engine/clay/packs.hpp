@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 // Vectors go to functions that are always inline: their ABI does not matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -124,28 +125,42 @@ CLAYSTACK_INLINE inline Vector greater(Vector a, double b) noexcept {
   return greater(a, all_of<Vector>(b));
 }
 
+/// Of one row.
 template <class Vector>
-CLAYSTACK_INLINE inline auto least_of(Vector x) noexcept {
-  auto least = x[0];
-  for (std::size_t k = 1; k < sizeof x / sizeof x[0]; ++k) least = x[k] < least ? x[k] : least;
-  return least;
+using Number = std::remove_reference_t<decltype(std::declval<Vector&>()[0])>;
+
+/// All rows as one, by halves: row after row each would wait for the one before. `fold` is called
+/// with vectors and with numbers.
+template <class Vector, class Fold>
+CLAYSTACK_INLINE inline Number<Vector> folded(Vector x, Fold fold) noexcept {
+  constexpr std::size_t n = sizeof x / sizeof x[0];
+  if constexpr (n == 8)
+    return folded(
+        fold(__builtin_shufflevector(x, x, 0, 1, 2, 3), __builtin_shufflevector(x, x, 4, 5, 6, 7)),
+        fold);
+  else if constexpr (n == 4)
+    return folded(fold(__builtin_shufflevector(x, x, 0, 1), __builtin_shufflevector(x, x, 2, 3)),
+                  fold);
+  else
+    return fold(x[0], x[1]);
 }
 template <class Vector>
-CLAYSTACK_INLINE inline auto most_of(Vector x) noexcept {
-  return -least_of(Vector(-x));
+CLAYSTACK_INLINE inline Number<Vector> least_of(Vector x) noexcept {
+  return folded(x, [](auto a, auto b) CLAYSTACK_INLINE { return a < b ? a : b; });
 }
 template <class Vector>
-CLAYSTACK_INLINE inline Quanta sum_of(Vector x) noexcept {
-  Quanta sum = x[0];
-  for (std::size_t k = 1; k < kRowsOf<Vector>; ++k) sum += x[k];
-  return sum;
+CLAYSTACK_INLINE inline Number<Vector> most_of(Vector x) noexcept {
+  return folded(x, [](auto a, auto b) CLAYSTACK_INLINE { return a > b ? a : b; });
+}
+/// Of quanta, or of floats of which the order does not matter.
+template <class Vector>
+CLAYSTACK_INLINE inline Number<Vector> sum_of(Vector x) noexcept {
+  return folded(x, [](auto a, auto b) CLAYSTACK_INLINE { return a + b; });
 }
 /// Whether a condition holds in some row.
 template <class Vector>
 CLAYSTACK_INLINE inline bool any(Vector condition) noexcept {
-  Quanta some = condition[0];
-  for (std::size_t k = 1; k < kRowsOf<Vector>; ++k) some |= condition[k];
-  return some != 0;
+  return folded(condition, [](auto a, auto b) CLAYSTACK_INLINE { return a | b; }) != 0;
 }
 
 /// Of doubles or floats.

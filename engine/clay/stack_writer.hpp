@@ -74,6 +74,7 @@ class StackWriter {
   void change(std::size_t first, std::span<const Ring> changes) noexcept {
     in_lanes([rings = stack_.rings_.data() + first, from = changes.data(), count = changes.size()]()
                  CLAYSTACK_INLINE {
+#pragma GCC unroll 8
                    for (std::size_t k = 0; k < count; ++k) {
                      rings[k].outer2 += from[k].outer2;
                      rings[k].inner2 += from[k].inner2;

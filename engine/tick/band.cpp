@@ -70,11 +70,10 @@ Band band_of(const Tool& tool, const ClayStack& stack, double hip_y,
   band.ring = rings.from();
   Peak peak;
   rings.each_slice([&](const auto& slice) {
-    for (std::size_t k = slice.begin; k < slice.end; ++k) {
-      const double give = slice.rows.give[k],
-                   level = static_cast<double>(slice.ring + (k - slice.begin)) + 0.5;
-      band.deepest_mm = std::max(band.deepest_mm, slice.rows.depth[k]);
-      peak.add(level, give);
+    double level = static_cast<double>(slice.ring) + 0.5;
+    for (std::size_t k = slice.begin; k < slice.end; ++k, level += 1.0) {
+      band.deepest_mm = greater(slice.rows.depth[k], band.deepest_mm);
+      peak.add(level, slice.rows.give[k]);
     }
   });
   band.low_mm = end_beside(tool, stack, hip_y, contact, rings.from(), false);

@@ -1,5 +1,6 @@
 #include "engine/tick/clay_rules.hpp"
 
+#include "engine/clay/in_place.hpp"
 #include "engine/clay/stack_writer.hpp"
 #include "engine/tick/heave.hpp"
 #include "engine/tick/relief.hpp"
@@ -25,38 +26,57 @@ double speed_into(Side side, const Motion& motion) noexcept {
 // The part of the wall's thickness, above and below a ring, over which its motion is averaged.
 constexpr double kAbout = 0.1;
 
-/// Running sums of how far the touched rings give way [mm]: before each ring, and after the last.
-void sum_gives(const TouchedRings& rings, std::span<double> sums) noexcept {
-  double sum = 0.0;
-  std::size_t k = 0;
-  rings.each_slice([&](const auto& slice) {
-    for (std::size_t row = slice.begin; row < slice.end; ++row) {
-      sums[k++] = sum;
-      sum += slice.rows.give[row];
-    }
-  });
-  sums[k] = sum;
-}
-
 /// A touched ring moves at least by the given share of the mean distance by which it and its
 /// neighbours give way. `about`: the mean covers this many rings above the middle of the ring, and
 /// as many below.
-void move_touched(const TouchedRings& rings, std::span<const double> sums, double share,
-                  double about, std::size_t first, std::span<float> by) noexcept {
-  const std::size_t begin = std::max(first, rings.from());
-  const std::size_t end = std::min(first + by.size(), rings.to()), count = rings.size();
-  // Whole rings beside this one, and a part of the next.
-  const auto whole = static_cast<std::size_t>(about - 0.5);
-  const double part = about - 0.5 - static_cast<double>(whole), scale = 0.5 * share / about;
-  for (std::size_t i = begin; i < end; ++i) {
-    const std::size_t k = i - rings.from(), low = k - std::min(k, whole);
-    const std::size_t high = std::min(k + whole + 1, count);
-    const double beside = sums[low] - sums[low - std::min<std::size_t>(low, 1)] +
-                          sums[std::min(high + 1, count)] - sums[high];
-    const auto least = static_cast<float>(scale * (sums[high] - sums[low] + part * beside));
-    by[i - first] = std::max(by[i - first], least);
+class MeanGive {
+ public:
+  /// `sums`: room for three times as many numbers as the tool can touch rings, and three more.
+  MeanGive(const TouchedRings& rings, double share, double about, std::span<double> sums) noexcept
+      : rings_(rings),
+        scale_(0.5 * share / about),
+        part_(about - 0.5 - std::floor(about - 0.5)),
+        whole_(static_cast<std::size_t>(std::min(about - 0.5, static_cast<double>(rings.size())))),
+        sums_(sums.data()) {
+    sum_up();
   }
-}
+
+  /// Of the rings from `first` on, of which each moves by `by` [mm].
+  void move(std::size_t first, std::span<float> by) const noexcept {
+    const std::size_t begin = std::max(first, rings_.from());
+    const std::size_t end = std::min(first + by.size(), rings_.to());
+    if (begin >= end) return;
+    in_lanes([scale = scale_, part = part_, low = sums_ + (begin - rings_.from()),
+              high = sums_ + (begin - rings_.from() + 2 * whole_ + 2), to = &by[begin - first],
+              count = end - begin]() CLAYSTACK_INLINE {
+      for (std::size_t k = 0; k < count; ++k) {
+        const double beside = low[k + 1] - low[k] + high[k + 1] - high[k];
+        const auto least = static_cast<float>(scale * (high[k] - low[k + 1] + part * beside));
+        to[k] = to[k] < least ? least : to[k];
+      }
+    });
+  }
+
+ private:
+  /// Running sums of how far the rings give way [mm]: before each ring, and after the last. Nothing
+  /// gives way beyond the rings, so that the mean needs no condition at their ends.
+  void sum_up() noexcept {
+    double* to = std::fill_n(sums_, whole_ + 1, 0.0);
+    double sum = 0.0;
+    rings_.each_slice([&](const auto& slice) {
+      for (std::size_t row = slice.begin; row < slice.end; ++row) {
+        *to++ = sum;
+        sum += slice.rows.give[row];
+      }
+    });
+    std::fill_n(to, whole_ + 2, sum);
+  }
+
+  const TouchedRings& rings_;
+  double scale_, part_;  ///< of the next ring beside the whole ones
+  std::size_t whole_;    ///< rings beside this one, to either side
+  double* sums_;         ///< from `whole_` + 1 before the first ring to as many behind the last
+};
 
 template <unsigned rules>
 constexpr bool kOneToolBand = (rules & (kShift | kHeave | kSmear)) != 0;
@@ -117,10 +137,10 @@ void bend(const RulePress& press, const ClayStack& stack, Contact& contact, bool
   if (!(shell.share > 0.0)) return;
   const double h = stack.ring_height_mm();
   const double about = std::max(kAbout * shell.wall_mm / h, 0.5);
-  sum_gives(contact.rings, work.gives);
+  const MeanGive gives(contact.rings, shell.share, about, work.gives);
   work.shift.lay(stack, work.walls, band, shell, {contact.side == Side::expansive, hoop, min_wall},
                  [&](std::size_t first, std::span<float> by) {
-                   move_touched(contact.rings, work.gives, shell.share, about, first, by);
+                   gives.move(first, by);
                    hold_foot(shell, h, first, by);
                  });
 }
@@ -140,7 +160,8 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
       Contact& contact = removals[k].contact;
       if (contact.rings.empty()) continue;
       give_way(plan.removal, stack, dt_s, contact);
-      if (two || kOneToolBand<rules>) work.bands[k] = band_of(plan.tool, stack, hip_y, contact);
+      if (two || kOneToolBand<rules>)
+        make_in_place(work.bands[k], [&] { return band_of(plan.tool, stack, hip_y, contact); });
     }
   if (two) {
     if ((rules & kShift) && !press.trim)
@@ -155,8 +176,10 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
   if constexpr (rules & kHeave)
     for (std::size_t k = 0; k < removals.size(); ++k)
       if (!removals[k].contact.rings.empty())
-        work.cones[k] = relieve_touched(plan, work.shoulders, stack, press.tool, work.bands[k],
-                                        squeeze, removals, k, press.trim);
+        make_in_place(work.cones[k], [&] {
+          return relieve_touched(plan, work.shoulders, stack, press.tool, work.bands[k], squeeze,
+                                 removals, k, press.trim);
+        });
   reach_of<rules>(press, stack, removals, work);
 }
 
@@ -329,7 +352,7 @@ void RuleWork::reserve(const Tool& tool, const ClayStack& stack) {
   shoulders = shoulders_of(tool);
   const std::size_t contacts = most_contacts(tool, stack.ring_height_mm(), stack.max_rings());
   over.reserve(contacts);
-  gives.resize(contacts + 1);
+  gives.resize(3 * contacts + 3);
   shift.reserve(static_cast<std::size_t>(std::min(rings, static_cast<double>(stack.max_rings()))));
 }
 

@@ -28,7 +28,7 @@ struct RuleWork {
   WallRadii walls;
   Shift shift;
   PushOver over;                             ///< of a pinch
-  std::vector<double> gives;                 ///< sums over what one tool's rings give way
+  std::vector<double> gives;                 ///< for sums over what one tool's rings give way
   std::array<Band, 2> bands;                 ///< of each tool
   Shoulders shoulders;                       ///< of the tool
   std::array<std::array<Cone, 2>, 2> cones;  ///< of each tool: at its lower end, at its upper end

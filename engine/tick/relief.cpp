@@ -1,5 +1,7 @@
 #include "engine/tick/relief.hpp"
 
+#include "engine/clay/in_place.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -95,7 +97,10 @@ std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoul
   const double h = stack.ring_height_mm(), d = contact.axis_distance_mm, hip_y = tool.hip_mm.y;
   std::array<Cone, 2> cones;
   for (const bool up : {false, true}) {
-    Cone cone = cone_of(plan.tool, shoulders, h, hip_y, band, contact, up, trim ? kCutStepMm : 0.0);
+    Cone& cone = cones[up ? 1 : 0];
+    make_in_place(cone, [&] {
+      return cone_of(plan.tool, shoulders, h, hip_y, band, contact, up, trim ? kCutStepMm : 0.0);
+    });
     std::size_t i = cone.beside;
     while (next(i, up, stack.size()) && rings.has(i)) {
       double& depth = rings.depth(i);
@@ -112,7 +117,6 @@ std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoul
     }
     cone.meets =
         !rings.has(i) && excess(cone, stack.rings()[i], (static_cast<double>(i) + 0.5) * h) > 0.0;
-    cones[up ? 1 : 0] = cone;
   }
   return cones;
 }

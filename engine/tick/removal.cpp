@@ -139,7 +139,7 @@ void yield_to_tool(const RemovalPlan& plan, std::span<const Ring> rings, double 
 struct Squeezed {
   static constexpr std::size_t kRows = TouchedRings::kBlock;
   alignas(kPackBytes) RawRings<kRows> raw;
-  alignas(kPackBytes) double near[kRows], eps[kRows], depth[kRows];
+  alignas(kPackBytes) double near[kRows], eps[kRows];
   Quanta removed[kRows];
 
   void load(const Squeeze& squeeze, std::span<const Ring> all,
@@ -156,7 +156,7 @@ template <std::size_t n>
 CLAYSTACK_INLINE inline void squeeze_rows(Squeezed& s, const TouchedRings::Slice& slice,
                                           bool outside, double min_wall) noexcept {
   const std::size_t count = slice.size(), first = slice.begin;
-  const TouchedRings::Block& rows = slice.rows;
+  TouchedRings::Block& rows = slice.rows;
   const double outward = outside ? 1.0 : -1.0;
   for (std::size_t k = 0; k < count; k += n) {
     const auto of_slice = [&](const TouchedRings::Row& row) CLAYSTACK_INLINE {
@@ -172,7 +172,7 @@ CLAYSTACK_INLINE inline void squeeze_rows(Squeezed& s, const TouchedRings::Slice
     const Doubles<n> depth = of_slice(rows.depth) - by - eps;
     store(s.near + k, near);
     store(s.eps + k, eps);
-    store(s.depth + k, greater(depth, 0.0));
+    store(&rows.depth[first + k], greater(depth, 0.0));
   }
 }
 
@@ -210,12 +210,11 @@ void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
   });
   // On the floor row by row: what has no bore stays closed.
   for (std::size_t k = 0; on_floor && k < std::min(count, squeeze.floor_rings - slice.ring); ++k)
-    if (shifted[k].inner2 == 0) s.depth[k] += std::exchange(s.eps[k], 0.0);
+    if (shifted[k].inner2 == 0) slice.rows.depth[slice.begin + k] += std::exchange(s.eps[k], 0.0);
   for (std::size_t k = 0; k < count && !fits; ++k)
     s.removed[k] = outside ? take_outside(shifted[k], s.near[k], s.eps[k])
                            : take_inside(shifted[k], s.near[k], s.eps[k]);
   std::copy_n(s.removed, count, removed);
-  std::copy_n(s.depth, count, &slice.rows.depth[slice.begin]);
 }
 
 }  // namespace

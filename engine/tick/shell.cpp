@@ -57,11 +57,28 @@ Stiffness stiffness_of(const float* outer, const float* inner, std::size_t count
       sum += stiff;
       most = greater(most, stiff);
     }
-    float all = 0.0f;
-    for (std::size_t i = 0; i < 2 * n; ++i) all += sum[i];
-    *to = {all, most_of(most)};
+    *to = {sum_of(sum), most_of(most)};
   });
   return stiffness;
+}
+
+/// Whether all rings are pliant, without a quotient: r > 0.395 R is r^2 > 0.15625 R^2, with a
+/// margin for rounding. Most rings of a thrown wall are.
+bool all_pliant(const float* outer, const float* inner, std::size_t count) noexcept {
+  bool pliant = false;
+  in_packs([=, to = &pliant](auto n) CLAYSTACK_INLINE {
+    using F = TwiceFloats<n>;
+    constexpr float kThinBore = 0.3953f;
+    const auto margin = [=](std::size_t k) CLAYSTACK_INLINE {
+      return F(load_floats<n>(inner + k) - kThinBore * load_floats<n>(outer + k));
+    };
+    F least = margin(0);
+    std::size_t k = 2 * n;
+    for (; k + 2 * n <= count; k += 2 * n) least = lesser(least, margin(k));
+    if (count > 2 * n) least = lesser(least, margin(count - 2 * n));
+    *to = least_of(least) > 0.0f;
+  });
+  return pliant;
 }
 
 /// What each of these rings, at most `kRows`, adds to a stop: nothing where it is pliant.
@@ -89,6 +106,7 @@ double free_length(const ClayStack& stack, WallRadii& walls, double end_mm, bool
   if (const std::size_t seen = std::min(rings_seen, there); up || seen == rings_seen) {
     const std::size_t from = up ? first : first + 1 - seen;
     walls.cover(stack, from, from + seen);
+    if (all_pliant(walls.outer(from), walls.inner(from), seen)) return most;
     const Stiffness stiffness = stiffness_of(walls.outer(from), walls.inner(from), seen);
     const bool solid = foot_mm != nullptr && stiffness.most >= 1.0f;
     // Far enough from a stop for sums of any order.

@@ -17,13 +17,19 @@ struct Approach {
   Row at_most;  ///< that gives way [mm]
 };
 
+/// What all rings have in common.
+struct Pace {
+  double knee, turn;
+  double per_knee = 1.0 / knee, fraction = 1.0 - exp_neg(turn);
+  double pace_of = knee / greater(turn, 1e-300);
+};
+
 /// `plain`: the tool has been in each ring all the time, and no deeper than the knee when it came.
 /// So are most rings, and they need no divisions here.
 template <bool plain>
-CLAYSTACK_INLINE inline void approach_rings(double knee, double turn, const Yielding& rings,
+CLAYSTACK_INLINE inline void approach_rings(const Pace& all, const Yielding& rings,
                                             std::size_t count, Approach& to) noexcept {
-  const double per_knee = 1.0 / knee, fraction = 1.0 - exp_neg(turn);
-  const double pace_of = knee / greater(turn, 1e-300);
+  const auto [knee, turn, per_knee, fraction, pace_of] = all;
 #pragma GCC unroll 1
   for (std::size_t k = 0; k < count; ++k) {
     const double wall = rings.wall[k], depth = rings.depth[k];
@@ -75,11 +81,12 @@ CLAYSTACK_INLINE inline void relax_rings(const RemovalPlan& plan, const Approach
 }
 
 template <bool plain>
-void yield_all(const RemovalPlan& plan, double turn, Yielding& rings, std::size_t some) noexcept {
-  in_lanes([&plan, turn, &rings, some]() CLAYSTACK_INLINE {
+void yield_all(const RemovalPlan& plan, const Pace& all, Yielding& rings,
+               std::size_t some) noexcept {
+  in_lanes([&plan, &all, &rings, some]() CLAYSTACK_INLINE {
     const std::size_t count = Yielding::filled_up(some);
     Approach how;
-    approach_rings<plain>(plan.yield_depth_mm, turn, rings, count, how);
+    approach_rings<plain>(all, rings, count, how);
     relax_rings(plan, how, rings, count);
   });
 }
@@ -105,21 +112,21 @@ bool find_others(double knee, const Yielding& rings, std::size_t count,
 }  // namespace
 
 void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept {
-  const double turn = plan.rate_per_s * dt_s;
+  const Pace all{plan.yield_depth_mm, plan.rate_per_s * dt_s};
   rings.fill_up(count);
   alignas(kPackBytes) std::array<std::int64_t, Yielding::kMost> other;
   if (!find_others(plan.yield_depth_mm, rings, count, other.data()))
-    return yield_all<true>(plan, turn, rings, count);
+    return yield_all<true>(plan, all, rings, count);
   std::array<std::size_t, Yielding::kMost> others;
   std::size_t few = 0;
   for (std::size_t k = 0; k < count; ++k)
     if (other[k] != 0) others[few++] = k;
-  if (2 * few > count) return yield_all<false>(plan, turn, rings, count);
-  yield_all<true>(plan, turn, rings, count);
+  if (2 * few > count) return yield_all<false>(plan, all, rings, count);
+  yield_all<true>(plan, all, rings, count);
   Yielding block;
   for (std::size_t k = 0; k < few; ++k) block.copy(k, rings, others[k]);
   block.fill_up(few);
-  yield_all<false>(plan, turn, block, few);
+  yield_all<false>(plan, all, block, few);
   for (std::size_t k = 0; k < few; ++k) rings.left[others[k]] = block.left[k];
 }
 

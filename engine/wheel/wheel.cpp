@@ -227,13 +227,14 @@ StepReport tick(State& s, const Pose& pose) noexcept {
   s.touching = touches;
   tool.dt_s /= parts;
   tool.moved_mm /= parts;
+  const glm::dvec3 end_mm = tool.hip_mm;
+  const double end_phase_s = tool.phase_s, slow_s = tool.slow_s;
   for (int part = 1; part <= parts && !s.failure; ++part) {
-    ToolState there = tool;
-    there.hip_mm -= static_cast<double>(parts - part) * tool.moved_mm;
-    there.phase_s -= static_cast<double>(parts - part) * tool.dt_s;
-    if (part < parts) there.slow_s = 0.0;
-    if (parts > 1) removals = touch<stages>(s, there);
-    press<stages>(s, there, removals, report);
+    tool.hip_mm = end_mm - static_cast<double>(parts - part) * tool.moved_mm;
+    tool.phase_s = end_phase_s - static_cast<double>(parts - part) * tool.dt_s;
+    tool.slow_s = part < parts ? 0.0 : slow_s;
+    if (parts > 1) removals = touch<stages>(s, tool);
+    press<stages>(s, tool, removals, report);
   }
   if constexpr (stages & kForce)
     // After a collapse nothing is left to push against.
