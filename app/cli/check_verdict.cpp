@@ -22,16 +22,13 @@ Json problems_json(const Problems& problems) {
   return json;
 }
 
-Json wall_json(const solid::SampledWall& wall) {
-  Json json = {{"least_mm", nullptr},
-               {"rays", wall.rays},
-               {"oblique", wall.oblique},
-               {"escaped", wall.escaped},
-               {"bound", false}};
+Json wall_json(const solid::SampledWall& wall, bool united) {
+  Json json = {{"least_mm", nullptr},     {"rays", wall.rays}, {"oblique", wall.oblique},
+               {"escaped", wall.escaped}, {"bound", false},    {"united", united}};
   if (std::isinf(wall.least_mm)) return json;
   json["least_mm"] = wall.least_mm;
   json["at_mm"] = {wall.place.x, wall.place.y, wall.place.z};
-  json["triangle"] = wall.triangle;
+  if (!united) json["triangle"] = wall.triangle;  // of the file
   return json;
 }
 
@@ -201,7 +198,8 @@ Json verdict_json(const std::string& file, const Verdict& verdict, bool accept_p
     json["min_wall_mm"] = *verdict.wall_mm;
     json["wall_parts"] = wall_parts_json(verdict.wall_parts);
   }
-  if (verdict.wall_sampled) json["wall_sampled"] = wall_json(*verdict.wall_sampled);
+  if (verdict.wall_sampled)
+    json["wall_sampled"] = wall_json(*verdict.wall_sampled, verdict.wall_united);
   if (verdict.certificate)
     json["certificate"] = certificate_json(*verdict.certificate, verdict.certificate_holds);
   json["notes"] = verdict.notes;

@@ -319,6 +319,47 @@ TEST_F(CheckSeverity, AcceptsWhatASlicerUnites) {
   expect(together(good, moved(good, {10, 10, 10})), "prints", 1, 1, "--min-wall 30 ");
 }
 
+/// A surface inside of another shell bounds no wall.
+TEST_F(CheckSeverity, MeasuresTheWallsOfTheUnionOfShells) {
+  using solid::shapes::cube, solid::shapes::moved, solid::shapes::together;
+  // Walls of 2 mm, less 0.2 % in the middle of a facet. A block overlaps them from outside.
+  const solid::TriangleMesh cup =
+      solid::revolve({{{{0, 0}, {20, 0}, {20, 40}, {18, 40}, {18, 6}, {0, 6}}}}, 48);
+  struct Case {
+    solid::TriangleMesh mesh;
+    double least_mm;  // of its union
+  };
+  for (const Case& c :
+       std::vector<Case>{{together(cube(10.0), moved(cube(10.0), {9.5, 0, 0})), 10.0},
+                         {together(cube(20.0), moved(cube(10.0), {5, 5, 5})), 20.0},
+                         {together(cup, moved(cube(10.0), {19.5, -5, 10})), 1.99},
+                         {together(cup, moved(cube(10.0), {18.5, -5, 10})), 1.99}}) {
+    const std::string file = folder.file("mesh.obj");
+    write_text(file, solid::encode_obj(c.mesh, "mesh"));
+    const Ran run = claystack("check --json --accept prints --min-wall 1.9 " + file);
+    EXPECT_EQ(run.status, 0) << run.out;
+    const auto wall = run.json().at("wall_sampled");
+    EXPECT_GE(wall.at("least_mm"), c.least_mm - 1e-5) << run.out;
+    EXPECT_EQ(wall.at("united"), true);
+    EXPECT_FALSE(wall.contains("triangle"));
+    EXPECT_EQ(violation(load_schema("check"), Json::parse(run.out)), "") << run.out;
+  }
+  expect(together(cup, moved(cube(10.0), {19.5, -5, 10})), "prints", 1, 1, "--min-wall 2.1 ");
+}
+
+TEST_F(CheckSeverity, MeasuresNoWallOfShellsThatASlicerMayNotUnite) {
+  using solid::shapes::cube, solid::shapes::inverted, solid::shapes::moved, solid::shapes::together;
+  const std::string file = folder.file("mesh.obj");
+  write_text(file, solid::encode_obj(
+                       together(cube(20.0), moved(inverted(cube(20.0)), {10, 10, 10})), "mesh"));
+  const Ran run = claystack("check --json --min-wall 1 " + file);
+  EXPECT_EQ(run.status, 1) << run.out;
+  EXPECT_FALSE(run.json().contains("wall_sampled"));
+  EXPECT_NE(run.json().at("checks").dump().find("not measured: shells intersect"),
+            std::string::npos)
+      << run.out;
+}
+
 /// PrusaSlicer passes over faces such as "f 1/ 2/ 3/" without a message.
 TEST_F(CheckSeverity, FacesThatASlicerDoesNotReadDoNotPrint) {
   using solid::shapes::cube, solid::shapes::moved, solid::shapes::together;
