@@ -61,7 +61,7 @@ struct RepairSummary {
   std::vector<solid::FilledHole> holes;
   solid::SurfaceChange change;
   std::optional<double> wrapped_mm;
-  double volume_before_mm3 = 0.0;             ///< of the input file; meaningless for an open mesh
+  std::optional<double> volume_before_mm3;    ///< of the input file; empty: it has no volume
   std::size_t triangles_before = 0;           ///< before decimation
   std::optional<double> decimation_error_mm;  ///< set if the mesh was decimated
   std::string path;                           ///< empty: nothing was written

@@ -44,7 +44,7 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& comman
   if (!found) return tl::make_unexpected(found.error());
   summary.before = state_of(mesh, *found);
   summary.found = std::move(found->problems);
-  summary.volume_before_mm3 = found->volume_mm3;
+  if (found->has_volume) summary.volume_before_mm3 = found->volume_mm3;
   if (command.repair && !summary.found.empty()) {
     solid::RepairOptions options = command.repair_options;
     options.progress = [&](std::string_view stage, double share) { progress.stage(stage, share); };
@@ -250,7 +250,7 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   if (!mesh) return tl::make_unexpected(mesh.error());
   check_contents(bytes, *mesh, format, command, verdict);
   progress.clear();
-  const glm::dvec3 size = size_mm(*mesh);
+  const glm::dvec3 size = verdict.mesh.size_mm;
   if (const auto doubt = doubted_unit(size, format)) verdict.add("geometry", Grade::warn, *doubt);
   const PrintedBody body =
       command.walls.asked() ? printed_body(*mesh, verdict) : PrintedBody{&*mesh, {}, {}};
