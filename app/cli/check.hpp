@@ -59,6 +59,7 @@ struct RepairSummary {
   std::vector<solid::MeshProblem> found;  ///< in the input file
   std::vector<solid::Repair> repaired;
   std::vector<solid::FilledHole> holes;
+  std::optional<solid::ThickenedWall> thickened;
   solid::SurfaceChange change;
   std::optional<double> wrapped_mm;
   std::optional<double> volume_before_mm3;    ///< of the input file; empty: it has no volume

@@ -55,6 +55,7 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& comman
     summary.holes = std::move(repaired->holes);
     summary.change = repaired->change;
     summary.wrapped_mm = repaired->wrapped_mm;
+    summary.thickened = repaired->thickened;
   }
   summary.triangles_before = mesh.triangles.size();
   if (command.max_triangles && mesh.triangles.size() > *command.max_triangles) {

@@ -57,6 +57,9 @@ void add_repair(Json& json, const RepairSummary& summary, const Verdict& verdict
                              {"extent_mm", hole.extent_mm},
                              {"area_mm2", hole.area_mm2},
                              {"at_mm", {hole.place.x, hole.place.y, hole.place.z}}});
+  if (const auto& wall = summary.thickened)
+    json["thickened"] = {
+        {"asked_mm", wall->asked_mm}, {"least_mm", wall->least_mm}, {"bound", false}};
   json["change"] = {{"added_mm", summary.change.added_mm},
                     {"removed_mm", summary.change.removed_mm},
                     {"bound", true}};
@@ -116,6 +119,9 @@ void print_repair(const Console& console, const RepairSummary& summary, const Ve
   if (summary.wrapped_mm)
     console.print(fmt::format("  wrapped: a new surface {:.4g} mm outside of the old one",
                               *summary.wrapped_mm));
+  if (const auto& wall = summary.thickened)
+    console.print(fmt::format("  thickened: {:.4g} mm asked, thinnest sample {:.4g} mm",
+                              wall->asked_mm, wall->least_mm));
   if (!summary.repaired.empty())
     console.print(
         fmt::format("  change: the new surface within {:.3g} mm of the old one, the old one within "
