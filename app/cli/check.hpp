@@ -59,9 +59,10 @@ struct RepairSummary {
   std::vector<solid::MeshProblem> found;  ///< in the input file
   std::vector<solid::Repair> repaired;
   std::vector<solid::FilledHole> holes;
+  std::optional<solid::ThickenedWall> thickened;
   solid::SurfaceChange change;
   std::optional<double> wrapped_mm;
-  double volume_before_mm3 = 0.0;             ///< of the input file; meaningless for an open mesh
+  std::optional<double> volume_before_mm3;    ///< of the input file; empty: it has no volume
   std::size_t triangles_before = 0;           ///< before decimation
   std::optional<double> decimation_error_mm;  ///< set if the mesh was decimated
   std::string path;                           ///< empty: nothing was written
@@ -87,6 +88,7 @@ struct Verdict {
   std::optional<double> wall_mm;                   ///< of pots
   std::vector<solid::PartWall> wall_parts;         ///< of pots
   std::optional<solid::SampledWall> wall_sampled;  ///< of meshes, if requested
+  bool wall_united = false;                        ///< sampled on the union of the shells
   std::vector<std::string> notes;                  ///< sound, but noteworthy
   std::optional<RepairSummary> repair_summary;
   std::optional<solid::SolidCertificate> certificate;  ///< the certificate that was checked
@@ -109,6 +111,26 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command,
 /// advance, for a mesh that needs more memory than available.
 Result<Verdict> check_mesh_file(solid::MeshFormat format, const CheckCommand& command,
                                 const Console& console, std::optional<std::string> input = {});
+
+/// The body that a printer makes of a mesh: of shells that a slicer unites, their union, because a
+/// surface inside of another shell bounds no wall.
+struct PrintedBody {
+  const solid::TriangleMesh* file = nullptr;
+  std::optional<solid::TriangleMesh> united;
+  std::string unknown;  ///< the reason why walls cannot be measured; empty: they can
+
+  [[nodiscard]] const solid::TriangleMesh& mesh() const { return united ? *united : *file; }
+};
+
+/// The mesh outlives it; `verdict` holds the report on it.
+PrintedBody printed_body(const solid::TriangleMesh& mesh, const Verdict& verdict);
+/// Size and undersides, upright as the file has them.
+void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckCommand& command,
+                   Verdict& verdict);
+/// Compares the walls with the limit: those that a certificate of these bytes proves, without one
+/// a sample.
+Result<void> check_walls(const PrintedBody& body, const glm::dvec3& size,
+                         const CheckCommand& command, const Console& console, Verdict& verdict);
 
 /// The object of samples/schema/check.schema.json.
 Json verdict_json(const std::string& file, const Verdict& verdict, bool accept_prints);

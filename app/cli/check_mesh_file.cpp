@@ -10,12 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <limits>
-#include <numbers>
 #include <utility>
 
 namespace clay::cli {
@@ -50,7 +44,7 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& comman
   if (!found) return tl::make_unexpected(found.error());
   summary.before = state_of(mesh, *found);
   summary.found = std::move(found->problems);
-  summary.volume_before_mm3 = found->volume_mm3;
+  if (found->has_volume) summary.volume_before_mm3 = found->volume_mm3;
   if (command.repair && !summary.found.empty()) {
     solid::RepairOptions options = command.repair_options;
     options.progress = [&](std::string_view stage, double share) { progress.stage(stage, share); };
@@ -61,6 +55,7 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& comman
     summary.holes = std::move(repaired->holes);
     summary.change = repaired->change;
     summary.wrapped_mm = repaired->wrapped_mm;
+    summary.thickened = repaired->thickened;
   }
   summary.triangles_before = mesh.triangles.size();
   if (command.max_triangles && mesh.triangles.size() > *command.max_triangles) {
@@ -88,40 +83,6 @@ Result<TriangleMesh> written(const TriangleMesh& mesh, const CheckCommand& comma
     return tl::make_unexpected(done.error());
   summary.path = command.out;
   return reread;
-}
-
-Result<void> measure_wall(const TriangleMesh& mesh, const solid::WallLimit& limit,
-                          const CheckCommand& command, const Console& console, Verdict& verdict) {
-  Progress progress(console, "walls", command.wall_samples());
-  const auto wall = solid::sampled_wall(mesh, command.wall_samples(),
-                                        solid::most_wall_steps(command.wall_samples()),
-                                        [&](std::size_t rays) { progress.update(rays); });
-  if (!wall && wall.error().kind == ErrorKind::io)
-    return failure(ErrorKind::io, command.file + ": " + wall.error().message);
-  if (!wall) {
-    verdict.add("walls", Grade::fail, "not measured: " + wall.error().message);
-    return {};
-  }
-  verdict.wall_sampled = *wall;
-  if (wall->rays < command.wall_samples())
-    verdict.add(
-        "walls", Grade::warn,
-        fmt::format("sampled by only {} rays instead of {}: too many triangles lie near each ray",
-                    wall->rays, command.wall_samples()));
-  if (std::isinf(wall->least_mm))
-    verdict.add(
-        "walls", Grade::fail,
-        fmt::format("not measured: none of {} rays reached the other side of a wall", wall->rays));
-  else if (wall->least_mm >= limit.min_wall_mm)
-    verdict.add("walls", Grade::pass, "sampled: " + solid::wall_text(wall->least_mm, limit));
-  else
-    verdict.add("walls", Grade::fail,
-                fmt::format("thin wall (sampled): triangle {} at ({:.6g}, {:.6g}, {:.6g}) mm: "
-                            "{:.3f} mm, expected at least {:.3f} mm "
-                            "({})",
-                            wall->triangle, wall->place.x, wall->place.y, wall->place.z,
-                            wall->least_mm, limit.min_wall_mm, limit.asked_by()));
-  return {};
 }
 
 Result<TriangleMesh> repair_and_write(TriangleMesh mesh, const CheckCommand& command,
@@ -227,64 +188,6 @@ void check_cavities(const CheckCommand& command, Verdict& verdict) {
                           one ? "it needs a drain hole" : "they need drain holes"));
 }
 
-/// Undersides that a printer cannot build without support: triangles that face down by more than
-/// the limit, and do not lie on the bed.
-struct Undersides {
-  double area_mm2 = 0.0;
-  double angle_deg = 0.0, at_mm = 0.0;  ///< of the steepest: from the vertical, and its height
-};
-
-Undersides undersides_of(const TriangleMesh& mesh, double limit_deg) {
-  constexpr double kOnBedMm = 0.05;
-  Undersides found;
-  double bed_mm = std::numeric_limits<double>::infinity();
-  for (const glm::dvec3& p : mesh.points) bed_mm = std::min(bed_mm, p.z);
-  for (const auto& corners : mesh.triangles) {
-    const glm::dvec3 a = mesh.points[corners[0]], b = mesh.points[corners[1]],
-                     c = mesh.points[corners[2]];
-    const glm::dvec3 normal = glm::cross(b - a, c - a);
-    const double twice = glm::length(normal), low = std::min({a.z, b.z, c.z});
-    if (!(normal.z < 0.0) || std::max({a.z, b.z, c.z}) <= bed_mm + kOnBedMm) continue;
-    const double deg = std::asin(std::min(-normal.z / twice, 1.0)) * 180.0 / std::numbers::pi;
-    if (!(deg > limit_deg)) continue;
-    found.area_mm2 += 0.5 * twice;
-    if (deg > found.angle_deg) found.angle_deg = deg, found.at_mm = low - bed_mm;
-  }
-  return found;
-}
-
-/// Size and undersides, upright as the file has them.
-void check_process(const TriangleMesh& mesh, const glm::dvec3& size, const CheckCommand& command,
-                   Verdict& verdict) {
-  const auto& process = command.walls.demand().process;
-  if (!process) return;
-  std::string passed = fmt::format("{:.1f} x {:.1f} x {:.1f} mm", size.x, size.y, size.z);
-  if (const auto& most = process->size) {
-    const bool fits = std::min(size.x, size.y) <= std::min(most->width_mm, most->depth_mm) &&
-                      std::max(size.x, size.y) <= std::max(most->width_mm, most->depth_mm) &&
-                      size.z <= most->height_mm;
-    if (!fits)
-      verdict.add("process", Grade::fail,
-                  fmt::format("too large: {}; {}: at most {:g} x {:g} mm and {:g} mm high ({})",
-                              passed, process->name, most->width_mm, most->depth_mm,
-                              most->height_mm, most->source));
-    if (!fits) return;
-  }
-  if (const auto& most = process->overhang) {
-    const Undersides steep = undersides_of(mesh, most->max_deg);
-    constexpr double kLeastMm2 = 4.0;  // smaller ones need no support
-    if (steep.area_mm2 > kLeastMm2)
-      return verdict.add(
-          "process", Grade::warn,
-          fmt::format("overhang of up to {:.1f} degrees ({:.3g} cm2 in all, the steepest at a "
-                      "height of {:.1f} mm); {}: at most {:g} without support ({})",
-                      steep.angle_deg, 0.01 * steep.area_mm2, steep.at_mm, process->name,
-                      most->max_deg, most->source));
-    passed += fmt::format(", no overhang above {:g} degrees", most->max_deg);
-  }
-  verdict.add("process", Grade::pass, process->name + ": " + passed);
-}
-
 /// What the mesh encloses, and what the file holds besides the mesh.
 void check_contents(std::string_view bytes, const TriangleMesh& mesh, MeshFormat format,
                     const CheckCommand& command, Verdict& verdict) {
@@ -292,19 +195,6 @@ void check_contents(std::string_view bytes, const TriangleMesh& mesh, MeshFormat
   if (command.changes_mesh()) return;
   if (format == MeshFormat::drc) check_claims(bytes, mesh, verdict);
   if (format == MeshFormat::three_mf) check_packed(bytes, mesh, command.file, verdict);
-}
-
-/// Compares the walls with the limit: those that a certificate of these bytes proves, without one
-/// a sample.
-Result<void> check_walls(const TriangleMesh& mesh, const glm::dvec3& size,
-                         const CheckCommand& command, const Console& console, Verdict& verdict) {
-  const auto limit = command.walls.demand().for_size(size.x + size.y + size.z);
-  if (!limit) return {};
-  if (!verdict.certified_wall_mm) return measure_wall(mesh, *limit, command, console, verdict);
-  const double wall_mm = *verdict.certified_wall_mm;
-  verdict.add("walls", wall_mm >= limit->min_wall_mm ? Grade::pass : Grade::fail,
-              "certified: " + solid::wall_text(wall_mm, *limit));
-  return {};
 }
 
 /// Repairs if requested, and gives its verdict on the mesh, or on the result.
@@ -361,17 +251,17 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   if (!mesh) return tl::make_unexpected(mesh.error());
   check_contents(bytes, *mesh, format, command, verdict);
   progress.clear();
-  const glm::dvec3 size = size_mm(*mesh);
+  const glm::dvec3 size = verdict.mesh.size_mm;
   if (const auto doubt = doubted_unit(size, format)) verdict.add("geometry", Grade::warn, *doubt);
-  check_process(*mesh, size, command, verdict);
+  const PrintedBody body =
+      command.walls.asked() ? printed_body(*mesh, verdict) : PrintedBody{&*mesh, {}, {}};
+  check_process(body, size, command, verdict);
   if (verdict.certificate) {
     progress.stage("verifying the certificate");
     verify(bytes, format, command, verdict);
     progress.clear();
   }
-  return check_walls(*mesh, size, command, console, verdict).map([&] {
-    return std::move(verdict);
-  });
+  return check_walls(body, size, command, console, verdict).map([&] { return std::move(verdict); });
 }
 
 }  // namespace clay::cli

@@ -46,6 +46,8 @@ Verdict verdict_on(const solid::ExportReport& report) {
     check_solid(solid::revolve(profile, check_segments(profile)), verdict);
   else
     verdict.examined = false;
+  // Facets are slightly wider.
+  verdict.mesh.size_mm = {report.size.diameter_mm, report.size.diameter_mm, report.size.height_mm};
   verdict.wall_mm = report.walls.min_wall_mm;
   verdict.wall_parts = report.walls.parts;
   const auto& shapes = report.section.shapes();

@@ -22,17 +22,28 @@ Json problems_json(const Problems& problems) {
   return json;
 }
 
-Json wall_json(const solid::SampledWall& wall) {
-  Json json = {{"least_mm", nullptr},
-               {"rays", wall.rays},
-               {"oblique", wall.oblique},
-               {"escaped", wall.escaped},
-               {"bound", false}};
+Json wall_json(const solid::SampledWall& wall, bool united) {
+  Json json = {{"least_mm", nullptr},     {"rays", wall.rays}, {"oblique", wall.oblique},
+               {"escaped", wall.escaped}, {"bound", false},    {"united", united}};
   if (std::isinf(wall.least_mm)) return json;
   json["least_mm"] = wall.least_mm;
   json["at_mm"] = {wall.place.x, wall.place.y, wall.place.z};
-  json["triangle"] = wall.triangle;
+  if (!united) json["triangle"] = wall.triangle;  // of the file
   return json;
+}
+
+Json volume_json(const std::optional<double>& mm3) { return mm3 ? Json(*mm3) : Json(); }
+
+/// "12.345 cm3", with significant digits where three decimals are too few or too many.
+std::string in_cm3(double mm3) {
+  const double cm3 = mm3 / 1000.0, size = std::abs(cm3);
+  return size >= 0.1 && size < 1e6 ? fmt::format("{:.3f} cm3", cm3)
+                                   : fmt::format("{:.4g} cm3", cm3);
+}
+
+std::string volume_text(const solid::MeshReport& mesh) {
+  if (mesh.has_volume) return in_cm3(mesh.volume_mm3);
+  return mesh.closed ? "no volume: neighbours face opposite ways" : "no volume: the mesh is open";
 }
 
 void add_repair(Json& json, const RepairSummary& summary, const Verdict& verdict) {
@@ -46,11 +57,14 @@ void add_repair(Json& json, const RepairSummary& summary, const Verdict& verdict
                              {"extent_mm", hole.extent_mm},
                              {"area_mm2", hole.area_mm2},
                              {"at_mm", {hole.place.x, hole.place.y, hole.place.z}}});
+  if (const auto& wall = summary.thickened)
+    json["thickened"] = {
+        {"asked_mm", wall->asked_mm}, {"least_mm", wall->least_mm}, {"bound", false}};
   json["change"] = {{"added_mm", summary.change.added_mm},
                     {"removed_mm", summary.change.removed_mm},
                     {"bound", true}};
   if (summary.wrapped_mm) json["wrapped_mm"] = *summary.wrapped_mm;
-  json["volume_before_mm3"] = summary.volume_before_mm3;
+  json["volume_before_mm3"] = volume_json(summary.volume_before_mm3);
   json["remaining"] = problems_json(verdict.mesh.problems);
   if (summary.decimation_error_mm)
     json["decimated"] = {{"from_triangles", summary.triangles_before},
@@ -105,13 +119,19 @@ void print_repair(const Console& console, const RepairSummary& summary, const Ve
   if (summary.wrapped_mm)
     console.print(fmt::format("  wrapped: a new surface {:.4g} mm outside of the old one",
                               *summary.wrapped_mm));
+  if (const auto& wall = summary.thickened)
+    console.print(fmt::format("  thickened: {:.4g} mm asked, thinnest sample {:.4g} mm",
+                              wall->asked_mm, wall->least_mm));
   if (!summary.repaired.empty())
     console.print(
         fmt::format("  change: the new surface within {:.3g} mm of the old one, the old one within "
                     "{:.3g} mm of the new one",
                     summary.change.added_mm, summary.change.removed_mm));
-  console.print(fmt::format("  volume: {:.6g} cm3 before, {:.6g} cm3 after",
-                            summary.volume_before_mm3 / 1000.0, verdict.mesh.volume_mm3 / 1000.0));
+  const std::string before =
+      summary.volume_before_mm3 ? fmt::format("{:.6g} cm3 before", *summary.volume_before_mm3 / 1e3)
+                                : std::string("none before, because the mesh is open");
+  console.print(
+      fmt::format("  volume: {}, {:.6g} cm3 after", before, verdict.mesh.volume_mm3 / 1e3));
   const std::string_view state = name_of(verdict.state);
   console.print(
       summary.path.empty()
@@ -194,14 +214,19 @@ Json verdict_json(const std::string& file, const Verdict& verdict, bool accept_p
                {"trapped_mm3", mesh.trapped_mm3},
                {"degenerate", mesh.degenerate},
                {"triangles", mesh.triangles},
-               {"volume_mm3", mesh.volume_mm3},
+               {"volume_mm3", mesh.has_volume ? Json(mesh.volume_mm3) : Json()},
                {"problems", problems_json(mesh.problems)},
                {"checks", findings_json(verdict.findings)}};
+  if (verdict.examined) {
+    json["size_mm"] = {mesh.size_mm.x, mesh.size_mm.y, mesh.size_mm.z};
+    json["area_mm2"] = mesh.area_mm2;
+  }
   if (verdict.wall_mm) {
     json["min_wall_mm"] = *verdict.wall_mm;
     json["wall_parts"] = wall_parts_json(verdict.wall_parts);
   }
-  if (verdict.wall_sampled) json["wall_sampled"] = wall_json(*verdict.wall_sampled);
+  if (verdict.wall_sampled)
+    json["wall_sampled"] = wall_json(*verdict.wall_sampled, verdict.wall_united);
   if (verdict.certificate)
     json["certificate"] = certificate_json(*verdict.certificate, verdict.certificate_holds);
   json["notes"] = verdict.notes;
@@ -225,8 +250,11 @@ void print_verdict(const Console& console, const std::string& file, const Verdic
         "  closed {}, manifold {}, oriented {}, bounds a volume {}, self-intersections {}",
         yes(mesh.closed), yes(mesh.manifold), yes(mesh.oriented), yes(mesh.bounds_volume),
         mesh.self_intersections));
-    console.print(fmt::format("  {}, {}, {:.3f} cm3", counted(mesh.triangles, "triangle"),
-                              counted(mesh.components, "component"), mesh.volume_mm3 / 1000.0));
+    console.print(fmt::format("  {}, {}, {}", counted(mesh.triangles, "triangle"),
+                              counted(mesh.components, "component"), volume_text(mesh)));
+    console.print(
+        fmt::format("  {:.6g} x {:.6g} x {:.6g} mm (width x depth x height), surface {:.4g} cm2",
+                    mesh.size_mm.x, mesh.size_mm.y, mesh.size_mm.z, mesh.area_mm2 / 100.0));
   }
   if (verdict.wall_mm)
     console.print(fmt::format("  minimum wall {:.3f} mm ({})", *verdict.wall_mm,

@@ -21,8 +21,8 @@ struct MeshWork {
   std::uint64_t bytes_per_triangle = 0;
 };
 
-/// A warning if a mesh of this size [mm] is probably in metres or inches; empty for formats that
-/// state their unit.
+/// A warning if a mesh of this size [mm] is probably in another unit: in metres or inches (not for
+/// formats that state their unit), or larger than 10 m.
 [[nodiscard]] std::optional<std::string> doubted_unit(const glm::dvec3& size_mm,
                                                       solid::MeshFormat format);
 

@@ -241,7 +241,9 @@ py::dict check_mesh(const solid::TriangleMesh& mesh) {
   dict["cavities"] = report.cavities;
   dict["self_intersections"] = report.self_intersections;
   dict["triangles"] = report.triangles;
-  dict["volume_mm3"] = report.volume_mm3;
+  dict["volume_mm3"] = report.has_volume ? py::object(py::float_(report.volume_mm3)) : py::none();
+  dict["area_mm2"] = report.area_mm2;
+  dict["size_mm"] = py::make_tuple(report.size_mm.x, report.size_mm.y, report.size_mm.z);
   dict["problems"] = problems;
   return dict;
 }

@@ -4,6 +4,7 @@
 #include "export/formats/byte_stream.hpp"
 #include "export/formats/file_floats.hpp"
 #include "export/formats/mesh_limits.hpp"
+#include "export/formats/polygon_faces.hpp"
 #include "export/formats/text_scanner.hpp"
 
 #include <algorithm>
@@ -61,6 +62,7 @@ class ObjReader {
     if (points_.highest_used > points_.count)
       refuse_number(static_cast<long long>(points_.highest_used), points_.line_of_highest);
     if (scanner_.fault()) return tl::make_unexpected(*scanner_.fault());
+    polygons_.split(mesh_, options_.notes);
     note_faults();
     return check_facet_count(mesh_.triangles.size(), name_).map([&] { return std::move(mesh_); });
   }
@@ -161,9 +163,8 @@ class ObjReader {
       scanner_.fail("expected at most 20000000 triangles");
     if (scanner_.fault()) return;
     if (odd && odd_faces_++ == 0) odd_face_line_ = line;
-    for (std::size_t i = 2; i < corners_.size(); ++i) {
-      mesh_.triangles.push_back({corners_[0], corners_[i - 1], corners_[i]});
-    }
+    if (corners_.size() > 4 && refused_faces_++ == 0) refused_face_line_ = line;
+    polygons_.add(corners_, mesh_);
   }
 
   std::uint32_t resolve_point(std::string_view word) {
@@ -196,7 +197,8 @@ class ObjReader {
   }
 
   void note_faults() {
-    if (options_.slicer_reads_less != nullptr) *options_.slicer_reads_less = odd_faces_ > 0;
+    if (options_.slicer_reads_less != nullptr)
+      *options_.slicer_reads_less = odd_faces_ + refused_faces_ > 0;
     if (options_.notes == nullptr) return;
     const auto note = [this](std::size_t line, std::string what) {
       options_.notes->push_back("line " + std::to_string(line) + ": " + std::move(what));
@@ -215,6 +217,11 @@ class ObjReader {
       note(odd_face_line_, std::to_string(odd_faces_) +
                                " faces with a slash at the end of a corner, or on several lines: "
                                "PrusaSlicer does not read them");
+    if (refused_faces_ > 0)
+      note(refused_face_line_,
+           counted(refused_faces_, "face") +
+               " of more than 4 corners: PrusaSlicer refuses such a file; check "
+               "--repair writes triangles");
   }
 
   TextScanner scanner_;
@@ -222,6 +229,8 @@ class ObjReader {
   ReadOptions options_;
   /// Faces that PrusaSlicer 2.5 passes over without a message; the first.
   std::size_t odd_faces_ = 0, odd_face_line_ = 0;
+  /// Faces of more than 4 corners: PrusaSlicer 2.5 refuses the whole file; the first.
+  std::size_t refused_faces_ = 0, refused_face_line_ = 0;
   /// Unknown statements, and the line of the first.
   struct StrayLines {
     std::size_t count = 0, first = 0;
@@ -232,6 +241,7 @@ class ObjReader {
   VertexList textures_{"vt"};
   VertexList normals_{"vn"};
   TriangleMesh mesh_;
+  PolygonFaces polygons_;
   std::vector<std::uint32_t> corners_;
 };
 

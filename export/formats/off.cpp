@@ -3,6 +3,7 @@
 #include "core/text.hpp"
 #include "export/formats/byte_stream.hpp"
 #include "export/formats/mesh_limits.hpp"
+#include "export/formats/polygon_faces.hpp"
 #include "export/formats/text_scanner.hpp"
 
 #include <string>
@@ -34,6 +35,7 @@ class OffReader {
     if (const auto rest = word(); !rest.empty())
       scanner_.fail_expected("the end of the file after its faces", rest);
     if (scanner_.fault()) return tl::make_unexpected(*scanner_.fault());
+    polygons_.split(mesh_, notes_);
     return check_facet_count(mesh_.triangles.size(), name_).map([&] { return std::move(mesh_); });
   }
 
@@ -99,8 +101,7 @@ class OffReader {
     for (long long i = 0; i < corners; ++i) corners_.push_back(index(word()));
     skip_numbers();
     if (scanner_.fault()) return;
-    for (std::size_t i = 2; i < corners_.size(); ++i)
-      mesh_.triangles.push_back({corners_[0], corners_[i - 1], corners_[i]});
+    polygons_.add(corners_, mesh_);
   }
 
   std::uint32_t index(std::string_view found) {
@@ -125,6 +126,7 @@ class OffReader {
   std::uint64_t size_;
   std::vector<std::string>* notes_;
   TriangleMesh mesh_;
+  PolygonFaces polygons_;
   std::vector<std::uint32_t> corners_;
   bool in_comment_ = false;  // the rest of this line is one
 };

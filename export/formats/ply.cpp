@@ -6,6 +6,7 @@
 #include "export/formats/file_floats.hpp"
 #include "export/formats/mesh_limits.hpp"
 #include "export/formats/ply_header.hpp"
+#include "export/formats/polygon_faces.hpp"
 #include "export/formats/text_scanner.hpp"
 
 #include <algorithm>
@@ -172,13 +173,14 @@ class BodyReader {
   BodyReader(const Header& header, Numbers numbers)
       : header_(header), numbers_(std::move(numbers)) {}
 
-  Result<TriangleMesh> read(std::string_view name) {
+  Result<TriangleMesh> read(std::string_view name, std::vector<std::string>* notes) {
     points_ = static_cast<long long>(element_named(header_, "vertex")->count);
     mesh_.points.reserve(static_cast<std::size_t>(points_));
     mesh_.triangles.reserve(element_named(header_, "face")->count);
     for (const Element& element : header_.elements) read_all(element);
     numbers_.expect_end();
     if (numbers_.fault()) return tl::make_unexpected(*numbers_.fault());
+    polygons_.split(mesh_, notes);
     return check_facet_count(mesh_.triangles.size(), name).map([&] { return std::move(mesh_); });
   }
 
@@ -224,24 +226,24 @@ class BodyReader {
       corners_.push_back(static_cast<std::uint32_t>(index));
     }
     if (numbers_.fault()) return;
-    for (std::size_t i = 2; i < corners_.size(); ++i)
-      mesh_.triangles.push_back({corners_[0], corners_[i - 1], corners_[i]});
+    polygons_.add(corners_, mesh_);
   }
 
   const Header& header_;
   Numbers numbers_;
   long long points_ = 0;
   TriangleMesh mesh_;
+  PolygonFaces polygons_;
   std::vector<std::uint32_t> corners_;
 };
 
-Result<TriangleMesh> read_body(std::string_view bytes, const Header& header,
-                               std::string_view name) {
+Result<TriangleMesh> read_body(std::string_view bytes, const Header& header, std::string_view name,
+                               std::vector<std::string>* notes) {
   if (header.encoding != Encoding::text)
-    return BodyReader(header, BinaryNumbers(bytes, header, name)).read(name);
+    return BodyReader(header, BinaryNumbers(bytes, header, name)).read(name, notes);
   const ByteSource source = source_of(bytes);
   ByteStream stream(source);
-  return BodyReader(header, TextNumbers(stream, header, name)).read(name);
+  return BodyReader(header, TextNumbers(stream, header, name)).read(name, notes);
 }
 
 }  // namespace
@@ -287,7 +289,7 @@ Result<TriangleMesh> decode_ply(std::string_view bytes, std::string_view name,
           options.notes->push_back(
               stray_lines_note(header.stray_line, header.stray_lines, "before"));
         return ply::check_elements(header, name).and_then([&] {
-          return ply::read_body(bytes, header, name);
+          return ply::read_body(bytes, header, name, options.notes);
         });
       });
     });

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <exception>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <new>
 #include <string>
@@ -103,19 +104,34 @@ class Inspection {
   void check_geometry(const MeshTopology& topology, const SoupIntersections& intersections) {
     const SignedVolume volume = bounded_volume(mesh_);
     report_.volume_mm3 = volume.mm3;
+    report_.has_volume = topology.closed() && topology.oriented();
+    measure();
     const Fault crossings = intersections.found();
     report_.degenerate = intersections.degenerate().count;
     report_.self_intersections = crossings.count;
     problem("degenerate triangle", intersections.degenerate());
     problem("self-intersection", crossings);
     if (!topology.closed() || !topology.oriented()) return;
-    bool outward = volume.mm3 > 0.0;
     if (topology.manifold() && !intersections.degenerate().found() && !crossings.found())
-      outward = check_shells(topology, volume);
-    check_outward(outward);
+      return check_outward(check_shells(topology, volume), volume);
+    if (volume.sign_is_certain()) return check_outward(volume.mm3 > 0.0, volume);
+    problem("no volume", "the triangles enclose 0 mm^3");
   }
 
-  void count_cavities(const MeshTopology& topology) {
+  void measure() {
+    CompensatedSum doubled_area;
+    glm::dvec3 low = mesh_.points[mesh_.triangles.front()[0]], high = low;
+    for (const auto& [a, b, c] : mesh_.triangles) {
+      const glm::dvec3 &p = mesh_.points[a], &q = mesh_.points[b], &r = mesh_.points[c];
+      doubled_area.add(glm::length(glm::cross(q - p, r - p)));
+      low = glm::min(low, glm::min(p, glm::min(q, r)));
+      high = glm::max(high, glm::max(p, glm::max(q, r)));
+    }
+    report_.area_mm2 = 0.5 * doubled_area.value();
+    report_.size_mm = high - low;
+  }
+
+  void count_cavities(const MeshTopology& topology, const std::vector<std::uint32_t>& enclosed) {
     std::vector<CompensatedSum> six_volumes(mesh_.triangles.size());
     const glm::dvec3 origin = mesh_.points[mesh_.triangles.front()[0]];
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -124,10 +140,10 @@ class Inspection {
           glm::dot(mesh_.points[a] - origin,
                    glm::cross(mesh_.points[b] - origin, mesh_.points[c] - origin)));
     }
-    for (const CompensatedSum& six : six_volumes) {
-      if (six.value() >= 0.0) continue;
-      ++report_.cavities;
-      report_.trapped_mm3 -= six.value() / 6.0;
+    // A cavity has a negative volume, and a body in it a positive one.
+    for (const std::uint32_t shell : enclosed) {
+      if (six_volumes[shell].value() < 0.0) ++report_.cavities;
+      report_.trapped_mm3 -= six_volumes[shell].value() / 6.0;
     }
   }
 
@@ -142,15 +158,16 @@ class Inspection {
     report_.bounds_volume = geometry.bounds_volume;
     problem("shell turned against its neighbours", geometry.misplaced_shells);
     if (geometry.bounds_volume && geometry.outward && topology.components > 1)
-      count_cavities(topology);
+      count_cavities(topology, geometry.enclosed);
     return geometry.outward;
   }
 
-  void check_outward(bool outward) {
+  /// Shells against each other are a problem already; then the sum says nothing about its sign.
+  void check_outward(bool outward, const SignedVolume& volume) {
     report_.oriented = outward;
-    if (!outward)
-      problem("inside out",
-              "normals point into the clay, volume " + in_mm(report_.volume_mm3) + " mm^3");
+    if (outward || (!report_.bounds_volume && !volume.sign_is_certain())) return;
+    problem("inside out",
+            "normals point into the clay, volume " + in_mm(report_.volume_mm3) + " mm^3");
   }
 
   void problem(std::string what, std::string where, std::size_t count = 1) {

@@ -1,5 +1,6 @@
 #include "claystack/export/repair.hpp"
 
+#include "claystack/export/check.hpp"
 #include "claystack/export/proof.hpp"
 #include "core/cancel.hpp"
 #include "core/parallel_parts.hpp"
@@ -36,13 +37,33 @@ tl::unexpected<Error> nothing_left() {
   return failure(ErrorKind::unsound, "repair leaves nothing: no triangle is part of a surface");
 }
 
-Result<TriangleMesh> wrapped_or_error(const TriangleMesh& soup, double offset_mm,
-                                      double alpha_per_offset, const Error& reason) {
-  TriangleMesh mesh = wrapped(soup, offset_mm, alpha_per_offset);
+Result<TriangleMesh> wrapped_or_error(const TriangleMesh& soup, double offset_mm, double alpha_mm,
+                                      const Error& reason) {
+  TriangleMesh mesh = wrapped(soup, offset_mm, alpha_mm);
   const MeshReport report = check_mesh(mesh);
   if (report.sound()) return mesh;
   return failure(ErrorKind::unsound, reason.message + "; wrapped: expected a sound mesh, found " +
                                          report.problems.front().what);
+}
+
+/// A wall around an open surface. The triangles of a wrap cut off what is curved, so that the wall
+/// would be thinner there: the wrap is repeated farther out until rays find the thickness.
+Result<TriangleMesh> thickened(const TriangleMesh& soup, double asked_mm, const Error& reason,
+                               ThickenedWall& wall) {
+  constexpr int kMostWraps = 8;
+  constexpr std::size_t kRays = 50'000;
+  // The thinnest places are few, and another wrap may not have them: small steps add less.
+  constexpr double kFarther = 1.04;
+  double offset_mm = 0.5 * asked_mm;
+  for (int wraps = 1;; ++wraps) {
+    auto mesh = wrapped_or_error(soup, offset_mm, kThickenAlpha * 0.5 * asked_mm, reason);
+    if (!mesh) return mesh;
+    const auto sampled = sampled_wall(*mesh, kRays);
+    if (!sampled) return tl::make_unexpected(sampled.error());
+    wall = {asked_mm, sampled->least_mm};
+    if (sampled->least_mm >= asked_mm || wraps == kMostWraps) return mesh;
+    offset_mm *= kFarther;
+  }
 }
 
 /// Refuses wraps that would take too long, before any work: of a thin wall, or close to the
@@ -99,7 +120,8 @@ Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& opt
   if (!holes && is_closed(soup)) holes = fill_holes(*surface, true);
   if (!holes && options.thicken_mm) {
     note_repair(report.repaired, "wall made around an open surface", 1);
-    return wrapped_or_error(soup, 0.5 * *options.thicken_mm, kThickenAlpha, holes.error());
+    stage.begin("making a wall");
+    return thickened(soup, *options.thicken_mm, holes.error(), report.thickened.emplace());
   }
   if (!holes) return tl::make_unexpected(holes.error());
   report.holes = std::move(*holes);
@@ -134,7 +156,7 @@ Result<RepairedMesh> repair_unsound(const TriangleMesh& mesh, const RepairOption
     stage.begin("wrapping");
     result.wrapped_mm = options.wrap_mm;
     note_repair(result.repaired, "surface replaced by a wrap", 1);
-    sound = wrapped_or_error(soup, *options.wrap_mm, kWrapAlpha, sound.error());
+    sound = wrapped_or_error(soup, *options.wrap_mm, kWrapAlpha * *options.wrap_mm, sound.error());
   }
   if (!sound) return tl::make_unexpected(sound.error());
   stage.begin("measuring the change");

@@ -85,8 +85,10 @@ class Nest {
     ShellGeometry geometry;
     geometry.steps = steps_;
     geometry.outward = shells_[highest_].outward;
-    for (const NestedShell& shell : shells_)
+    for (const NestedShell& shell : shells_) {
       if (shell.misplaced) note(geometry.misplaced_shells, {shell.triangle}, {});
+      if (shell.around != kNoShell) geometry.enclosed.push_back(shell.triangle);
+    }
     geometry.bounds_volume = !geometry.misplaced_shells.found();
     return geometry;
   }

@@ -4,6 +4,8 @@
 #include "export/solid/mesh_topology.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace clay::solid {
 
@@ -11,7 +13,8 @@ struct ShellGeometry {
   bool outward = false;    ///< the outermost shell's normals point outward
   Fault misplaced_shells;  ///< oriented against the shells around or beside them
   bool bounds_volume = false;
-  std::size_t steps = 0;  ///< visited boxes and triangles
+  std::vector<std::uint32_t> enclosed;  ///< the first triangles of the shells that lie in others
+  std::size_t steps = 0;                ///< visited boxes and triangles
 };
 
 /// Requires a closed, manifold, consistently oriented mesh without self-intersections and

@@ -134,7 +134,9 @@ class Check:
     cavities: int
     self_intersections: int
     triangles: int
-    volume_mm3: float
+    volume_mm3: Optional[float]  #: None: the mesh is open, or neighbours face opposite ways
+    area_mm2: float
+    size_mm: tuple[float, float, float]  #: width, depth and height, as x, y and z
     problems: tuple[Problem, ...]
 
 

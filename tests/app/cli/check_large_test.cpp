@@ -201,21 +201,18 @@ TEST(CheckLarge, RefusesATooLongTextInAdvance) {
 }
 
 TEST(CheckLarge, ReportsAReducedNumberOfRays) {
-  // A soup of 20 000 triangles, all around the middle: each ray passes nearly all of them.
+  // 20 000 sheets, one above the other: a ray passes the fronts of all those below.
   const ScratchFolder folder;
   const std::uint32_t count = 20'000;
   std::string stl(84 + 50 * std::size_t{count}, '\0');
   std::memcpy(stl.data() + 80, &count, 4);
-  std::uint32_t random = 1;
   for (std::uint32_t i = 0; i < count; ++i) {
-    for (std::size_t k = 0; k < 9; ++k) {
-      random = random * 1664525 + 1013904223;
-      const auto mm = static_cast<float>(random >> 8) * 1e-5F;
-      std::memcpy(stl.data() + 84 + 50 * std::size_t{i} + 12 + 4 * k, &mm, 4);
-    }
+    const auto z = static_cast<float>(i);
+    const std::array<float, 9> corners{0, 0, z, 90, 0, z, 0, 90, z};
+    std::memcpy(stl.data() + 84 + 50 * std::size_t{i} + 12, corners.data(), sizeof corners);
   }
-  write_text(folder.file("soup.stl"), stl);
-  const Ran run = claystack("check --json --min-wall 1 " + folder.file("soup.stl"));
+  write_text(folder.file("sheets.stl"), stl);
+  const Ran run = claystack("check --json --min-wall 1 " + folder.file("sheets.stl"));
   EXPECT_EQ(run.status, 1) << run.err;
   const auto json = run.json();
   EXPECT_LT(json.at("wall_sampled").at("rays"), 10'000);

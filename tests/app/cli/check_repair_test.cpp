@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -270,6 +271,37 @@ TEST_F(CheckRepair, MakesAWallAroundAnOpenSurface) {
   // between three faces.
   EXPECT_GE(run.json().at("change").at("added_mm"), 0.99);
   EXPECT_LE(run.json().at("change").at("added_mm"), 3.0 * std::sqrt(3.0) - 2.0 + 0.05);
+}
+
+/// A cup of 20 mm radius, 30 mm high, as a surface of 32 segments.
+TriangleMesh round_cup() {
+  constexpr std::uint32_t kSegments = 32;
+  TriangleMesh cup{{{0, 0, 0}}, {}};
+  for (std::uint32_t i = 0; i < kSegments; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kSegments;
+    for (const double z : {0.0, 30.0})
+      cup.points.emplace_back(20.0 * std::cos(angle), 20.0 * std::sin(angle), z);
+    const std::uint32_t a = 1 + 2 * i, b = 1 + 2 * ((i + 1) % kSegments);
+    cup.triangles.insert(cup.triangles.end(), {{0, b, a}, {a, b, b + 1}, {a, b + 1, a + 1}});
+  }
+  return cup;
+}
+
+TEST_F(CheckRepair, MakesAWallOfAtLeastTheThicknessAroundACurvedSurface) {
+  const std::string in = write("cup.stl", round_cup()), out = folder.file("out.stl");
+  const double area_mm2 = std::numbers::pi * (20.0 * 20.0 + 40.0 * 30.0);
+  for (const double mm : {2.0, 3.0}) {
+    const std::string thickness = std::to_string(mm);
+    const Ran run = claystack("check --json --repair --thicken " + thickness + " --min-wall " +
+                              thickness + " " + in + " -o " + out);
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_EQ(violation(load_schema("check"), Json::parse(run.out)), "") << run.out;
+    const auto wall = run.json().at("thickened");
+    EXPECT_EQ(wall.at("asked_mm"), mm);
+    EXPECT_GE(wall.at("least_mm"), mm);
+    EXPECT_GE(run.json().at("volume_mm3"), 0.99 * area_mm2 * mm);
+    EXPECT_LE(run.json().at("volume_mm3"), 1.2 * area_mm2 * mm);
+  }
 }
 
 TEST_F(CheckRepair, WrapsWhatItCannotRepairOtherwise) {

@@ -319,6 +319,47 @@ TEST_F(CheckSeverity, AcceptsWhatASlicerUnites) {
   expect(together(good, moved(good, {10, 10, 10})), "prints", 1, 1, "--min-wall 30 ");
 }
 
+/// A surface inside of another shell bounds no wall.
+TEST_F(CheckSeverity, MeasuresTheWallsOfTheUnionOfShells) {
+  using solid::shapes::cube, solid::shapes::moved, solid::shapes::together;
+  // Walls of 2 mm, less 0.2 % in the middle of a facet. A block overlaps them from outside.
+  const solid::TriangleMesh cup =
+      solid::revolve({{{{0, 0}, {20, 0}, {20, 40}, {18, 40}, {18, 6}, {0, 6}}}}, 48);
+  struct Case {
+    solid::TriangleMesh mesh;
+    double least_mm;  // of its union
+  };
+  for (const Case& c :
+       std::vector<Case>{{together(cube(10.0), moved(cube(10.0), {9.5, 0, 0})), 10.0},
+                         {together(cube(20.0), moved(cube(10.0), {5, 5, 5})), 20.0},
+                         {together(cup, moved(cube(10.0), {19.5, -5, 10})), 1.99},
+                         {together(cup, moved(cube(10.0), {18.5, -5, 10})), 1.99}}) {
+    const std::string file = folder.file("mesh.obj");
+    write_text(file, solid::encode_obj(c.mesh, "mesh"));
+    const Ran run = claystack("check --json --accept prints --min-wall 1.9 " + file);
+    EXPECT_EQ(run.status, 0) << run.out;
+    const auto wall = run.json().at("wall_sampled");
+    EXPECT_GE(wall.at("least_mm"), c.least_mm - 1e-5) << run.out;
+    EXPECT_EQ(wall.at("united"), true);
+    EXPECT_FALSE(wall.contains("triangle"));
+    EXPECT_EQ(violation(load_schema("check"), Json::parse(run.out)), "") << run.out;
+  }
+  expect(together(cup, moved(cube(10.0), {19.5, -5, 10})), "prints", 1, 1, "--min-wall 2.1 ");
+}
+
+TEST_F(CheckSeverity, MeasuresNoWallOfShellsThatASlicerMayNotUnite) {
+  using solid::shapes::cube, solid::shapes::inverted, solid::shapes::moved, solid::shapes::together;
+  const std::string file = folder.file("mesh.obj");
+  write_text(file, solid::encode_obj(
+                       together(cube(20.0), moved(inverted(cube(20.0)), {10, 10, 10})), "mesh"));
+  const Ran run = claystack("check --json --min-wall 1 " + file);
+  EXPECT_EQ(run.status, 1) << run.out;
+  EXPECT_FALSE(run.json().contains("wall_sampled"));
+  EXPECT_NE(run.json().at("checks").dump().find("not measured: shells intersect"),
+            std::string::npos)
+      << run.out;
+}
+
 /// PrusaSlicer passes over faces such as "f 1/ 2/ 3/" without a message.
 TEST_F(CheckSeverity, FacesThatASlicerDoesNotReadDoNotPrint) {
   using solid::shapes::cube, solid::shapes::moved, solid::shapes::together;
@@ -344,6 +385,90 @@ TEST_F(CheckSeverity, ManyIntersectionsDoNotPrint) {
     balls = together(balls, moved(ball(10.0), {3.3 * k, 1.7 * k, 0.9 * k}));
   ASSERT_GT(solid::check_mesh(balls).self_intersections, solid::kMostUnitedPairs);
   expect(balls, "will not print", 1, 1);
+}
+
+/// A box of any three sides.
+solid::TriangleMesh block(const glm::dvec3& size_mm) {
+  solid::TriangleMesh mesh = solid::shapes::cube(1.0);
+  for (glm::dvec3& p : mesh.points) p *= size_mm;
+  return mesh;
+}
+
+TEST(Check, StatesSizeAreaAndVolume) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("block.obj");
+  solid::TriangleMesh mesh = block({10, 20, 30});
+  mesh.points.emplace_back(900, 0, 0);  // of no triangle
+  write_text(file, solid::encode_obj(mesh, "block"));
+  const auto json = claystack("check --json " + file).json();
+  EXPECT_EQ(json.at("size_mm"), (std::vector<double>{10, 20, 30}));
+  EXPECT_DOUBLE_EQ(json.at("area_mm2"), 2.0 * (200 + 300 + 600));
+  EXPECT_DOUBLE_EQ(json.at("volume_mm3"), 6000.0);
+  const Ran text = claystack("check " + file);
+  EXPECT_NE(
+      text.out.find("6.000 cm3\n  10 x 20 x 30 mm (width x depth x height), surface 22 cm2\n"),
+      std::string::npos)
+      << text.out;
+  write_text(file, solid::encode_obj(block({0.1, 0.2, 0.3}), "block"));
+  const Ran tiny = claystack("check " + file);
+  EXPECT_NE(tiny.out.find(", 6e-06 cm3\n"), std::string::npos) << tiny.out;
+}
+
+TEST(Check, StatesNoVolumeOfAnOpenMesh) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("open.obj");
+  solid::TriangleMesh mesh = block({10, 10, 10});
+  mesh.triangles.pop_back();
+  write_text(file, solid::encode_obj(mesh, "open"));
+  const Ran open = claystack("check --json " + file);
+  EXPECT_TRUE(open.json().at("volume_mm3").is_null()) << open.out;
+  EXPECT_EQ(violation(load_schema("check"), Json::parse(open.out)), "") << open.out;
+  const Ran text = claystack("check " + file);
+  EXPECT_NE(text.out.find("no volume: the mesh is open"), std::string::npos) << text.out;
+  const Ran repaired = claystack("check --json --repair --dry-run " + file);
+  EXPECT_TRUE(repaired.json().at("volume_before_mm3").is_null()) << repaired.out;
+  EXPECT_NEAR(repaired.json().at("volume_mm3"), 1000.0, 1e-3);
+  EXPECT_EQ(violation(load_schema("check"), Json::parse(repaired.out)), "") << repaired.out;
+  const Ran repair_text = claystack("check --repair --dry-run " + file);
+  EXPECT_NE(repair_text.out.find("volume: none before, because the mesh is open, 1 cm3 after"),
+            std::string::npos)
+      << repair_text.out;
+}
+
+TEST(Check, WarnsOfAMeshOfMoreThanTenMetres) {
+  const ScratchFolder folder;
+  for (const auto& [side_mm, warned] : {std::pair(9'999.0, false), {10'001.0, true}}) {
+    const solid::TriangleMesh mesh = block({side_mm, 10, 10});
+    for (const auto& [name, bytes] :
+         {std::pair("a.stl", solid::encode_stl_binary(mesh)),
+          {"a.3mf", solid::encode_mesh(mesh, solid::MeshFormat::three_mf).value()}}) {
+      write_text(folder.file(name), bytes);
+      const Ran run = claystack("check " + folder.file(name));
+      EXPECT_EQ(run.status, 0) << run.out;
+      EXPECT_EQ(run.out.find("geometry: warn: 10 x 0.01 x 0.01 m: ") != std::string::npos, warned)
+          << run.out;
+    }
+  }
+}
+
+/// PrusaSlicer refuses the file: "The file contains polygons with more than 4 vertices."
+TEST(Check, NotesFacesOfAnObjThatPrusaSlicerRefuses) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("a.obj"), out = folder.file("out.obj");
+  const std::string points =
+      "v 0 0 0\nv 20 0 0\nv 30 10 0\nv 20 20 0\nv 0 20 0\nv 0 0 9\nv 20 0 9\nv 30 10 9\n"
+      "v 20 20 9\nv 0 20 9\n";
+  const std::string sides = "f 1 2 7 6\nf 2 3 8 7\nf 3 4 9 8\nf 4 5 10 9\nf 5 1 6 10\n";
+  write_text(file, points + sides + "f 5 4 3 2 1\nf 6 7 8 9 10\n");
+  const Ran run = claystack("check --json " + file);
+  EXPECT_EQ(run.status, 0) << run.out;
+  EXPECT_EQ(run.json().at("notes"),
+            std::vector<std::string>{"line 16: 2 faces of more than 4 corners: PrusaSlicer refuses "
+                                     "such a file; check --repair writes triangles"});
+  ASSERT_EQ(claystack("check --repair -o " + out + " " + file).status, 0);
+  EXPECT_TRUE(claystack("check --json " + out).json().at("notes").empty());
+  write_text(file, points + sides + "f 5 4 3 2\nf 5 2 1\nf 6 7 8 9\nf 6 9 10\n");
+  EXPECT_TRUE(claystack("check --json " + file).json().at("notes").empty());
 }
 
 TEST(Check, ReadsStandardInputAndWritesStandardOutput) {

@@ -50,6 +50,35 @@ TEST(MeshShells, CountsCavitiesAndTheirVolume) {
   EXPECT_EQ(check_mesh(cube(10)).cavities, 0u);
 }
 
+TEST(MeshShells, TrapsNoVolumeWhereBodiesLieInCavities) {
+  // A cavity of 8 mm with a body of 6 mm in it, which has a cavity of 4 mm with a body of 2 mm.
+  TriangleMesh mesh = together(cube(10), moved(inverted(cube(8)), {1, 1, 1}));
+  mesh = together(mesh, moved(cube(6), {2, 2, 2}));
+  const MeshReport three = check_mesh(mesh);
+  EXPECT_TRUE(three.sound()) << names(three);
+  EXPECT_EQ(three.cavities, 1u);
+  EXPECT_NEAR(three.trapped_mm3, 512.0 - 216.0, 1e-9);
+  mesh = together(mesh, moved(inverted(cube(4)), {3, 3, 3}));
+  mesh = together(mesh, moved(cube(2), {4, 4, 4}));
+  const MeshReport five = check_mesh(together(mesh, moved(cube(5), {20, 0, 0})));
+  EXPECT_TRUE(five.sound()) << names(five);
+  EXPECT_EQ(five.cavities, 2u);
+  EXPECT_NEAR(five.trapped_mm3, 512.0 - 216.0 + 64.0 - 8.0, 1e-9);
+}
+
+TEST(MeshShells, ReportsAMeshWithoutVolumeNotAsInsideOut) {
+  // Two cubes, one of them inside out; and a cube that is pressed flat.
+  const MeshReport opposed = check_mesh(together(cube(2), moved(inverted(cube(2)), {5, 0, 0})));
+  ASSERT_EQ(opposed.problems.size(), 1u) << names(opposed);
+  EXPECT_EQ(opposed.problems[0].what, "shell turned against its neighbours");
+  TriangleMesh flat = cube(2);
+  for (glm::dvec3& p : flat.points) p.z = 0.0;
+  const MeshReport pressed = check_mesh(flat);
+  EXPECT_TRUE(find(pressed, "no volume")) << names(pressed);
+  EXPECT_FALSE(find(pressed, "inside out")) << names(pressed);
+  EXPECT_FALSE(pressed.sound());
+}
+
 TEST(MeshShells, ReportsAnInsideOutSolid) {
   const MeshReport report = check_mesh(inverted(ball(5.0)));
   EXPECT_EQ(verdict(report), (Verdict{true, true, false, true, false}));

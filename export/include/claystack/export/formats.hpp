@@ -150,7 +150,7 @@ struct ReadOptions {
   /// Gets a line for each kind of fault that was passed over, none of which changes the surface.
   /// May be null.
   std::vector<std::string>* notes = nullptr;
-  /// Set if PrusaSlicer reads fewer triangles from the same file. May be null.
+  /// Set if PrusaSlicer reads fewer triangles from the same file, or refuses it. May be null.
   bool* slicer_reads_less = nullptr;
 };
 
@@ -192,11 +192,13 @@ Result<TriangleMesh> read_obj(const ByteSource& source, std::string_view name,
 Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name,
                                 const ReadOptions& options = {});
 
-/// Reads v, vt, vn and f, with polygons (up to 4096 corners) as fans; ignores o, g, s, mtllib,
-/// usemtl, l, p and comments, and opens no other file. Indices are kept: coincident points stay
-/// separate. Passed over with a note: texture coordinates and normals that a face names and the
-/// file does not define ("f 1/ 2/ 3/" names none), and unknown statements before the first v, vt,
-/// vn or f or after the last. One between them, or one of a free-form surface, is an error.
+/// Reads v, vt, vn and f, with polygons (up to 4096 corners) as triangles: a fan from the first
+/// corner where that covers the polygon, otherwise its constrained Delaunay triangulation, and with
+/// a note a fan if the polygon crosses or touches itself. So do PLY and OFF. Ignores o, g, s,
+/// mtllib, usemtl, l, p and comments, and opens no other file. Indices are kept: coincident points
+/// stay separate. Passed over with a note: texture coordinates and normals that a face names and
+/// the file does not define ("f 1/ 2/ 3/" names none), and unknown statements before the first v,
+/// vt, vn or f or after the last. One between them, or one of a free-form surface, is an error.
 Result<TriangleMesh> decode_obj(std::string_view bytes, std::string_view name,
                                 const ReadOptions& options = {});
 
@@ -209,10 +211,10 @@ Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name);
 Result<std::size_t> drc_triangles(std::string_view bytes, std::string_view name);
 
 /// PLY 1.0 as text or binary of either byte order. Vertices need the properties x, y and z of any
-/// number type; faces a list `vertex_indices` or `vertex_index`, of up to 4096 corners, which
-/// become fans. Other properties and elements are passed over, and with a note lines before the
-/// first element that begin with no keyword of PLY. Every count is compared with the size of the
-/// file before memory is allocated.
+/// number type; faces a list `vertex_indices` or `vertex_index`, of up to 4096 corners. Other
+/// properties and elements are passed over, and with a note lines before the first element that
+/// begin with no keyword of PLY. Every count is compared with the size of the file before memory is
+/// allocated.
 Result<TriangleMesh> decode_ply(std::string_view bytes, std::string_view name,
                                 const ReadOptions& options = {});
 

@@ -119,11 +119,15 @@ struct MeshReport {
   /// false where this is undefined: open, self-intersecting or with degenerate triangles.
   bool bounds_volume = false;
   std::size_t components = 0;
-  std::size_t cavities = 0;    ///< inward shells of a mesh that bounds a volume
-  double trapped_mm3 = 0.0;    ///< the volume they enclose, which traps resin or powder
+  std::size_t cavities = 0;  ///< inward shells of a mesh that bounds a volume
+  /// The volume they enclose without the bodies in them: what traps resin or powder.
+  double trapped_mm3 = 0.0;
   std::size_t degenerate = 0;  ///< triangles of zero area
   std::size_t triangles = 0;
-  double volume_mm3 = 0.0;
+  bool has_volume = false;  ///< closed, and neighbours agree; any other volume is undefined
+  double volume_mm3 = 0.0;  ///< the sum over the triangles; of an open mesh it means nothing
+  double area_mm2 = 0.0;    ///< of all triangles
+  glm::dvec3 size_mm{0.0};  ///< width, depth and height, without points that no triangle uses
   bool out_of_memory =
       false;  ///< the check stopped for lack of memory, which is no fault of the mesh
   std::vector<MeshProblem> problems;

@@ -1,0 +1,166 @@
+// The limits on a mesh that are not about its soundness: its walls, its size, its undersides.
+
+#include "app/cli/check.hpp"
+#include "app/cli/export_report.hpp"
+#include "core/text.hpp"
+
+#include "claystack/export/repair.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace clay::cli {
+namespace {
+
+using solid::TriangleMesh;
+
+void report_wall(const solid::SampledWall& wall, const solid::WallLimit& limit, bool united,
+                 const CheckCommand& command, Verdict& verdict) {
+  const std::string sampled =
+      united ? "sampled where a slicer unites the shells" : std::string("sampled");
+  if (wall.rays < command.wall_samples())
+    verdict.add(
+        "walls", Grade::warn,
+        fmt::format("sampled by only {} rays instead of {}: too many triangles lie near each ray",
+                    wall.rays, command.wall_samples()));
+  if (std::isinf(wall.least_mm))
+    return verdict.add(
+        "walls", Grade::fail,
+        fmt::format("not measured: none of {} rays reached the other side of a wall", wall.rays));
+  if (wall.least_mm >= limit.min_wall_mm)
+    return verdict.add("walls", Grade::pass,
+                       sampled + ": " + solid::wall_text(wall.least_mm, limit));
+  // The triangles of united shells are not those of the file.
+  const std::string triangle = united ? "" : fmt::format("triangle {} ", wall.triangle);
+  verdict.add(
+      "walls", Grade::fail,
+      fmt::format("thin wall ({}): {}at ({:.6g}, {:.6g}, {:.6g}) mm: {:.3f} mm, expected at "
+                  "least {:.3f} mm ({})",
+                  sampled, triangle, wall.place.x, wall.place.y, wall.place.z, wall.least_mm,
+                  limit.min_wall_mm, limit.asked_by()));
+}
+
+Result<void> measure_wall(const PrintedBody& body, const solid::WallLimit& limit,
+                          const CheckCommand& command, const Console& console, Verdict& verdict) {
+  Progress progress(console, "walls", command.wall_samples());
+  const auto wall = solid::sampled_wall(body.mesh(), command.wall_samples(),
+                                        solid::most_wall_steps(command.wall_samples()),
+                                        [&](std::size_t rays) { progress.update(rays); });
+  if (!wall && wall.error().kind == ErrorKind::io)
+    return failure(ErrorKind::io, command.file + ": " + wall.error().message);
+  if (!wall) {
+    verdict.add("walls", Grade::fail, "not measured: " + wall.error().message);
+    return {};
+  }
+  verdict.wall_sampled = *wall;
+  verdict.wall_united = body.united.has_value();
+  report_wall(*wall, limit, verdict.wall_united, command, verdict);
+  return {};
+}
+
+/// Undersides that a printer cannot build without support: triangles that face down by more than
+/// the limit, and do not lie on the bed.
+struct Undersides {
+  double area_mm2 = 0.0;
+  double angle_deg = 0.0, at_mm = 0.0;  ///< of the steepest: from the vertical, and its height
+};
+
+Undersides undersides_of(const TriangleMesh& mesh, double limit_deg) {
+  constexpr double kOnBedMm = 0.05;
+  Undersides found;
+  double bed_mm = std::numeric_limits<double>::infinity();
+  for (const glm::dvec3& p : mesh.points) bed_mm = std::min(bed_mm, p.z);
+  for (const auto& corners : mesh.triangles) {
+    const glm::dvec3 a = mesh.points[corners[0]], b = mesh.points[corners[1]],
+                     c = mesh.points[corners[2]];
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double twice = glm::length(normal), low = std::min({a.z, b.z, c.z});
+    if (!(normal.z < 0.0) || std::max({a.z, b.z, c.z}) <= bed_mm + kOnBedMm) continue;
+    const double deg = std::asin(std::min(-normal.z / twice, 1.0)) * 180.0 / std::numbers::pi;
+    if (!(deg > limit_deg)) continue;
+    found.area_mm2 += 0.5 * twice;
+    if (deg > found.angle_deg) found.angle_deg = deg, found.at_mm = low - bed_mm;
+  }
+  return found;
+}
+
+}  // namespace
+
+PrintedBody printed_body(const TriangleMesh& mesh, const Verdict& verdict) {
+  PrintedBody body{&mesh, {}, {}};
+  const solid::MeshReport& report = verdict.mesh;
+  const bool nested =
+      report.closed && report.oriented && report.components > 1 && !report.bounds_volume;
+  if (report.sound() || (report.self_intersections == 0 && !nested)) return body;
+  if (!solid::slicer_unites(mesh, report)) {
+    if (report.self_intersections > 0)
+      body.unknown = fmt::format(
+          "shells intersect ({} of triangles), and a slicer may not unite them; check the result "
+          "of --repair",
+          counted(report.self_intersections, "pair"));
+    return body;
+  }
+  auto repaired = solid::repair_unsound_mesh(mesh);
+  if (repaired)
+    body.united = std::move(repaired->mesh);
+  else
+    body.unknown = "shells intersect, and cannot be united: " + repaired.error().message;
+  return body;
+}
+
+/// Size and undersides, upright as the file has them.
+void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckCommand& command,
+                   Verdict& verdict) {
+  const auto& process = command.walls.demand().process;
+  if (!process) return;
+  std::string passed = fmt::format("{:.1f} x {:.1f} x {:.1f} mm", size.x, size.y, size.z);
+  if (const auto& most = process->size) {
+    const bool fits = std::min(size.x, size.y) <= std::min(most->width_mm, most->depth_mm) &&
+                      std::max(size.x, size.y) <= std::max(most->width_mm, most->depth_mm) &&
+                      size.z <= most->height_mm;
+    if (!fits)
+      verdict.add("process", Grade::fail,
+                  fmt::format("too large: {}; {}: at most {:g} x {:g} mm and {:g} mm high ({})",
+                              passed, process->name, most->width_mm, most->depth_mm,
+                              most->height_mm, most->source));
+    if (!fits) return;
+  }
+  if (const auto& most = process->overhang) {
+    const Undersides steep = undersides_of(body.mesh(), most->max_deg);
+    constexpr double kLeastMm2 = 4.0;  // smaller ones need no support
+    if (steep.area_mm2 > kLeastMm2)
+      return verdict.add(
+          "process", Grade::warn,
+          fmt::format("overhang of up to {:.1f} degrees ({:.3g} cm2 in all, the steepest at a "
+                      "height of {:.1f} mm); {}: at most {:g} without support ({})",
+                      steep.angle_deg, 0.01 * steep.area_mm2, steep.at_mm, process->name,
+                      most->max_deg, most->source));
+    passed += fmt::format(", no overhang above {:g} degrees", most->max_deg);
+  }
+  verdict.add("process", Grade::pass, process->name + ": " + passed);
+}
+
+/// Compares the walls with the limit: those that a certificate of these bytes proves, without one
+/// a sample.
+Result<void> check_walls(const PrintedBody& body, const glm::dvec3& size,
+                         const CheckCommand& command, const Console& console, Verdict& verdict) {
+  const auto limit = command.walls.demand().for_size(size.x + size.y + size.z);
+  if (!limit) return {};
+  if (!verdict.certified_wall_mm && !body.unknown.empty()) {
+    verdict.add("walls", Grade::fail, "not measured: " + body.unknown);
+    return {};
+  }
+  if (!verdict.certified_wall_mm) return measure_wall(body, *limit, command, console, verdict);
+  const double wall_mm = *verdict.certified_wall_mm;
+  verdict.add("walls", wall_mm >= limit->min_wall_mm ? Grade::pass : Grade::fail,
+              "certified: " + solid::wall_text(wall_mm, *limit));
+  return {};
+}
+
+}  // namespace clay::cli
