@@ -19,7 +19,9 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace clay::cli {
 namespace {
@@ -50,7 +52,20 @@ Result<void> set_axis(ImportOptions& options) {
   return {};
 }
 
-Json summary(const ImportOptions& options, const HalfSection& section, const DrawnPot& drawn) {
+/// Each with the file that it is about.
+std::vector<std::string> warnings_about(const ImportOptions& options, const HalfSection& section,
+                                        const DrawnPot& drawn) {
+  std::vector<std::string> warnings = section.notes;
+  if (!options.pot_settings.ring_height_mm && drawn.deviation.mm > kDrawnDeviationMm)
+    warnings.push_back(fmt::format(
+        "{}: expected rings within {:g} mm of the drawing, found {:.3f} mm; rings lower than {:g} "
+        "mm are not nearer, as the drawing has lower details",
+        options.drawing, kDrawnDeviationMm, drawn.deviation.mm, drawn.pot.stack.ring_height_mm()));
+  return warnings;
+}
+
+Json summary(const ImportOptions& options, const HalfSection& section, const DrawnPot& drawn,
+             const std::vector<std::string>& warnings) {
   const Pot& pot = drawn.pot;
   const Deviation& deviation = drawn.deviation;
   return {{"drawing", options.drawing},
@@ -65,7 +80,8 @@ Json summary(const ImportOptions& options, const HalfSection& section, const Dra
           {"drawn_mm3", section.volume_mm3()},
           {"volume_mm3", pot.stack.volume_mm3()},
           {"deviation_mm", deviation.mm},
-          {"deviation_at_mm", {deviation.radius_mm, deviation.height_mm}}};
+          {"deviation_at_mm", {deviation.radius_mm, deviation.height_mm}},
+          {"warnings", warnings}};
 }
 
 const char* axis_source(const ImportOptions& options, const HalfSection& section) {
@@ -116,20 +132,16 @@ Result<void> import_drawing(const ImportOptions& options, const Console& console
   if (!drawing) return tl::make_unexpected(drawing.error());
   const auto section = half_section(std::move(*drawing), options.section, options.drawing);
   if (!section) return tl::make_unexpected(section.error());
-  for (const std::string& note : section->notes) console.warn(note);
   progress.stage("making rings");
   const auto pot = drawn_pot(*section, options.pot_settings, options.drawing);
   if (!pot) return tl::make_unexpected(pot.error());
   const PotEncoding encoding = pot_encoding_of(options.pot).value_or(PotEncoding::json);
   if (auto done = publish(options.pot, write_pot(pot->pot, encoding)); !done) return done;
-  const Json json = summary(options, *section, *pot);
+  const auto warnings = warnings_about(options, *section, *pot);
+  for (const std::string& warning : warnings) console.warn(warning);
+  const Json json = summary(options, *section, *pot, warnings);
   if (console.json) print_json(json);
   print_summary(console, options, *section, *pot, json);
-  if (!options.pot_settings.ring_height_mm && pot->deviation.mm > kDrawnDeviationMm)
-    console.warn(
-        fmt::format("{}: the rings deviate from the drawing by {:.3f} mm, although they are "
-                    "{:g} mm high",
-                    options.drawing, pot->deviation.mm, pot->pot.stack.ring_height_mm()));
   console.print("pot: " + options.pot);
   return {};
 }

@@ -142,6 +142,30 @@ Result<DrawnRings> drawn_rings(const HalfSection& section, const std::vector<dou
   return DrawnRings{std::move(*rings), ring_mm, deviation};
 }
 
+/// Rings that are low enough for the deviation, or the highest that deviate by little more than
+/// the best if none is.
+Result<DrawnRings> fitted_rings(const HalfSection& section, const std::vector<double>& levels,
+                                double deviation_mm, const std::string& name) {
+  constexpr double kMostByItself = 30'000.0, kLowestMm = 1e-3, kLower = 0.9;
+  const double lowest_mm = std::max(kLowestMm, section.height_mm / kMostByItself);
+  double ring_mm = std::max(kHighestRingMm, lowest_mm);
+  auto made = drawn_rings(section, levels, ring_mm, name);
+  if (!made) return made;
+  DrawnRings best = *made;
+  // The deviation of steps is proportional to their height.
+  while (ring_mm > lowest_mm && made->deviation.mm > deviation_mm - kDeviationStepMm) {
+    const double before_mm = made->deviation.mm;
+    const double part = 0.9 * deviation_mm / before_mm;
+    ring_mm = std::max(lowest_mm, made->ring_mm * std::clamp(part, 0.1, 0.9));
+    made = drawn_rings(section, levels, ring_mm, name);
+    if (!made) return made;
+    if (made->deviation.mm < kLower * best.deviation.mm) best = *made;
+    if (ring_mm < kFineRingMm && made->deviation.mm > kLower * before_mm) break;
+  }
+  if (made->deviation.mm <= deviation_mm) return made;
+  return best;
+}
+
 }  // namespace
 
 std::vector<Slab> slabs_of(const ClayStack& stack) {
@@ -150,21 +174,13 @@ std::vector<Slab> slabs_of(const ClayStack& stack) {
 
 Result<DrawnPot> drawn_pot(const HalfSection& drawn, const DrawnPotSettings& settings,
                            const std::string& name) {
-  constexpr double kMostByItself = 30'000.0, kLowestMm = 1e-3;
   const auto section =
       settings.wall_mm ? hollowed(drawn, *settings.wall_mm, name) : Result<HalfSection>(drawn);
   if (!section) return tl::make_unexpected(section.error());
   const std::vector<double> levels = drawn_levels(*section);
-  const double lowest_mm = std::max(kLowestMm, section->height_mm / kMostByItself);
-  double ring_mm = settings.ring_height_mm.value_or(std::max(kHighestRingMm, lowest_mm));
-  auto made = drawn_rings(*section, levels, ring_mm, name);
-  // The deviation of steps is proportional to their height.
-  while (made && !settings.ring_height_mm && ring_mm > lowest_mm &&
-         made->deviation.mm > kDrawnDeviationMm - kDeviationStepMm) {
-    const double part = 0.9 * kDrawnDeviationMm / made->deviation.mm;
-    ring_mm = std::max(lowest_mm, made->ring_mm * std::clamp(part, 0.1, 0.9));
-    made = drawn_rings(*section, levels, ring_mm, name);
-  }
+  auto made = settings.ring_height_mm
+                  ? drawn_rings(*section, levels, *settings.ring_height_mm, name)
+                  : fitted_rings(*section, levels, settings.deviation_mm, name);
   if (!made) return tl::make_unexpected(made.error());
   auto stack = ClayStack::from_rings(made->ring_mm, std::move(made->rings), 0);
   if (!stack)
