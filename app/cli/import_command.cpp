@@ -70,10 +70,11 @@ Json summary(const ImportOptions& options, const HalfSection& section, const Dra
   const Deviation& deviation = drawn.deviation;
   return {{"drawing", options.drawing},
           {"axis_mm", section.axis_mm},
-          {"axis", section.axis == AxisRule::middle ? "middle"
-                   : section.axis == AxisRule::left ? "left"
-                   : section.axis == AxisRule::line ? "line"
-                                                    : "at"},
+          {"axis", section.axis == AxisRule::middle  ? "middle"
+                   : section.axis == AxisRule::left  ? "left"
+                   : section.axis == AxisRule::right ? "right"
+                   : section.axis == AxisRule::line  ? "line"
+                                                     : "at"},
           {"rings", pot.stack.size()},
           {"ring_height_mm", pot.stack.ring_height_mm()},
           {"height_mm", pot.stack.height_mm()},
@@ -90,6 +91,8 @@ const char* axis_source(const ImportOptions& options, const HalfSection& section
       return "the middle of the drawing";
     case AxisRule::left:
       return "its left end";
+    case AxisRule::right:
+      return "the straight edge at its right end";
     case AxisRule::line:
       return "its vertical line";
     default:

@@ -1,6 +1,8 @@
 #include "app/import/half_section.hpp"
 
 #include "app/import/joined_lines.hpp"
+#include "app/import/level_lines.hpp"
+#include "app/import/outline_faults.hpp"
 
 #include <fmt/format.h>
 
@@ -18,6 +20,7 @@ namespace {
 /// A straight segment of the outline that rises from `low` to `high`.
 struct Edge {
   glm::dvec2 low, high;
+  std::size_t line = 0;  ///< the outline that it is part of
   [[nodiscard]] double radius_at(double y) const {
     return low.x + (high.x - low.x) * ((y - low.y) / (high.y - low.y));
   }
@@ -94,10 +97,21 @@ Result<std::optional<double>> take_axis_lines(std::vector<Line>& lines, std::opt
   return axis;
 }
 
-std::string ends_of(const Line& line) {
-  const glm::dvec2 a = line.points_mm.front(), b = line.points_mm.back();
-  return fmt::format("({:.3f}, {:.3f}) and ({:.3f}, {:.3f}) mm from foot and axis", a.x, a.y, b.x,
-                     b.y);
+/// Of several lines, one ends at two places off the axis.
+tl::unexpected<Error> open_line(const Line& line, const std::vector<Line>& lines,
+                                const std::string& name) {
+  const auto place = [](glm::dvec2 p) { return fmt::format("({:.3f}, {:.3f})", p.x, p.y); };
+  const std::string expected = name + ": expected closed outlines, or a single open one, found ";
+  const char* const unit = "mm from axis and foot";
+  if (const auto gap = narrowest_gap(lines))
+    return failure(
+        ErrorKind::bad_input,
+        fmt::format("{}a gap of {:.3f} mm between the ends at {} and {} {}; ends within {:g} mm of "
+                    "each other are joined",
+                    expected, gap->mm, place(gap->from), place(gap->to), unit, kSamePointMm));
+  return failure(ErrorKind::bad_input,
+                 fmt::format("{}{} lines of which one ends at {} and {} {}", expected, lines.size(),
+                             place(line.points_mm.front()), place(line.points_mm.back()), unit));
 }
 
 /// Closes open lines where possible; the message names the others.
@@ -106,11 +120,7 @@ Result<void> close(std::vector<Line>& lines, const std::string& name) {
     if (line.closed) continue;
     const bool on_axis =
         line.points_mm.front().x <= kSamePointMm && line.points_mm.back().x <= kSamePointMm;
-    if (!on_axis && lines.size() > 1)
-      return failure(ErrorKind::bad_input,
-                     fmt::format("{}: expected closed outlines, or a single open one, found {} "
-                                 "lines of which one ends at {}",
-                                 name, lines.size(), ends_of(line)));
+    if (!on_axis && lines.size() > 1) return open_line(line, lines, name);
     const double last = line.points_mm.back().y, first = line.points_mm.front().y;
     line.points_mm.emplace_back(0.0, last);
     line.points_mm.emplace_back(0.0, first);
@@ -122,7 +132,8 @@ Result<void> close(std::vector<Line>& lines, const std::string& name) {
 /// The segments right of the axis, except horizontal ones, which do not bound clay sideways.
 std::vector<Edge> edges_of(const std::vector<Line>& lines) {
   std::vector<Edge> edges;
-  for (const Line& line : lines) {
+  for (std::size_t index = 0; index < lines.size(); ++index) {
+    const Line& line = lines[index];
     for (std::size_t i = 0; i < line.points_mm.size(); ++i) {
       glm::dvec2 a = line.points_mm[i], b = line.points_mm[(i + 1) % line.points_mm.size()];
       if (a.y > b.y) std::swap(a, b);
@@ -130,7 +141,7 @@ std::vector<Edge> edges_of(const std::vector<Line>& lines) {
       const double crossing = a.y + (b.y - a.y) * (a.x / (a.x - b.x));
       if (a.x < 0.0) a = {0.0, crossing};
       if (b.x < 0.0) b = {0.0, crossing};
-      if (a.y < b.y) edges.push_back({a, b});
+      if (a.y < b.y) edges.push_back({a, b, index});
     }
   }
   std::sort(edges.begin(), edges.end(),
@@ -222,6 +233,26 @@ Result<void> check_contacts(const std::vector<Slab>& slabs, const std::string& n
   return {};
 }
 
+/// More than two bounds at one height. `edges`: those that cross it, from the outside inward.
+tl::unexpected<Error> side_by_side(double y, const std::vector<const Edge*>& edges,
+                                   const std::string& name) {
+  std::vector<double> radii;
+  for (const Edge* edge : edges) radii.push_back(edge->radius_at(y));
+  const bool one_line = std::all_of(edges.begin(), edges.end(), [&](const Edge* edge) {
+    return edge->line == edges.front()->line;
+  });
+  const char* cause =
+      !one_line ? "hide a frame or background, choose a layer with --layer, or unite shapes that "
+                  "overlap"
+      : edges.size() % 2 == 1 ? "the floor rises towards the axis, beside a wall that begins lower"
+                              : "the wall or the rim overhangs, or a groove is undercut";
+  return failure(
+      ErrorKind::bad_input,
+      fmt::format("{}: {:.3f} mm above the foot: expected clay in one place, between a bore or the "
+                  "axis and the outside, found it {}: {}",
+                  name, y, clay_between(radii), cause));
+}
+
 /// No edge begins or ends between the two levels. `edges`: those that span both.
 Result<Slab> slab_between(double from, double to, std::vector<const Edge*>& edges,
                           const std::string& name) {
@@ -235,14 +266,7 @@ Result<Slab> slab_between(double from, double to, std::vector<const Edge*>& edge
                                middle, expected, found));
   };
   if (edges.empty()) return refuse("clay at every height from foot to rim", 0);
-  if (edges.size() > 2)
-    return failure(
-        ErrorKind::bad_input,
-        fmt::format("{}: {:.3f} mm above the foot: expected clay in one place, between a "
-                    "bore or the axis and the outside, found {} outlines side by side; "
-                    "hide a frame or background, choose a layer with --layer, or unite "
-                    "shapes that overlap",
-                    name, middle, edges.size()));
+  if (edges.size() > 2) return side_by_side(middle, edges, name);
   Slab slab{from, to, edges[0]->radius_at(from), edges[0]->radius_at(to), 0.0, 0.0};
   if (edges.size() == 1) return slab;
   slab.inner_from_mm = edges[1]->radius_at(from);
@@ -276,25 +300,62 @@ Result<std::vector<Slab>> slabs_of(const std::vector<Edge>& edges, const std::st
   return slabs;
 }
 
-/// Gives one height to all points of nearly one height, and puts points near the axis on it. A
-/// horizontal line that a program has turned or rounded is not quite level and would need very fine
-/// rings; a line beside the axis would become a bore.
-void straighten(std::vector<Line>& lines) {
-  constexpr double kLevelMm = 1e-4;
-  std::vector<double*> heights;
-  for (Line& line : lines)
-    for (glm::dvec2& p : line.points_mm) {
-      heights.push_back(&p.y);
-      if (std::abs(p.x) <= kLevelMm) p.x = 0.0;
-    }
-  std::sort(heights.begin(), heights.end(),
-            [](const double* a, const double* b) { return *a < *b; });
-  const double top = *heights.back();
-  for (std::size_t i = 0; i < heights.size();) {
-    const double low = *heights[i];
-    const double same = top - low <= kLevelMm ? top : low;  // the whole height stays
-    for (; i < heights.size() && *heights[i] - low <= kLevelMm; ++i) *heights[i] = same;
-  }
+/// The slabs of the clay inside closed lines.
+Result<std::vector<Slab>> checked_slabs(const std::vector<Line>& lines, const std::string& name) {
+  auto slabs = slabs_of(edges_of(lines), name);
+  if (!slabs) return slabs;
+  for (const auto& checked : {check_treads(lines, name), check_contacts(*slabs, name)})
+    if (!checked) return tl::make_unexpected(checked.error());
+  if (slabs->empty())
+    return failure(ErrorKind::bad_input, name +
+                                             ": expected an outline with clay in it, found "
+                                             "level lines only");
+  return slabs;
+}
+
+/// Where the outline cannot be rings, a floor or rim that is level within the deviation of rings
+/// becomes level: it may rise towards the axis by less than a pencil's line.
+Result<std::vector<Slab>> slabs_within_tolerance(const std::vector<Line>& lines,
+                                                 const std::string& name) {
+  auto slabs = checked_slabs(lines, name);
+  if (slabs) return slabs;
+  std::vector<Line> leveled = lines;
+  level(leveled, kLevelWithinMm);
+  auto again = checked_slabs(leveled, name);
+  return again ? again : slabs;
+}
+
+/// No line begins, ends or runs along the vertical line, as they do at an axis.
+bool only_a_corner_at(const std::vector<Line>& lines, double x_mm) {
+  const auto near = [&](glm::dvec2 p) { return std::abs(p.x - x_mm) <= kSamePointMm; };
+  return !edge_along(lines, x_mm) && std::none_of(lines.begin(), lines.end(), [&](const Line& l) {
+    return !l.closed && (near(l.points_mm.front()) || near(l.points_mm.back()));
+  });
+}
+
+/// Closed outlines with a straight edge at their right end and none at their left: the edge is the
+/// axis, unless the drawing shows both halves.
+bool drawn_left_of_its_edge(const std::vector<Line>& lines) {
+  const Bounds bounds = bounds_of(lines);
+  return std::all_of(lines.begin(), lines.end(), [](const Line& l) { return l.closed; }) &&
+         only_a_corner_at(lines, bounds.low.x) && edge_along(lines, bounds.high.x) &&
+         !nearly_mirrored(lines, 0.5 * (bounds.low.x + bounds.high.x));
+}
+
+/// What may help with a drawing of both halves that is not quite symmetric, if the axis was not
+/// chosen.
+std::string hint_about(const std::vector<Line>& lines, const HalfSection& section, bool chosen) {
+  const Bounds bounds = bounds_of(lines);
+  const double middle = 0.5 * (bounds.low.x + bounds.high.x);
+  if (chosen || section.axis != AxisRule::left || !nearly_mirrored(lines, middle)) return {};
+  return fmt::format(
+      "; the drawing is nearly symmetric about x = {:g} mm: --axis middle uses its right half",
+      middle);
+}
+
+Error with_hint(Error error, const std::string& hint) {
+  error.message += hint;
+  return error;
 }
 
 /// Sets the axis of the section, and removes axis lines from the drawing.
@@ -312,14 +373,31 @@ Result<void> place_axis(HalfSection& section, Drawing& drawing, const HalfSectio
   const auto line = take_axis_lines(drawing.lines, asked, name);
   if (!line) return tl::make_unexpected(line.error());
   if (section.axis == AxisRule::by_itself)
-    section.axis = *line                             ? AxisRule::line
-                   : mirrored(drawing.lines, middle) ? AxisRule::middle
-                                                     : AxisRule::left;
+    section.axis = *line                                   ? AxisRule::line
+                   : mirrored(drawing.lines, middle)       ? AxisRule::middle
+                   : drawn_left_of_its_edge(drawing.lines) ? AxisRule::right
+                                                           : AxisRule::left;
   section.axis_mm = asked                              ? *asked
                     : section.axis == AxisRule::line   ? **line
                     : section.axis == AxisRule::middle ? middle
+                    : section.axis == AxisRule::right  ? bounds.high.x
                                                        : bounds.low.x;
+  if (section.axis == AxisRule::left && settings.axis == AxisRule::by_itself &&
+      only_a_corner_at(drawing.lines, section.axis_mm))
+    section.notes.push_back(fmt::format(
+        "{}: expected a straight edge of the outline along the axis, or a vertical line beside it, "
+        "found only a corner at the left end, x = {:g} mm, which is used as the axis; --axis "
+        "places it",
+        name, section.axis_mm));
   return {};
+}
+
+/// A half section may be drawn on either side of its axis.
+void turn_to_the_right(std::vector<Line>& lines, double axis_mm) {
+  const Bounds bounds = bounds_of(lines);
+  if (!(bounds.high.x <= axis_mm + kSamePointMm) || !(bounds.low.x < axis_mm)) return;
+  for (Line& line : lines)
+    for (glm::dvec2& p : line.points_mm) p.x = 2.0 * axis_mm - p.x;
 }
 
 }  // namespace
@@ -339,6 +417,8 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
   HalfSection section;
   if (auto placed = place_axis(section, drawing, settings, name); !placed)
     return tl::make_unexpected(placed.error());
+  turn_to_the_right(drawing.lines, section.axis_mm);
+  const std::string hint = hint_about(drawing.lines, section, settings.axis != AxisRule::by_itself);
   const Bounds bounds = bounds_of(drawing.lines);
   const double drawn_mm = bounds.high.y - bounds.low.y;
   if (!(drawn_mm > 0.0) || !(bounds.high.x > section.axis_mm))
@@ -351,17 +431,12 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
     for (glm::dvec2& p : line.points_mm)
       p = scale * (p - glm::dvec2{section.axis_mm, bounds.low.y});
   straighten(drawing.lines);
-  if (auto closed = close(drawing.lines, name); !closed) return tl::make_unexpected(closed.error());
-  section.notes = std::move(drawing.notes);
+  if (auto closed = close(drawing.lines, name); !closed)
+    return tl::make_unexpected(with_hint(std::move(closed.error()), hint));
+  section.notes.insert(section.notes.begin(), drawing.notes.begin(), drawing.notes.end());
   note_left_side(drawing.lines, name, section.notes);
-  auto slabs = slabs_of(edges_of(drawing.lines), name);
-  if (!slabs) return tl::make_unexpected(slabs.error());
-  for (const auto& checked : {check_treads(drawing.lines, name), check_contacts(*slabs, name)})
-    if (!checked) return tl::make_unexpected(checked.error());
-  if (slabs->empty())
-    return failure(ErrorKind::bad_input, name +
-                                             ": expected an outline with clay in it, found "
-                                             "level lines only");
+  auto slabs = slabs_within_tolerance(drawing.lines, name);
+  if (!slabs) return tl::make_unexpected(with_hint(std::move(slabs.error()), hint));
   section.slabs = std::move(*slabs);
   section.height_mm = section.slabs.back().to_mm;
   return section;
