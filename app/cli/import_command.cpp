@@ -61,6 +61,14 @@ std::vector<std::string> warnings_about(const ImportOptions& options, const Half
         "{}: expected rings within {:g} mm of the drawing, found {:.3f} mm; rings lower than {:g} "
         "mm are not nearer, as the drawing has lower details",
         options.drawing, kDrawnDeviationMm, drawn.deviation.mm, drawn.pot.stack.ring_height_mm()));
+  constexpr double kClearly = 0.8;
+  const std::optional<double> wall_mm = options.pot_settings.wall_mm;
+  if (drawn.thinnest && drawn.thinnest->mm < kClearly * wall_mm.value_or(0.0))
+    warnings.push_back(fmt::format(
+        "--wall: expected walls of about {:g} mm, found {:.2f} mm across the wall {:.1f} mm above "
+        "the foot: the option measures horizontally, and the wall leans there; draw the inside for "
+        "a wall of even thickness",
+        *wall_mm, drawn.thinnest->mm, drawn.thinnest->height_mm));
   return warnings;
 }
 
@@ -82,6 +90,7 @@ Json summary(const ImportOptions& options, const HalfSection& section, const Dra
           {"volume_mm3", pot.stack.volume_mm3()},
           {"deviation_mm", deviation.mm},
           {"deviation_at_mm", {deviation.radius_mm, deviation.height_mm}},
+          {"thinnest_wall_mm", drawn.thinnest ? Json(drawn.thinnest->mm) : Json()},
           {"warnings", warnings}};
 }
 
@@ -111,6 +120,11 @@ void print_summary(const Console& console, const ImportOptions& options, const H
                             json["drawn_mm3"].get<double>() / 1e3,
                             options.pot_settings.wall_mm ? "if it were solid" : "in the drawing"));
   console.print(text_of(drawn.deviation, "drawing"));
+  if (drawn.thinnest)
+    console.print(
+        fmt::format("thinnest wall: {:.2f} mm, {:.2f} mm from the axis and {:.2f} mm above "
+                    "the foot",
+                    drawn.thinnest->mm, drawn.thinnest->radius_mm, drawn.thinnest->height_mm));
 }
 
 #ifdef CLAYSTACK_EXPORT

@@ -106,6 +106,34 @@ Result<HalfSection> hollowed(const HalfSection& solid, double wall_mm, const std
   return section;
 }
 
+/// The outside and foot of solid slabs, without what is level at the rim.
+std::vector<Segment> below_rim(const std::vector<Slab>& solid, double height_mm) {
+  std::vector<Segment> outline = outline_of(solid);
+  std::erase_if(outline, [&](const Segment& s) { return std::min(s.from.y, s.to.y) >= height_mm; });
+  return outline;
+}
+
+/// Of a hollowed section. Two lines that do not cross are nearest at an end of one of them.
+ThinnestWall thinnest_wall(const HalfSection& section) {
+  std::vector<Slab> solid = section.slabs, bore;
+  for (Slab& slab : solid) {
+    if (slab.inner_from_mm > 0.0 || slab.inner_to_mm > 0.0)
+      bore.push_back({slab.from_mm, slab.to_mm, slab.inner_from_mm, slab.inner_to_mm, 0.0, 0.0});
+    slab.inner_from_mm = slab.inner_to_mm = 0.0;
+  }
+  const auto outside = below_rim(solid, section.height_mm),
+             inside = below_rim(bore, section.height_mm);
+  ThinnestWall thinnest{1e300, 0.0, 0.0};
+  for (const auto& [ends, other] : {std::pair(&inside, &outside), {&outside, &inside}}) {
+    std::vector<glm::dvec2> points;
+    for (const Segment& s : *ends) points.insert(points.end(), {s.from, s.to});
+    const std::vector<double> distances = distances_from(*other, points);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (distances[i] < thinnest.mm) thinnest = {distances[i], points[i].x, points[i].y};
+  }
+  return thinnest;
+}
+
 std::vector<Slab> slabs_of_rings(std::span<const Ring> rings, double ring_mm) {
   std::vector<Slab> slabs;
   slabs.reserve(rings.size());
@@ -187,6 +215,7 @@ Result<DrawnPot> drawn_pot(const HalfSection& drawn, const DrawnPotSettings& set
     return failure(stack.error().kind, fmt::format("{}: {}", name, stack.error().message));
   DrawnPot result;
   result.deviation = made->deviation;
+  if (settings.wall_mm) result.thinnest = thinnest_wall(*section);
   result.pot.density_g_cm3 = settings.density_g_cm3;
   result.pot.ledger.initial = stack->volume();
   result.pot.stack = std::move(*stack);

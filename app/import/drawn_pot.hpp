@@ -25,9 +25,15 @@ struct DrawnPotSettings {
   double deviation_mm = kDrawnDeviationMm;  ///< aimed at
 };
 
+/// The least distance across the wall and floor, and where on the inside.
+struct ThinnestWall {
+  double mm = 0.0, radius_mm = 0.0, height_mm = 0.0;
+};
+
 struct DrawnPot {
   Pot pot;
   Deviation deviation;  ///< of the rings from the drawing; from the hollowed drawing with a wall
+  std::optional<ThinnestWall> thinnest;  ///< of the hollowed drawing
 };
 
 /// The clay of a stack as slabs of constant radii.
