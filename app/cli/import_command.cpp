@@ -52,7 +52,7 @@ Result<void> set_axis(ImportOptions& options) {
   return {};
 }
 
-/// Each with the file that it is about.
+/// Each with the file or option that it is about; the notes of the section first.
 std::vector<std::string> warnings_about(const ImportOptions& options, const HalfSection& section,
                                         const DrawnPot& drawn) {
   std::vector<std::string> warnings = section.notes;
@@ -149,13 +149,14 @@ Result<void> import_drawing(const ImportOptions& options, const Console& console
   if (!drawing) return tl::make_unexpected(drawing.error());
   const auto section = half_section(std::move(*drawing), options.section, options.drawing);
   if (!section) return tl::make_unexpected(section.error());
+  for (const std::string& note : section->notes) console.warn(note);
   progress.stage("making rings");
   const auto pot = drawn_pot(*section, options.pot_settings, options.drawing);
   if (!pot) return tl::make_unexpected(pot.error());
   const PotEncoding encoding = pot_encoding_of(options.pot).value_or(PotEncoding::json);
   if (auto done = publish(options.pot, write_pot(pot->pot, encoding)); !done) return done;
   const auto warnings = warnings_about(options, *section, *pot);
-  for (const std::string& warning : warnings) console.warn(warning);
+  for (std::size_t i = section->notes.size(); i < warnings.size(); ++i) console.warn(warnings[i]);
   const Json json = summary(options, *section, *pot, warnings);
   if (console.json) print_json(json);
   print_summary(console, options, *section, *pot, json);
@@ -179,7 +180,8 @@ void add_drawing_options(CLI::App* command, ImportOptions& options) {
   command->add_option(
       "--axis", options.axis,
       "Axis of the pot in the drawing: left, middle, or its x position [mm]; default: "
-      "a separate vertical line, the middle of a symmetric drawing, or its left end");
+      "a separate vertical line, the middle of a symmetric drawing, a straight edge at its "
+      "right end alone, or its left end");
   command->add_option("--layer", options.layer,
                       "The only layer of an SVG or DXF drawing to read, by its name (default: all "
                       "that are shown)");

@@ -42,8 +42,8 @@ struct MeshPotSettings {
 /// Fits the axis, revolves the mean of the section over all azimuths that agree with the middle
 /// one, and makes rings of it. The end with the opening is up. If no rings fit the section, its
 /// points are noisy: then faces that are level within the noise become level, and rings aim at
-/// twice the noise. Refuses meshes of which more than half of the azimuths are not of revolution,
-/// and everything that drawn_pot refuses.
+/// twice the noise if that is more than kDrawnDeviationMm. Refuses meshes of which more than half
+/// of the azimuths are not of revolution, and everything that drawn_pot refuses.
 Result<MeshPot> mesh_pot(solid::TriangleMesh mesh, const MeshPotSettings& settings,
                          const std::string& name);
 
