@@ -19,7 +19,9 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace clay::cli {
 namespace {
@@ -50,22 +52,46 @@ Result<void> set_axis(ImportOptions& options) {
   return {};
 }
 
-Json summary(const ImportOptions& options, const HalfSection& section, const DrawnPot& drawn) {
+/// Each with the file or option that it is about; the notes of the section first.
+std::vector<std::string> warnings_about(const ImportOptions& options, const HalfSection& section,
+                                        const DrawnPot& drawn) {
+  std::vector<std::string> warnings = section.notes;
+  if (!options.pot_settings.ring_height_mm && drawn.deviation.mm > kDrawnDeviationMm)
+    warnings.push_back(fmt::format(
+        "{}: expected rings within {:g} mm of the drawing, found {:.3f} mm; rings lower than {:g} "
+        "mm are not nearer, as the drawing has lower details",
+        options.drawing, kDrawnDeviationMm, drawn.deviation.mm, drawn.pot.stack.ring_height_mm()));
+  constexpr double kClearly = 0.8;
+  const std::optional<double> wall_mm = options.pot_settings.wall_mm;
+  if (drawn.thinnest && drawn.thinnest->mm < kClearly * wall_mm.value_or(0.0))
+    warnings.push_back(fmt::format(
+        "--wall: expected walls of about {:g} mm, found {:.2f} mm across the wall {:.1f} mm above "
+        "the foot: the option measures horizontally, and the wall leans there; draw the inside for "
+        "a wall of even thickness",
+        *wall_mm, drawn.thinnest->mm, drawn.thinnest->height_mm));
+  return warnings;
+}
+
+Json summary(const ImportOptions& options, const HalfSection& section, const DrawnPot& drawn,
+             const std::vector<std::string>& warnings) {
   const Pot& pot = drawn.pot;
   const Deviation& deviation = drawn.deviation;
   return {{"drawing", options.drawing},
           {"axis_mm", section.axis_mm},
-          {"axis", section.axis == AxisRule::middle ? "middle"
-                   : section.axis == AxisRule::left ? "left"
-                   : section.axis == AxisRule::line ? "line"
-                                                    : "at"},
+          {"axis", section.axis == AxisRule::middle  ? "middle"
+                   : section.axis == AxisRule::left  ? "left"
+                   : section.axis == AxisRule::right ? "right"
+                   : section.axis == AxisRule::line  ? "line"
+                                                     : "at"},
           {"rings", pot.stack.size()},
           {"ring_height_mm", pot.stack.ring_height_mm()},
           {"height_mm", pot.stack.height_mm()},
           {"drawn_mm3", section.volume_mm3()},
           {"volume_mm3", pot.stack.volume_mm3()},
           {"deviation_mm", deviation.mm},
-          {"deviation_at_mm", {deviation.radius_mm, deviation.height_mm}}};
+          {"deviation_at_mm", {deviation.radius_mm, deviation.height_mm}},
+          {"thinnest_wall_mm", drawn.thinnest ? Json(drawn.thinnest->mm) : Json()},
+          {"warnings", warnings}};
 }
 
 const char* axis_source(const ImportOptions& options, const HalfSection& section) {
@@ -74,6 +100,8 @@ const char* axis_source(const ImportOptions& options, const HalfSection& section
       return "the middle of the drawing";
     case AxisRule::left:
       return "its left end";
+    case AxisRule::right:
+      return "the straight edge at its right end";
     case AxisRule::line:
       return "its vertical line";
     default:
@@ -92,6 +120,11 @@ void print_summary(const Console& console, const ImportOptions& options, const H
                             json["drawn_mm3"].get<double>() / 1e3,
                             options.pot_settings.wall_mm ? "if it were solid" : "in the drawing"));
   console.print(text_of(drawn.deviation, "drawing"));
+  if (drawn.thinnest)
+    console.print(
+        fmt::format("thinnest wall: {:.2f} mm, {:.2f} mm from the axis and {:.2f} mm above "
+                    "the foot",
+                    drawn.thinnest->mm, drawn.thinnest->radius_mm, drawn.thinnest->height_mm));
 }
 
 #ifdef CLAYSTACK_EXPORT
@@ -122,14 +155,11 @@ Result<void> import_drawing(const ImportOptions& options, const Console& console
   if (!pot) return tl::make_unexpected(pot.error());
   const PotEncoding encoding = pot_encoding_of(options.pot).value_or(PotEncoding::json);
   if (auto done = publish(options.pot, write_pot(pot->pot, encoding)); !done) return done;
-  const Json json = summary(options, *section, *pot);
+  const auto warnings = warnings_about(options, *section, *pot);
+  for (std::size_t i = section->notes.size(); i < warnings.size(); ++i) console.warn(warnings[i]);
+  const Json json = summary(options, *section, *pot, warnings);
   if (console.json) print_json(json);
   print_summary(console, options, *section, *pot, json);
-  if (!options.pot_settings.ring_height_mm && pot->deviation.mm > kDrawnDeviationMm)
-    console.warn(
-        fmt::format("{}: the rings deviate from the drawing by {:.3f} mm, although they are "
-                    "{:g} mm high",
-                    options.drawing, pot->deviation.mm, pot->pot.stack.ring_height_mm()));
   console.print("pot: " + options.pot);
   return {};
 }
@@ -150,7 +180,8 @@ void add_drawing_options(CLI::App* command, ImportOptions& options) {
   command->add_option(
       "--axis", options.axis,
       "Axis of the pot in the drawing: left, middle, or its x position [mm]; default: "
-      "a separate vertical line, the middle of a symmetric drawing, or its left end");
+      "a separate vertical line, the middle of a symmetric drawing, a straight edge at its "
+      "right end alone, or its left end");
   command->add_option("--layer", options.layer,
                       "The only layer of an SVG or DXF drawing to read, by its name (default: all "
                       "that are shown)");

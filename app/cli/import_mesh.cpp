@@ -56,9 +56,26 @@ std::vector<std::string> warnings_about(const solid::MeshEnclosure& found) {
   return warnings;
 }
 
+/// Of the noise of the mesh, and of rings that are farther from the section than they were to be.
+std::vector<std::string> warnings_about(const MeshPot& made, bool rings_asked) {
+  std::vector<std::string> warnings;
+  if (made.noise_mm > 0.0)
+    warnings.push_back(fmt::format(
+        "expected points on a surface of revolution, found noise of about {:.3f} mm (standard "
+        "deviation): faces that rise by less are made level, and the rings aim at {:.3f} mm",
+        made.noise_mm, made.aimed_mm));
+  if (!rings_asked && made.off_mm > made.aimed_mm)
+    warnings.push_back(
+        fmt::format("expected rings within {:.3f} mm of the section, found {:.3f} mm; rings of "
+                    "{:.4g} mm are not nearer if they are lower: smooth the mesh, or choose with "
+                    "--ring-height",
+                    made.aimed_mm, made.off_mm, made.pot.stack.ring_height_mm()));
+  return warnings;
+}
+
 Json summary(const std::string& name, const solid::TriangleMesh& mesh,
              const std::optional<double>& mesh_mm3, const MeshPot& made,
-             const std::vector<std::string>& notes) {
+             const std::vector<std::string>& notes, const std::vector<std::string>& warnings) {
   Json parts = Json::array();
   for (const MeshPart& part : made.parts)
     parts.push_back({{"azimuth_deg", {part.from_deg, part.to_deg}},
@@ -77,7 +94,9 @@ Json summary(const std::string& name, const solid::TriangleMesh& mesh,
           {"deviation_mm", made.deviation.mm},
           {"deviation_at_mm", {made.deviation.radius_mm, made.deviation.height_mm}},
           {"not_of_revolution", std::move(parts)},
-          {"notes", notes}};
+          {"noise_mm", made.noise_mm},
+          {"notes", notes},
+          {"warnings", warnings}};
 }
 
 /// Without the sign of a negative zero.
@@ -110,6 +129,23 @@ void print_summary(const Console& console, const MeshPot& made,
         part.high_mm, part.off_mm));
 }
 
+/// Each with the file or option that it is about.
+std::vector<std::string> all_warnings(const std::string& path, const MeshPotSettings& settings,
+                                      const MeshPot& made, const solid::MeshEnclosure& enclosure,
+                                      const std::optional<std::string>& doubt) {
+  std::vector<std::string> warnings;
+  for (const auto& found :
+       {warnings_about(enclosure), warnings_about(made, settings.rings.ring_height_mm.has_value())})
+    for (const std::string& warning : found) warnings.push_back(path + ": " + warning);
+  constexpr double kUsualPotMm = 10.0;
+  if (settings.height_mm && *settings.height_mm < kUsualPotMm)
+    warnings.push_back(
+        fmt::format("--height: the pot is only {:.3g} mm high", *settings.height_mm));
+  else if (doubt && !settings.height_mm)
+    warnings.push_back(path + ": " + *doubt + kScaleHint);
+  return warnings;
+}
+
 }  // namespace
 
 Result<void> import_mesh(const std::string& path, const std::string& pot,
@@ -138,15 +174,11 @@ Result<void> import_mesh(const std::string& path, const std::string& pot,
   if (auto done = publish(pot, write_pot(made->pot, encoding)); !done) return done;
   std::optional<double> mesh_mm3 = enclosure.volume_mm3;
   if (mesh_mm3) mesh_mm3 = std::abs(*mesh_mm3) * std::pow(made->scale, 3);
-  if (console.json) print_json(summary(path, *mesh, mesh_mm3, *made, notes));
+  const auto warnings = all_warnings(path, settings, *made, enclosure, doubt);
+  if (console.json) print_json(summary(path, *mesh, mesh_mm3, *made, notes, warnings));
   print_summary(console, *made, mesh_mm3);
   for (const std::string& note : notes) console.print("note: " + note);
-  for (const std::string& warning : warnings_about(enclosure)) console.warn(path + ": " + warning);
-  constexpr double kUsualPotMm = 10.0;
-  if (settings.height_mm && *settings.height_mm < kUsualPotMm)
-    console.warn(fmt::format("--height: the pot is only {:.3g} mm high", *settings.height_mm));
-  else if (doubt && !settings.height_mm)
-    console.warn(path + ": " + *doubt + kScaleHint);
+  for (const std::string& warning : warnings) console.warn(warning);
   console.print("pot: " + pot);
   return {};
 }

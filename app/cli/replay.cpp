@@ -112,6 +112,20 @@ Result<Start> load_start(const std::string& scene_path, const std::string& pot_p
   return start;
 }
 
+namespace {
+
+/// An import chooses the height of its rings, and may make fewer than the scene permits.
+std::string ring_hint(const Start& start) {
+  const std::size_t most = start.scene.lump.max_rings;
+  if (!start.pot || most == 0 || start.pot->stack.size() <= most) return {};
+  // An import makes up to twice as many rings as the height needs, to meet the level lines.
+  const double ring_mm = 2.0 * start.pot->stack.height_mm() / static_cast<double>(most);
+  return fmt::format("; if the pot was imported, import --ring-height {:.2f} makes fewer rings",
+                     0.01 * std::ceil(100.0 * ring_mm));
+}
+
+}  // namespace
+
 Result<Wheel> build_wheel(const Start& start) {
   constexpr std::uint64_t kBytesPerRing = 50;  // measured; space for all rings is reserved
   const std::size_t rings = max_rings_of(start.scene.lump);
@@ -124,7 +138,7 @@ Result<Wheel> build_wheel(const Start& start) {
       .map_error([&](const Error& error) {
         std::string files = start.scene_path;
         if (start.pot) files.append(files.empty() ? "" : " on ").append(start.pot_path);
-        return Error{error.kind, files + ": " + error.message};
+        return Error{error.kind, files + ": " + error.message + ring_hint(start)};
       });
 }
 

@@ -120,14 +120,17 @@ void warn_of_oddities(const Console& console, const Session& session, const Scen
 Result<void> check_gaps(const Session& session, const SceneSpec& scene,
                         const ThrowOptions& options) {
   if (scene.tool.gap_mm) return {};
-  for (const Pose& pose : session.poses)
-    if (pose.gap_mm > 0.0)
-      return failure(
-          ErrorKind::bad_input,
-          fmt::format("{}: expected one tool throughout, as the scene sets no "
-                      "tool.gap_mm, found a gap of {:.6g} mm at {:.3f} s",
-                      options.session, pose.gap_mm, 1e-6 * static_cast<double>(pose.time_us)));
-  return {};
+  const auto pose = std::find_if(session.poses.begin(), session.poses.end(),
+                                 [](const Pose& p) { return p.gap_mm > 0.0; });
+  if (pose == session.poses.end()) return {};
+  const bool of_pot = options.scene.empty();
+  return failure(
+      ErrorKind::bad_input,
+      fmt::format("{}: expected one tool throughout, as {} no tool.gap_mm, found a gap of {:.6g} "
+                  "mm at {:.3f} s{}",
+                  options.session, of_pot ? "the pot " + options.from + " holds" : "the scene sets",
+                  pose->gap_mm, 1e-6 * static_cast<double>(pose->time_us),
+                  of_pot ? "; name the scene of the session before --from" : ""));
 }
 
 ReplayStats play(Wheel& wheel, const Session& session, TraceWriter* trace, const Console& console) {

@@ -23,8 +23,11 @@ constexpr std::array<std::pair<std::string_view, double>, 8> kUnits = {{{"mm", 1
                                                                         {"millimetres", 1.0},
                                                                         {"centimetres", 10.0}}};
 constexpr std::array<std::string_view, 4> kRadii = {"radius", "r", "rho", "x"};
-constexpr std::array<std::string_view, 2> kDiameters = {"diameter", "d"};
-constexpr std::array<std::string_view, 4> kHeights = {"height", "h", "y", "z"};
+constexpr std::array<std::string_view, 3> kDiameters = {"diameter", "d", "durchmesser"};
+constexpr std::array<std::string_view, 7> kHeights = {"height", "h",    "y",    "z",
+                                                      "höhe",   "hÖhe", "hoehe"};
+constexpr std::array<std::string_view, 4> kOuter = {"outer", "outside", "außen", "aussen"};
+constexpr std::array<std::string_view, 3> kInner = {"inner", "inside", "innen"};
 
 template <std::size_t N>
 bool among(const std::array<std::string_view, N>& names, std::string_view name) {
@@ -43,6 +46,47 @@ std::vector<std::string> words_in(std::string_view text) {
     open = part;
   }
   return words;
+}
+
+enum class Kind { other, radius, inner, height };
+
+struct NamedColumn {
+  Kind kind = Kind::other;
+  CsvColumn column;
+  bool unit_known = true;
+};
+
+/// What the name of the `index`-th column states.
+NamedColumn column_of(std::string_view name, std::size_t index) {
+  const std::vector<std::string> words = words_in(name);
+  NamedColumn result{Kind::other, {index, 1.0}, true};
+  if (words.empty()) return result;
+  const bool within = among(kInner, words.front());
+  const std::size_t noun = within || among(kOuter, words.front()) ? 1 : 0;
+  if (noun >= words.size()) return result;
+  const bool diameter = among(kDiameters, words[noun]);
+  if (diameter || among(kRadii, words[noun]))
+    result.kind = within ? Kind::inner : Kind::radius;
+  else if (noun == 0 && among(kHeights, words[noun]))
+    result.kind = Kind::height;
+  if (result.kind == Kind::other || noun + 1 == words.size()) {
+    if (diameter) result.column.mm = 0.5;
+    return result;
+  }
+  const auto* const unit = std::find_if(kUnits.begin(), kUnits.end(), [&](const auto& known) {
+    return known.first == words[noun + 1];
+  });
+  result.unit_known = unit != kUnits.end() && noun + 2 == words.size();
+  if (result.unit_known) result.column.mm = (diameter ? 0.5 : 1.0) * unit->second;
+  return result;
+}
+
+/// The file that `export NAME.csv` writes.
+bool wall_table(const std::vector<std::string>& names) {
+  const auto has = [&](std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  return has("thickness_mm") && has("opposite_rho_mm");
 }
 
 }  // namespace
@@ -69,32 +113,30 @@ std::vector<std::string> csv_fields(std::string_view row) {
 }
 
 Result<CsvColumns> csv_columns(const std::vector<std::string>& names) {
-  std::optional<CsvColumn> radius, height;
+  std::optional<CsvColumn> radius, inner, height;
   const auto refused = [&](std::string_view problem) {
     return failure(ErrorKind::bad_input,
                    fmt::format("expected columns named radius and height, with a unit mm, cm, m or "
                                "in, such as radius_mm, found \"{}\"{}",
                                fmt::join(names, ", "), problem));
   };
+  if (wall_table(names))
+    return refused(
+        ": the walls of a pot, as export writes them, which are no outline; import "
+        "reads the drawing that export writes, .svg or .dxf, with --layer section");
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::vector<std::string> words = words_in(names[i]);
-    if (words.empty()) continue;
-    const bool diameter = among(kDiameters, words.front());
-    const bool wide = diameter || among(kRadii, words.front());
-    if (!wide && !among(kHeights, words.front())) continue;
-    CsvColumn column{i, diameter ? 0.5 : 1.0};
-    for (std::size_t k = 1; k < words.size(); ++k) {
-      const auto* const unit = std::find_if(
-          kUnits.begin(), kUnits.end(), [&](const auto& known) { return known.first == words[k]; });
-      if (unit == kUnits.end() || k > 1) return refused(" with another word than a unit");
-      column.mm *= unit->second;
-    }
-    std::optional<CsvColumn>& target = wide ? radius : height;
-    if (target) return refused(wide ? ", two of them radii" : ", two of them heights");
-    target = column;
+    const NamedColumn named = column_of(names[i], i);
+    if (named.kind == Kind::other) continue;
+    if (!named.unit_known) return refused(" with another word than a unit");
+    std::optional<CsvColumn>& target = named.kind == Kind::height  ? height
+                                       : named.kind == Kind::inner ? inner
+                                                                   : radius;
+    if (target)
+      return refused(named.kind == Kind::height ? ", two of them heights" : ", two of them radii");
+    target = named.column;
   }
   if (!radius || !height) return refused("");
-  return CsvColumns{*radius, *height, names.size()};
+  return CsvColumns{*radius, *height, inner, names.size()};
 }
 
 }  // namespace clay::importing

@@ -4,6 +4,7 @@
 #include "claystack/core/result.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,7 @@ struct CsvColumn {
 
 struct CsvColumns {
   CsvColumn radius{0, 1.0}, height{1, 1.0};
+  std::optional<CsvColumn> inner{};  ///< radius of the bore
   std::size_t count = 2;
 };
 
@@ -24,10 +26,11 @@ struct CsvColumns {
 /// the first of these that occurs.
 [[nodiscard]] std::vector<std::string> csv_fields(std::string_view row);
 
-/// Columns by their names: radius, r, rho, x or diameter, d; height, h, y or z; each with a unit
-/// mm, cm, m or in after _ or a blank or in brackets, by default mm. Other columns are ignored.
-/// Refuses names of which not exactly one is a radius and one a height. The error is without a
-/// place.
+/// Columns by their names: radius, r, rho, x or diameter, d, durchmesser; height, h, y, z or höhe;
+/// each with a unit mm, cm, m or in after _ or a blank or in brackets, by default mm. A radius or
+/// diameter may be called outer or inner; an inner one needs an outer one. Other columns are
+/// ignored. Refuses names of which not exactly one is a radius and one a height, and the table of
+/// walls that `export` writes, which is no outline. The error is without a place.
 Result<CsvColumns> csv_columns(const std::vector<std::string>& names);
 
 }  // namespace clay::importing

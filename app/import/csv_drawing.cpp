@@ -7,7 +7,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace clay::importing {
 namespace {
@@ -49,20 +52,49 @@ class Table {
       return refusal(number, fmt::format("expected a radius and a height in mm, or the columns of "
                                          "the first row, found \"{}\"",
                                          text.substr(0, 40)));
-    if (*radius < 0.0)
-      return refusal(number, fmt::format("expected a radius of 0 mm or more, found {:g}", *radius));
-    const glm::dvec2 point{*radius, *height};
-    if (const std::string problem = limits_.problem_with({&point, 1}); !problem.empty())
-      return refusal(number, problem);
-    if (!open_) drawing_.lines.emplace_back();
+    const auto inner = columns_.inner ? value(fields, *columns_.inner) : std::nullopt;
+    if (columns_.inner && !inner)
+      return refusal(number, fmt::format("expected an inner radius, found \"{}\"",
+                                         fields[columns_.inner->index].substr(0, 40)));
+    const std::string problem = add(*radius, inner, *height);
+    return problem.empty() ? Result<void>() : refusal(number, problem);
+  }
+
+  Drawing take() {
+    close_bore();
+    return std::move(drawing_);
+  }
+
+ private:
+  /// Continues the line; returns what is wrong with the point.
+  std::string add(double radius, std::optional<double> inner, double height) {
+    if (const double least = std::min(radius, inner.value_or(radius)); least < 0.0)
+      return fmt::format("expected a radius of 0 mm or more, found {:g}", least);
+    if (inner && !(*inner <= radius))
+      return fmt::format("expected an inner radius up to the outer one of {:g} mm, found {:g}",
+                         radius, *inner);
+    const std::array<glm::dvec2, 2> points{{{radius, height}, {inner.value_or(0.0), height}}};
+    const std::span<const glm::dvec2> used(points.data(), inner ? 2 : 1);
+    if (std::string problem = limits_.problem_with(used); !problem.empty()) return problem;
+    if (!open_) {
+      close_bore();
+      drawing_.lines.emplace_back();
+    }
     open_ = true;
-    drawing_.lines.back().points_mm.push_back(point);
+    drawing_.lines.back().points_mm.push_back(points[0]);
+    if (inner) bore_.push_back(points[1]);
     return {};
   }
 
-  Drawing take() { return std::move(drawing_); }
+  /// The last outline goes back along its inner radii.
+  void close_bore() {
+    if (bore_.empty()) return;
+    Line& line = drawing_.lines.back();
+    line.points_mm.insert(line.points_mm.end(), bore_.rbegin(), bore_.rend());
+    line.closed = true;
+    bore_.clear();
+  }
 
- private:
   static std::optional<double> value(const std::vector<std::string>& fields,
                                      const CsvColumn& column) {
     if (column.index >= fields.size()) return std::nullopt;
@@ -78,8 +110,9 @@ class Table {
   Drawing drawing_{{}, true};
   PointLimits limits_;
   CsvColumns columns_;
-  bool began_ = false;  ///< a row of names or numbers has been read
-  bool open_ = false;   ///< the last line may continue
+  std::vector<glm::dvec2> bore_;  ///< of the last line
+  bool began_ = false;            ///< a row of names or numbers has been read
+  bool open_ = false;             ///< the last line may continue
 };
 
 }  // namespace

@@ -106,6 +106,34 @@ Result<HalfSection> hollowed(const HalfSection& solid, double wall_mm, const std
   return section;
 }
 
+/// The outside and foot of solid slabs, without what is level at the rim.
+std::vector<Segment> below_rim(const std::vector<Slab>& solid, double height_mm) {
+  std::vector<Segment> outline = outline_of(solid);
+  std::erase_if(outline, [&](const Segment& s) { return std::min(s.from.y, s.to.y) >= height_mm; });
+  return outline;
+}
+
+/// Of a hollowed section. Two lines that do not cross are nearest at an end of one of them.
+ThinnestWall thinnest_wall(const HalfSection& section) {
+  std::vector<Slab> solid = section.slabs, bore;
+  for (Slab& slab : solid) {
+    if (slab.inner_from_mm > 0.0 || slab.inner_to_mm > 0.0)
+      bore.push_back({slab.from_mm, slab.to_mm, slab.inner_from_mm, slab.inner_to_mm, 0.0, 0.0});
+    slab.inner_from_mm = slab.inner_to_mm = 0.0;
+  }
+  const auto outside = below_rim(solid, section.height_mm),
+             inside = below_rim(bore, section.height_mm);
+  ThinnestWall thinnest{1e300, 0.0, 0.0};
+  for (const auto& [ends, other] : {std::pair(&inside, &outside), {&outside, &inside}}) {
+    std::vector<glm::dvec2> points;
+    for (const Segment& s : *ends) points.insert(points.end(), {s.from, s.to});
+    const std::vector<double> distances = distances_from(*other, points);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (distances[i] < thinnest.mm) thinnest = {distances[i], points[i].x, points[i].y};
+  }
+  return thinnest;
+}
+
 std::vector<Slab> slabs_of_rings(std::span<const Ring> rings, double ring_mm) {
   std::vector<Slab> slabs;
   slabs.reserve(rings.size());
@@ -142,6 +170,30 @@ Result<DrawnRings> drawn_rings(const HalfSection& section, const std::vector<dou
   return DrawnRings{std::move(*rings), ring_mm, deviation};
 }
 
+/// Rings that are low enough for the deviation, or the highest that deviate by little more than
+/// the best if none is.
+Result<DrawnRings> fitted_rings(const HalfSection& section, const std::vector<double>& levels,
+                                double deviation_mm, const std::string& name) {
+  constexpr double kMostByItself = 30'000.0, kLowestMm = 1e-3, kLower = 0.9;
+  const double lowest_mm = std::max(kLowestMm, section.height_mm / kMostByItself);
+  double ring_mm = std::max(kHighestRingMm, lowest_mm);
+  auto made = drawn_rings(section, levels, ring_mm, name);
+  if (!made) return made;
+  DrawnRings best = *made;
+  // The deviation of steps is proportional to their height.
+  while (ring_mm > lowest_mm && made->deviation.mm > deviation_mm - kDeviationStepMm) {
+    const double before_mm = made->deviation.mm;
+    const double part = 0.9 * deviation_mm / before_mm;
+    ring_mm = std::max(lowest_mm, made->ring_mm * std::clamp(part, 0.1, 0.9));
+    made = drawn_rings(section, levels, ring_mm, name);
+    if (!made) return made;
+    if (made->deviation.mm < kLower * best.deviation.mm) best = *made;
+    if (ring_mm < kFineRingMm && made->deviation.mm > kLower * before_mm) break;
+  }
+  if (made->deviation.mm <= deviation_mm) return made;
+  return best;
+}
+
 }  // namespace
 
 std::vector<Slab> slabs_of(const ClayStack& stack) {
@@ -150,27 +202,20 @@ std::vector<Slab> slabs_of(const ClayStack& stack) {
 
 Result<DrawnPot> drawn_pot(const HalfSection& drawn, const DrawnPotSettings& settings,
                            const std::string& name) {
-  constexpr double kMostByItself = 30'000.0, kLowestMm = 1e-3;
   const auto section =
       settings.wall_mm ? hollowed(drawn, *settings.wall_mm, name) : Result<HalfSection>(drawn);
   if (!section) return tl::make_unexpected(section.error());
   const std::vector<double> levels = drawn_levels(*section);
-  const double lowest_mm = std::max(kLowestMm, section->height_mm / kMostByItself);
-  double ring_mm = settings.ring_height_mm.value_or(std::max(kHighestRingMm, lowest_mm));
-  auto made = drawn_rings(*section, levels, ring_mm, name);
-  // The deviation of steps is proportional to their height.
-  while (made && !settings.ring_height_mm && ring_mm > lowest_mm &&
-         made->deviation.mm > kDrawnDeviationMm - kDeviationStepMm) {
-    const double part = 0.9 * kDrawnDeviationMm / made->deviation.mm;
-    ring_mm = std::max(lowest_mm, made->ring_mm * std::clamp(part, 0.1, 0.9));
-    made = drawn_rings(*section, levels, ring_mm, name);
-  }
+  auto made = settings.ring_height_mm
+                  ? drawn_rings(*section, levels, *settings.ring_height_mm, name)
+                  : fitted_rings(*section, levels, settings.deviation_mm, name);
   if (!made) return tl::make_unexpected(made.error());
   auto stack = ClayStack::from_rings(made->ring_mm, std::move(made->rings), 0);
   if (!stack)
     return failure(stack.error().kind, fmt::format("{}: {}", name, stack.error().message));
   DrawnPot result;
   result.deviation = made->deviation;
+  if (settings.wall_mm) result.thinnest = thinnest_wall(*section);
   result.pot.density_g_cm3 = settings.density_g_cm3;
   result.pot.ledger.initial = stack->volume();
   result.pot.stack = std::move(*stack);

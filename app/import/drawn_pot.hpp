@@ -10,20 +10,30 @@
 
 namespace clay::importing {
 
+inline constexpr double kDrawnDeviationMm = 0.02;
+inline constexpr double kHighestRingMm = 0.75;
+/// Steps of rings this low are within kDrawnDeviationMm of any smooth outline: where they are not,
+/// the outline has details that are lower still, or noise.
+inline constexpr double kFineRingMm = 0.02;
+
 struct DrawnPotSettings {
-  /// At most; empty: as low as kDrawnDeviationMm needs, up to kHighestRingMm.
+  /// At most; empty: as low as `deviation_mm` needs, up to kHighestRingMm.
   std::optional<double> ring_height_mm;
   std::optional<double> wall_mm;  ///< hollows a solid drawing: radial wall thickness, and floor
                                   ///< height
   double density_g_cm3 = 1.9;
+  double deviation_mm = kDrawnDeviationMm;  ///< aimed at
 };
 
-inline constexpr double kDrawnDeviationMm = 0.02;
-inline constexpr double kHighestRingMm = 0.75;
+/// The least distance across the wall and floor, and where on the inside.
+struct ThinnestWall {
+  double mm = 0.0, radius_mm = 0.0, height_mm = 0.0;
+};
 
 struct DrawnPot {
   Pot pot;
   Deviation deviation;  ///< of the rings from the drawing; from the hollowed drawing with a wall
+  std::optional<ThinnestWall> thinnest;  ///< of the hollowed drawing
 };
 
 /// The clay of a stack as slabs of constant radii.
@@ -33,8 +43,10 @@ struct DrawnPot {
 /// move to them by less than half a ring where they do not. Each ring's R^2 and r^2 are the means
 /// of the drawing's over the ring's height, so every ring holds the clay drawn there, to the
 /// nearest quantum. The ledger begins with it. Without a ring height, rings become lower until none
-/// deviates by more than kDrawnDeviationMm, or there are 30,000. Refuses walls that do not fit,
-/// more than 2^24 rings, and everything that ClayStack refuses.
+/// deviates by more than `deviation_mm`, or there are 30,000. Below kFineRingMm they do so only as
+/// long as that lowers the deviation; if it does not, the highest rings are used that deviate by
+/// little more than the best. Refuses walls that do not fit, more than 2^24 rings, and everything
+/// that ClayStack refuses.
 Result<DrawnPot> drawn_pot(const HalfSection& section, const DrawnPotSettings& settings,
                            const std::string& name);
 

@@ -1,13 +1,15 @@
 #include "app/import/half_section.hpp"
 
+#include "app/import/drawn_axis.hpp"
 #include "app/import/joined_lines.hpp"
+#include "app/import/level_lines.hpp"
+#include "app/import/outline_faults.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <glm/common.hpp>
 #include <numbers>
 #include <tuple>
 #include <utility>
@@ -18,86 +20,27 @@ namespace {
 /// A straight segment of the outline that rises from `low` to `high`.
 struct Edge {
   glm::dvec2 low, high;
+  std::size_t line = 0;  ///< the outline that it is part of
   [[nodiscard]] double radius_at(double y) const {
     return low.x + (high.x - low.x) * ((y - low.y) / (high.y - low.y));
   }
 };
 
-struct Bounds {
-  glm::dvec2 low{1e300}, high{-1e300};
-};
-
-Bounds bounds_of(const std::vector<Line>& lines) {
-  Bounds bounds;
-  for (const Line& line : lines) {
-    for (const glm::dvec2& p : line.points_mm) {
-      bounds.low = glm::min(bounds.low, p);
-      bounds.high = glm::max(bounds.high, p);
-    }
-  }
-  return bounds;
-}
-
-/// Whether every corner has a mirror image among the corners, in its cell or a neighbouring one: a
-/// drawing of both halves.
-bool mirrored(const std::vector<Line>& lines, double middle) {
-  std::vector<Cell> cells, images;
-  for (const Line& line : lines) {
-    for (const glm::dvec2& p : line.points_mm) {
-      cells.push_back(cell_of(p));
-      images.push_back(cell_of({2.0 * middle - p.x, p.y}));
-    }
-  }
-  std::sort(cells.begin(), cells.end());
-  return std::all_of(images.begin(), images.end(), [&](const Cell& image) {
-    for (const std::int64_t beside : {0, -1, 1}) {
-      const Cell lowest{image.first + beside, image.second - 1};
-      const auto near = std::lower_bound(cells.begin(), cells.end(), lowest);
-      if (near != cells.end() && near->first == lowest.first && near->second <= image.second + 1)
-        return true;
-    }
-    return false;
-  });
-}
-
-/// A straight vertical line.
-std::optional<double> upright(const Line& line) {
-  if (line.closed) return std::nullopt;
-  const glm::dvec2 first = line.points_mm.front();
-  for (const glm::dvec2& p : line.points_mm)
-    if (std::abs(p.x - first.x) > kSamePointMm) return std::nullopt;
-  return first.x;
-}
-
-/// Removes axis lines, which are straight, vertical, and connected to no other line, and returns
-/// where they are. `asked`: the axis, if it is given.
-Result<std::optional<double>> take_axis_lines(std::vector<Line>& lines, std::optional<double> asked,
-                                              const std::string& name) {
-  std::vector<double> found;
-  for (const Line& line : lines)
-    if (const auto x = upright(line)) found.push_back(*x);
-  if (found.empty() || lines.size() == 1) return std::nullopt;
-  std::sort(found.begin(), found.end());
-  // Among upright lines alone, the others are outlines.
-  if (found.size() == lines.size()) found.resize(1);
-  if (!asked && std::abs(found.front() - found.back()) > kSamePointMm)
+/// Of several lines, one ends at two places off the axis.
+tl::unexpected<Error> open_line(const Line& line, const std::vector<Line>& lines,
+                                const std::string& name) {
+  const auto place = [](glm::dvec2 p) { return fmt::format("({:.3f}, {:.3f})", p.x, p.y); };
+  const std::string expected = name + ": expected closed outlines, or a single open one, found ";
+  const char* const unit = "mm from axis and foot";
+  if (const auto gap = narrowest_gap(lines))
     return failure(
         ErrorKind::bad_input,
-        fmt::format("{}: expected one axis line, found unconnected vertical lines at x = "
-                    "{:g} and {:g} mm; --axis chooses the axis, --layer one layer of a drawing",
-                    name, found.front(), found.back()));
-  const double axis = asked.value_or(found.front());
-  std::erase_if(lines, [&](const Line& line) {
-    const auto x = upright(line);
-    return x && std::abs(*x - axis) <= kSamePointMm;
-  });
-  return axis;
-}
-
-std::string ends_of(const Line& line) {
-  const glm::dvec2 a = line.points_mm.front(), b = line.points_mm.back();
-  return fmt::format("({:.3f}, {:.3f}) and ({:.3f}, {:.3f}) mm from foot and axis", a.x, a.y, b.x,
-                     b.y);
+        fmt::format("{}a gap of {:.3f} mm between the ends at {} and {} {}; ends within {:g} mm of "
+                    "each other are joined",
+                    expected, gap->mm, place(gap->from), place(gap->to), unit, kSamePointMm));
+  return failure(ErrorKind::bad_input,
+                 fmt::format("{}{} lines of which one ends at {} and {} {}", expected, lines.size(),
+                             place(line.points_mm.front()), place(line.points_mm.back()), unit));
 }
 
 /// Closes open lines where possible; the message names the others.
@@ -106,11 +49,7 @@ Result<void> close(std::vector<Line>& lines, const std::string& name) {
     if (line.closed) continue;
     const bool on_axis =
         line.points_mm.front().x <= kSamePointMm && line.points_mm.back().x <= kSamePointMm;
-    if (!on_axis && lines.size() > 1)
-      return failure(ErrorKind::bad_input,
-                     fmt::format("{}: expected closed outlines, or a single open one, found {} "
-                                 "lines of which one ends at {}",
-                                 name, lines.size(), ends_of(line)));
+    if (!on_axis && lines.size() > 1) return open_line(line, lines, name);
     const double last = line.points_mm.back().y, first = line.points_mm.front().y;
     line.points_mm.emplace_back(0.0, last);
     line.points_mm.emplace_back(0.0, first);
@@ -122,7 +61,8 @@ Result<void> close(std::vector<Line>& lines, const std::string& name) {
 /// The segments right of the axis, except horizontal ones, which do not bound clay sideways.
 std::vector<Edge> edges_of(const std::vector<Line>& lines) {
   std::vector<Edge> edges;
-  for (const Line& line : lines) {
+  for (std::size_t index = 0; index < lines.size(); ++index) {
+    const Line& line = lines[index];
     for (std::size_t i = 0; i < line.points_mm.size(); ++i) {
       glm::dvec2 a = line.points_mm[i], b = line.points_mm[(i + 1) % line.points_mm.size()];
       if (a.y > b.y) std::swap(a, b);
@@ -130,7 +70,7 @@ std::vector<Edge> edges_of(const std::vector<Line>& lines) {
       const double crossing = a.y + (b.y - a.y) * (a.x / (a.x - b.x));
       if (a.x < 0.0) a = {0.0, crossing};
       if (b.x < 0.0) b = {0.0, crossing};
-      if (a.y < b.y) edges.push_back({a, b});
+      if (a.y < b.y) edges.push_back({a, b, index});
     }
   }
   std::sort(edges.begin(), edges.end(),
@@ -222,6 +162,26 @@ Result<void> check_contacts(const std::vector<Slab>& slabs, const std::string& n
   return {};
 }
 
+/// More than two bounds at one height. `edges`: those that cross it, from the outside inward.
+tl::unexpected<Error> side_by_side(double y, const std::vector<const Edge*>& edges,
+                                   const std::string& name) {
+  std::vector<double> radii;
+  for (const Edge* edge : edges) radii.push_back(edge->radius_at(y));
+  const bool one_line = std::all_of(edges.begin(), edges.end(), [&](const Edge* edge) {
+    return edge->line == edges.front()->line;
+  });
+  const char* cause =
+      !one_line ? "hide a frame or background, choose a layer with --layer, or unite shapes that "
+                  "overlap"
+      : edges.size() % 2 == 1 ? "the floor rises towards the axis, beside a wall that begins lower"
+                              : "the wall or the rim overhangs, or a groove is undercut";
+  return failure(
+      ErrorKind::bad_input,
+      fmt::format("{}: {:.3f} mm above the foot: expected clay in one place, between a bore or the "
+                  "axis and the outside, found it {}: {}",
+                  name, y, clay_between(radii), cause));
+}
+
 /// No edge begins or ends between the two levels. `edges`: those that span both.
 Result<Slab> slab_between(double from, double to, std::vector<const Edge*>& edges,
                           const std::string& name) {
@@ -235,14 +195,7 @@ Result<Slab> slab_between(double from, double to, std::vector<const Edge*>& edge
                                middle, expected, found));
   };
   if (edges.empty()) return refuse("clay at every height from foot to rim", 0);
-  if (edges.size() > 2)
-    return failure(
-        ErrorKind::bad_input,
-        fmt::format("{}: {:.3f} mm above the foot: expected clay in one place, between a "
-                    "bore or the axis and the outside, found {} outlines side by side; "
-                    "hide a frame or background, choose a layer with --layer, or unite "
-                    "shapes that overlap",
-                    name, middle, edges.size()));
+  if (edges.size() > 2) return side_by_side(middle, edges, name);
   Slab slab{from, to, edges[0]->radius_at(from), edges[0]->radius_at(to), 0.0, 0.0};
   if (edges.size() == 1) return slab;
   slab.inner_from_mm = edges[1]->radius_at(from);
@@ -276,50 +229,34 @@ Result<std::vector<Slab>> slabs_of(const std::vector<Edge>& edges, const std::st
   return slabs;
 }
 
-/// Gives one height to all points of nearly one height, and puts points near the axis on it. A
-/// horizontal line that a program has turned or rounded is not quite level and would need very fine
-/// rings; a line beside the axis would become a bore.
-void straighten(std::vector<Line>& lines) {
-  constexpr double kLevelMm = 1e-4;
-  std::vector<double*> heights;
-  for (Line& line : lines)
-    for (glm::dvec2& p : line.points_mm) {
-      heights.push_back(&p.y);
-      if (std::abs(p.x) <= kLevelMm) p.x = 0.0;
-    }
-  std::sort(heights.begin(), heights.end(),
-            [](const double* a, const double* b) { return *a < *b; });
-  const double top = *heights.back();
-  for (std::size_t i = 0; i < heights.size();) {
-    const double low = *heights[i];
-    const double same = top - low <= kLevelMm ? top : low;  // the whole height stays
-    for (; i < heights.size() && *heights[i] - low <= kLevelMm; ++i) *heights[i] = same;
-  }
+/// The slabs of the clay inside closed lines.
+Result<std::vector<Slab>> checked_slabs(const std::vector<Line>& lines, const std::string& name) {
+  auto slabs = slabs_of(edges_of(lines), name);
+  if (!slabs) return slabs;
+  for (const auto& checked : {check_treads(lines, name), check_contacts(*slabs, name)})
+    if (!checked) return tl::make_unexpected(checked.error());
+  if (slabs->empty())
+    return failure(ErrorKind::bad_input, name +
+                                             ": expected an outline with clay in it, found "
+                                             "level lines only");
+  return slabs;
 }
 
-/// Sets the axis of the section, and removes axis lines from the drawing.
-Result<void> place_axis(HalfSection& section, Drawing& drawing, const HalfSectionSettings& settings,
-                        const std::string& name) {
-  const Bounds bounds = bounds_of(drawing.lines);
-  const double middle = 0.5 * (bounds.low.x + bounds.high.x);
-  section.axis =
-      settings.axis == AxisRule::by_itself && drawing.axis_at_zero ? AxisRule::at : settings.axis;
-  std::optional<double> asked;
-  if (section.axis == AxisRule::at)
-    asked = settings.axis == AxisRule::at ? settings.axis_mm : 0.0;
-  else if (section.axis != AxisRule::by_itself)
-    asked = section.axis == AxisRule::left ? bounds.low.x : middle;
-  const auto line = take_axis_lines(drawing.lines, asked, name);
-  if (!line) return tl::make_unexpected(line.error());
-  if (section.axis == AxisRule::by_itself)
-    section.axis = *line                             ? AxisRule::line
-                   : mirrored(drawing.lines, middle) ? AxisRule::middle
-                                                     : AxisRule::left;
-  section.axis_mm = asked                              ? *asked
-                    : section.axis == AxisRule::line   ? **line
-                    : section.axis == AxisRule::middle ? middle
-                                                       : bounds.low.x;
-  return {};
+/// Where the outline cannot be rings, a floor or rim that is level within the deviation of rings
+/// becomes level: a drawing program rounds, and a hand does not draw a floor to 0.01 mm.
+Result<std::vector<Slab>> slabs_within_tolerance(const std::vector<Line>& lines,
+                                                 const std::string& name) {
+  auto slabs = checked_slabs(lines, name);
+  if (slabs) return slabs;
+  std::vector<Line> leveled = lines;
+  level(leveled, kLevelWithinMm);
+  auto again = checked_slabs(leveled, name);
+  return again ? again : slabs;
+}
+
+Error with_hint(Error error, const std::string& hint) {
+  error.message += hint;
+  return error;
 }
 
 }  // namespace
@@ -339,6 +276,8 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
   HalfSection section;
   if (auto placed = place_axis(section, drawing, settings, name); !placed)
     return tl::make_unexpected(placed.error());
+  turn_to_the_right(drawing.lines, section.axis_mm);
+  const std::string hint = hint_about(drawing.lines, section, settings.axis != AxisRule::by_itself);
   const Bounds bounds = bounds_of(drawing.lines);
   const double drawn_mm = bounds.high.y - bounds.low.y;
   if (!(drawn_mm > 0.0) || !(bounds.high.x > section.axis_mm))
@@ -351,17 +290,12 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
     for (glm::dvec2& p : line.points_mm)
       p = scale * (p - glm::dvec2{section.axis_mm, bounds.low.y});
   straighten(drawing.lines);
-  if (auto closed = close(drawing.lines, name); !closed) return tl::make_unexpected(closed.error());
-  section.notes = std::move(drawing.notes);
+  if (auto closed = close(drawing.lines, name); !closed)
+    return tl::make_unexpected(with_hint(std::move(closed.error()), hint));
+  section.notes.insert(section.notes.begin(), drawing.notes.begin(), drawing.notes.end());
   note_left_side(drawing.lines, name, section.notes);
-  auto slabs = slabs_of(edges_of(drawing.lines), name);
-  if (!slabs) return tl::make_unexpected(slabs.error());
-  for (const auto& checked : {check_treads(drawing.lines, name), check_contacts(*slabs, name)})
-    if (!checked) return tl::make_unexpected(checked.error());
-  if (slabs->empty())
-    return failure(ErrorKind::bad_input, name +
-                                             ": expected an outline with clay in it, found "
-                                             "level lines only");
+  auto slabs = slabs_within_tolerance(drawing.lines, name);
+  if (!slabs) return tl::make_unexpected(with_hint(std::move(slabs.error()), hint));
   section.slabs = std::move(*slabs);
   section.height_mm = section.slabs.back().to_mm;
   return section;

@@ -13,10 +13,12 @@ namespace clay::importing {
 /// Where the pot's axis is in the drawing.
 enum class AxisRule {
   by_itself,  ///< the file's zero if it has one; the axis line of the drawing; the mirror line of
-              ///< a symmetric drawing; otherwise the left end
+              ///< a symmetric drawing; a straight edge at the right end if there is none at the
+              ///< left; otherwise the left end
   left,       ///< the left end of the drawing
   middle,     ///< the middle between its ends; the left half is ignored
   at,         ///< HalfSectionSettings::axis_mm
+  right,      ///< of a result: the right end, a straight edge of outlines drawn left of it
   line,       ///< of a result: a straight vertical line that no other line meets at its ends
 };
 
@@ -43,10 +45,14 @@ struct HalfSection {
   [[nodiscard]] double volume_mm3() const noexcept;  ///< of the solid of revolution
 };
 
+/// Floors, feet and rims may rise by this much where rings need level ones.
+inline constexpr double kLevelWithinMm = 0.02;
+
 /// Joins lines whose ends are within 0.01 mm of each other. Of the lines left open, one with both
 /// ends on the axis is closed along it, and a single other one is used as the outside of a solid
-/// pot. Refuses, naming the place, open ends, clay in two places at one height (a ring has one),
-/// heights without clay, and self-intersecting outlines.
+/// pot. Outlines that lie wholly left of the axis are mirrored. Refuses, naming the place, open
+/// ends, clay in two places at one height (a ring has one), heights without clay, and
+/// self-intersecting outlines.
 Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& settings,
                                  const std::string& name);
 

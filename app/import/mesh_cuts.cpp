@@ -44,9 +44,11 @@ Wall largest_wall(std::vector<double>& radii) {
   double area = 0.0;
   for (std::size_t i = 0; i < radii.size(); i += 2) {
     const double own = radii[i + 1] * radii[i + 1] - radii[i] * radii[i];
+    largest.all_mm2 += own;
     if (own <= area) continue;
     area = own;
-    largest = {radii[i], radii[i + 1]};
+    largest.inner_mm = radii[i];
+    largest.outer_mm = radii[i + 1];
   }
   return largest;
 }

@@ -26,6 +26,7 @@ inline constexpr std::size_t kMostCutSegments = 2'000'000;
 /// The clay of the largest area at one height of one cut; none if `outer_mm` is 0.
 struct Wall {
   double inner_mm = 0.0, outer_mm = 0.0;
+  double all_mm2 = 0.0;  ///< outer^2 - inner^2 of all clay at this height
 };
 
 /// At each of the ascending heights. Heights of segments' ends count as just above.

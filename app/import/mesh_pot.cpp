@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 namespace clay::importing {
 namespace {
@@ -20,7 +22,8 @@ struct Revolved {
   double foot_mm = 0.0;  ///< along the axis
 };
 
-Result<Revolved> revolved(const solid::TriangleMesh& mesh, const MeshAxis& axis,
+/// `noise_mm`: see revolved_section.
+Result<Revolved> revolved(const solid::TriangleMesh& mesh, const MeshAxis& axis, double noise_mm,
                           const std::string& name) {
   const auto points = about_axis(mesh, axis);
   Revolved result{mesh_cuts(mesh, points), {}, 0.0};
@@ -32,7 +35,7 @@ Result<Revolved> revolved(const solid::TriangleMesh& mesh, const MeshAxis& axis,
         fmt::format("{}: expected fewer than {} edges in {} cuts through the axis, found "
                     "more",
                     name, kMostCutSegments, kMeshCuts));
-  auto common = revolved_section(points, result.cuts, name);
+  auto common = revolved_section(points, result.cuts, noise_mm, name);
   if (!common) return tl::make_unexpected(common.error());
   result.section = std::move(common->section);
   result.foot_mm = common->foot_mm;
@@ -105,7 +108,7 @@ Result<Revolved> scaled_to(double height_mm, Revolved pot, solid::TriangleMesh& 
     for (glm::dvec3& p : mesh.points) p *= scale;
     result.axis.through *= scale;
     result.scale *= scale;
-    auto again = revolved(mesh, result.axis, name);
+    auto again = revolved(mesh, result.axis, 0.0, name);
     if (!again) return again;
     pot = std::move(*again);
   }
@@ -130,42 +133,124 @@ Result<void> check_size(const solid::TriangleMesh& mesh, const std::string& name
       fmt::format("{}: expected a mesh of a pot, found {} triangles", name, mesh.triangles.size()));
 }
 
+/// Along the axis that fits the mesh, with the opening up.
+Result<Revolved> placed(solid::TriangleMesh& mesh, std::optional<double> height_mm, MeshPot& result,
+                        const std::string& name) {
+  result.axis = refined_axis(mesh, fitted_axis(mesh));
+  auto pot = revolved(mesh, result.axis, 0.0, name);
+  if (pot && opens_below(pot->section)) {
+    result.axis.direction = -result.axis.direction;
+    pot = revolved(mesh, result.axis, 0.0, name);
+  }
+  if (pot && height_mm) pot = scaled_to(*height_mm, std::move(*pot), mesh, result, name);
+  return pot;
+}
+
+/// A revolved section as rings.
+struct Made {
+  Revolved pot;
+  std::vector<CutOff> cuts;
+  double limit_mm = 0.0;  ///< cuts beyond it have a part that is not of revolution
+  DrawnPot drawn;
+  Deviation deviation;  ///< of the rings from the other cuts
+};
+
+Result<Made> rings_of(Revolved pot, const DrawnPotSettings& settings, const std::string& name) {
+  Made made;
+  made.limit_mm = part_limit_mm(largest_radius(pot.section));
+  made.cuts = offsets(pot, made.limit_mm);
+  const auto off = std::count_if(made.cuts.begin(), made.cuts.end(),
+                                 [&](const CutOff& cut) { return cut.mm > made.limit_mm; });
+  if (2 * static_cast<std::size_t>(off) > kMeshCuts)
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected a pot that is nearly of revolution, found a mesh that "
+                               "is more than {:.3g} mm from it at {} of {} azimuths",
+                               name, made.limit_mm, off, kMeshCuts));
+  auto drawn = drawn_pot(pot.section, settings, name);
+  if (!drawn) return tl::make_unexpected(drawn.error());
+  made.drawn = std::move(*drawn);
+  const std::vector<Segment> rings = outline_of(slabs_of(made.drawn.pot.stack));
+  for (std::size_t i = 0; i < kMeshCuts; ++i) {
+    if (made.cuts[i].mm > made.limit_mm) continue;
+    const Deviation deviation = deviation_between(pot.cuts[i], rings);
+    if (deviation.mm > made.deviation.mm) made.deviation = deviation;
+  }
+  made.pot = std::move(pot);
+  return made;
+}
+
+/// The standard deviation of the mesh about its section, as the median of distances shows it:
+/// half of the length of all cuts is nearer.
+double noise_of(const Revolved& pot) {
+  constexpr double kOfMedian = 1.4826;  // of a normal distribution
+  std::vector<glm::dvec2> middles;
+  std::vector<std::pair<double, double>> off;  // with the length
+  double length = 0.0;
+  for (const std::vector<Segment>& cut : pot.cuts)
+    for (const Segment& s : cut) {
+      middles.push_back(0.5 * (s.from + s.to));
+      off.emplace_back(0.0, glm::length(s.to - s.from));
+      length += off.back().second;
+    }
+  const std::vector<double> distances = distances_from(outline_of(pot.section.slabs), middles);
+  for (std::size_t i = 0; i < off.size(); ++i) off[i].first = distances[i];
+  std::sort(off.begin(), off.end());
+  double nearer = 0.0;
+  for (const auto& [distance, own] : off)
+    if ((nearer += own) >= 0.5 * length) return kOfMedian * distance;
+  return 0.0;
+}
+
+/// No rings fit the section well: its lines go back and forth within less than a fine ring.
+bool rough(const DrawnPot& drawn) {
+  return drawn.deviation.mm > kDrawnDeviationMm || drawn.pot.stack.ring_height_mm() < kFineRingMm;
+}
+
+/// The pot with level faces, where that is better; `result` gets the noise.
+Result<Made> leveled(Made made, const solid::TriangleMesh& mesh, DrawnPotSettings settings,
+                     MeshPot& result, const std::string& name) {
+  constexpr double kLeastNoiseMm = 1e-3, kAim = 2.0;
+  double noise_mm = noise_of(made.pot);
+  if (noise_mm < kLeastNoiseMm) return made;
+  auto pot = revolved(mesh, result.axis, noise_mm, name);
+  if (!pot) return made;
+  // The first section ran through the noise of level faces, so it seemed less.
+  noise_mm = std::max(noise_of(*pot), kLeastNoiseMm);
+  pot = revolved(mesh, result.axis, noise_mm, name);
+  if (!pot) return made;
+  settings.deviation_mm = std::max(settings.deviation_mm, kAim * noise_mm);
+  auto level = rings_of(std::move(*pot), settings, name);
+  if (!level) return made;
+  const double gained_mm = made.deviation.mm - level->deviation.mm;
+  const bool fewer = level->drawn.pot.stack.size() < made.drawn.pot.stack.size();
+  if (gained_mm < noise_mm && !(fewer && gained_mm > -noise_mm)) return made;
+  result.noise_mm = noise_mm;
+  result.aimed_mm = settings.deviation_mm;
+  return std::move(*level);
+}
+
 }  // namespace
 
 Result<MeshPot> mesh_pot(solid::TriangleMesh mesh, const MeshPotSettings& settings,
                          const std::string& name) {
   if (auto sized = check_size(mesh, name); !sized) return tl::make_unexpected(sized.error());
   MeshPot result;
-  result.axis = refined_axis(mesh, fitted_axis(mesh));
-  auto pot = revolved(mesh, result.axis, name);
-  if (pot && opens_below(pot->section)) {
-    result.axis.direction = -result.axis.direction;
-    pot = revolved(mesh, result.axis, name);
-  }
-  if (pot && settings.height_mm)
-    pot = scaled_to(*settings.height_mm, std::move(*pot), mesh, result, name);
+  auto pot = placed(mesh, settings.height_mm, result, name);
   if (!pot) return tl::make_unexpected(pot.error());
-  const double limit = part_limit_mm(largest_radius(pot->section));
-  const std::vector<CutOff> cuts = offsets(*pot, limit);
-  const auto off =
-      std::count_if(cuts.begin(), cuts.end(), [&](const CutOff& cut) { return cut.mm > limit; });
-  if (2 * static_cast<std::size_t>(off) > kMeshCuts)
-    return failure(ErrorKind::bad_input,
-                   fmt::format("{}: expected a pot that is nearly of revolution, found a mesh that "
-                               "is more than {:.3g} mm from it at {} of {} azimuths",
-                               name, limit, off, kMeshCuts));
-  auto drawn = drawn_pot(pot->section, settings.rings, name);
-  if (!drawn) return tl::make_unexpected(drawn.error());
-  result.pot = std::move(drawn->pot);
-  result.axis.through += pot->foot_mm * result.axis.direction;
-  result.section_mm3 = pot->section.volume_mm3();
-  result.parts = parts_of(cuts, limit);
-  const std::vector<Segment> rings = outline_of(slabs_of(result.pot.stack));
-  for (std::size_t i = 0; i < kMeshCuts; ++i) {
-    if (cuts[i].mm > limit) continue;
-    const Deviation deviation = deviation_between(pot->cuts[i], rings);
-    if (deviation.mm > result.deviation.mm) result.deviation = deviation;
-  }
+  DrawnPotSettings by_itself = settings.rings;
+  by_itself.ring_height_mm.reset();
+  result.aimed_mm = by_itself.deviation_mm;
+  auto made = rings_of(std::move(*pot), by_itself, name);
+  if (made && rough(made->drawn)) made = leveled(std::move(*made), mesh, by_itself, result, name);
+  if (made && settings.rings.ring_height_mm)
+    made = rings_of(std::move(made->pot), settings.rings, name);
+  if (!made) return tl::make_unexpected(made.error());
+  result.pot = std::move(made->drawn.pot);
+  result.off_mm = made->drawn.deviation.mm;
+  result.deviation = made->deviation;
+  result.axis.through += made->pot.foot_mm * result.axis.direction;
+  result.section_mm3 = made->pot.section.volume_mm3();
+  result.parts = parts_of(made->cuts, made->limit_mm);
   return result;
 }
 

@@ -24,6 +24,9 @@ struct MeshPot {
   /// Of the rings from the mesh in half-planes through the axis, in both directions, at azimuths
   /// without parts.
   Deviation deviation;
+  double noise_mm = 0.0;  ///< of a scan whose faces were made level within it; 0: none were
+  double off_mm = 0.0;    ///< largest deviation of the rings from the revolved section
+  double aimed_mm = 0.0;  ///< what that was to be
   std::vector<MeshPart> parts;
 };
 
@@ -37,8 +40,10 @@ struct MeshPotSettings {
 };
 
 /// Fits the axis, revolves the mean of the section over all azimuths that agree with the middle
-/// one, and makes rings of it. The end with the opening is up. Refuses meshes of which more than
-/// half of the azimuths are not of revolution, and everything that drawn_pot refuses.
+/// one, and makes rings of it. The end with the opening is up. If no rings fit the section, its
+/// points are noisy: then faces that are level within the noise become level, and rings aim at
+/// twice the noise if that is more than kDrawnDeviationMm. Refuses meshes of which more than half
+/// of the azimuths are not of revolution, and everything that drawn_pot refuses.
 Result<MeshPot> mesh_pot(solid::TriangleMesh mesh, const MeshPotSettings& settings,
                          const std::string& name);
 

@@ -1,5 +1,7 @@
 #include "app/import/mesh_section.hpp"
 
+#include "app/import/level_faces.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,20 +24,21 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The radii of most azimuths: a middle value, and the distance from it that is still accepted.
+/// The radii of most azimuths: a middle value, the distance from it of a middle one, and the
+/// distance that is still accepted.
 struct Agreement {
-  double middle = 0.0, within = 0.0;
+  double middle = 0.0, scatter = 0.0, within = 0.0;
 
   explicit Agreement(const std::vector<double>& radii) : middle(median(radii)) {
     std::vector<double> off;
     for (const double r : radii) off.push_back(std::abs(r - middle));
-    within = std::max(kAgreeMm, 4.0 * median(off));
+    scatter = median(std::move(off));
+    within = std::max(kAgreeMm, 4.0 * scatter);
   }
   [[nodiscard]] bool accepts(double radius) const { return std::abs(radius - middle) <= within; }
 };
 
-double mean_radius(const std::vector<double>& radii) {
-  const Agreement agreement(radii);
+double mean_radius(const std::vector<double>& radii, const Agreement& agreement) {
   if (agreement.middle == 0.0) return 0.0;
   double sum = 0.0, count = 0.0;
   for (const double r : radii) {
@@ -46,16 +49,25 @@ double mean_radius(const std::vector<double>& radii) {
   return std::sqrt(sum / count);
 }
 
+struct CommonWall {
+  Wall wall;
+  double scatter_mm = 0.0;  ///< of the radii
+};
+
 /// What most cuts have at one height; empty if most have nothing.
-std::optional<Wall> common_wall(const std::vector<std::vector<Wall>>& walls, std::size_t height) {
-  std::vector<double> inner, outer;
+std::optional<CommonWall> common_wall(const std::vector<std::vector<Wall>>& walls,
+                                      std::size_t height) {
+  std::vector<double> inner, outer, all;
   for (const std::vector<Wall>& cut : walls) {
+    all.push_back(cut[height].all_mm2);
     if (!(cut[height].outer_mm > 0.0)) continue;
     inner.push_back(cut[height].inner_mm);
     outer.push_back(cut[height].outer_mm);
   }
   if (2 * outer.size() < walls.size()) return std::nullopt;
-  return Wall{mean_radius(inner), mean_radius(outer)};
+  const Agreement within(inner), without(outer);
+  return CommonWall{{mean_radius(inner, within), mean_radius(outer, without), median(all)},
+                    std::max(within.scatter, without.scatter)};
 }
 
 std::vector<std::vector<Wall>> walls_at(const std::vector<std::vector<Segment>>& cuts,
@@ -70,7 +82,8 @@ struct Levels {
   bool scanned = false;
 };
 
-Levels levels_of(std::span<const glm::dvec3> points) {
+/// `scan`: it is known to be one.
+Levels levels_of(std::span<const glm::dvec3> points, bool scan) {
   std::vector<double> all;
   for (const glm::dvec3& p : points) all.push_back(p.z);
   std::sort(all.begin(), all.end());
@@ -81,7 +94,7 @@ Levels levels_of(std::span<const glm::dvec3> points) {
     levels.heights.push_back(0.5 * (all[i] + all[end - 1]));
     i = end;
   }
-  levels.scanned = levels.heights.size() > kMostLevels;
+  levels.scanned = scan || levels.heights.size() > kMostLevels;
   if (!levels.scanned) return levels;
   levels.heights.clear();
   for (std::size_t i = 0; i <= kMostLevels; ++i)
@@ -170,6 +183,37 @@ Decentring decentring(const std::vector<std::vector<Segment>>& cuts, double low,
   return {{x.x, y.x}, {x.y, y.y}};
 }
 
+/// The slabs that most cuts have in common, without gaps.
+Result<std::vector<ScannedSlab>> common_slabs(const Levels& levels,
+                                              const std::vector<std::vector<Segment>>& cuts,
+                                              const std::string& name) {
+  std::vector<double> heights;
+  for (std::size_t i = 0; i + 1 < levels.heights.size(); ++i)
+    for (const double part : {0.25, 0.75})
+      heights.push_back(levels.heights[i] + part * (levels.heights[i + 1] - levels.heights[i]));
+  const auto walls = walls_at(cuts, heights);
+  std::vector<ScannedSlab> slabs;
+  for (std::size_t i = 0; i + 1 < levels.heights.size(); ++i) {
+    const auto low = common_wall(walls, 2 * i), high = common_wall(walls, 2 * i + 1);
+    if (!low || !high) continue;
+    const double from = levels.heights[i], to = levels.heights[i + 1];
+    if (!slabs.empty() && slabs.back().slab.to_mm != from)
+      return failure(
+          ErrorKind::bad_input,
+          fmt::format("{}: expected clay around the axis at every height, found none from "
+                      "{:.3f} to {:.3f} mm above the foot",
+                      name, slabs.back().slab.to_mm - slabs.front().slab.from_mm,
+                      from - slabs.front().slab.from_mm));
+    slabs.push_back({slab_through(from, to, low->wall, high->wall, levels.scanned),
+                     std::max(low->scatter_mm, high->scatter_mm),
+                     0.5 * (low->wall.all_mm2 + high->wall.all_mm2)});
+  }
+  if (slabs.empty())
+    return failure(ErrorKind::bad_input,
+                   name + ": expected a closed mesh around an axis, found clay around none");
+  return slabs;
+}
+
 }  // namespace
 
 MeshAxis refined_axis(const solid::TriangleMesh& mesh, MeshAxis axis) {
@@ -189,31 +233,13 @@ MeshAxis refined_axis(const solid::TriangleMesh& mesh, MeshAxis axis) {
 
 Result<RevolvedSection> revolved_section(std::span<const glm::dvec3> points,
                                          const std::vector<std::vector<Segment>>& cuts,
-                                         const std::string& name) {
-  const Levels levels = levels_of(points);
-  std::vector<double> heights;
-  for (std::size_t i = 0; i + 1 < levels.heights.size(); ++i)
-    for (const double part : {0.25, 0.75})
-      heights.push_back(levels.heights[i] + part * (levels.heights[i + 1] - levels.heights[i]));
-  const auto walls = walls_at(cuts, heights);
+                                         double noise_mm, const std::string& name) {
+  const Levels levels = levels_of(points, noise_mm > 0.0);
+  const auto common = common_slabs(levels, cuts, name);
+  if (!common) return tl::make_unexpected(common.error());
   RevolvedSection result;
   std::vector<Slab>& slabs = result.section.slabs;
-  for (std::size_t i = 0; i + 1 < levels.heights.size(); ++i) {
-    const auto low = common_wall(walls, 2 * i), high = common_wall(walls, 2 * i + 1);
-    if (!low || !high) continue;
-    const double from = levels.heights[i], to = levels.heights[i + 1];
-    if (!slabs.empty() && slabs.back().to_mm != from)
-      return failure(
-          ErrorKind::bad_input,
-          fmt::format("{}: expected clay around the axis at every height, found none from "
-                      "{:.3f} to {:.3f} mm above the foot",
-                      name, slabs.back().to_mm - slabs.front().from_mm,
-                      from - slabs.front().from_mm));
-    slabs.push_back(slab_through(from, to, *low, *high, levels.scanned));
-  }
-  if (slabs.empty())
-    return failure(ErrorKind::bad_input,
-                   name + ": expected a closed mesh around an axis, found clay around none");
+  slabs = with_level_faces(*common, noise_mm);
   result.foot_mm = slabs.front().from_mm;
   const double tread = levels.scanned ? kScannedTreadMm : kTreadMm;
   for (std::size_t i = 0; i < slabs.size(); ++i) {

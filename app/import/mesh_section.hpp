@@ -18,10 +18,11 @@ struct RevolvedSection {
 };
 
 /// At each height between the levels of the mesh's points: the mean of the squared radii of all
-/// cuts that agree with the middle one. Refuses meshes with a height at which most cuts have no
-/// clay.
+/// cuts that agree with the middle one. `noise_mm`: standard deviation of the points of a scan,
+/// within which faces are level; 0: points lie where they should. Refuses meshes with a height at
+/// which most cuts have no clay.
 Result<RevolvedSection> revolved_section(std::span<const glm::dvec3> points,
                                          const std::vector<std::vector<Segment>>& cuts,
-                                         const std::string& name);
+                                         double noise_mm, const std::string& name);
 
 }  // namespace clay::importing

@@ -72,14 +72,25 @@ class Copier {
     page.in_layer = layer_.empty();
     if (auto done = element(root, nullptr, page); !done) return tl::make_unexpected(done.error());
     if (!layer_.empty() && !found_layer_)
-      return failure(
-          ErrorKind::bad_input,
-          fmt::format("{}: expected a layer \"{}\", found {}", name_, layer_,
-                      layers_.empty() ? "no layers" : fmt::format("{}", fmt::join(layers_, ", "))));
+      return failure(ErrorKind::bad_input, fmt::format("{}: expected a layer \"{}\", found {}",
+                                                       name_, layer_, layer_names()));
     return SvgShapes{std::move(result_), std::move(notes_)};
   }
 
  private:
+  /// The names that --layer accepts, layers before other groups.
+  [[nodiscard]] std::string layer_names() const {
+    constexpr std::size_t kMost = 12;
+    std::vector<std::string> names(layers_.begin(), layers_.end());
+    for (const std::string& group : groups_)
+      if (!layers_.contains(group)) names.push_back(group);
+    if (names.empty()) return "no layers and no groups with a name";
+    const std::size_t more = names.size() - std::min(names.size(), kMost);
+    names.resize(names.size() - more);
+    return fmt::format("{}{}", fmt::join(names, ", "),
+                       more > 0 ? fmt::format(" and {} more", more) : std::string());
+  }
+
   /// Finds ids and style sheets, without recursion: the depth is not yet limited.
   void index(xmlNode* root) {
     for (xmlNode* node = root; node != nullptr;) {
@@ -171,7 +182,8 @@ class Copier {
       if (name == "groupmode") mode = text;
     }
     const std::string id = svg_attribute(node, "id");
-    if (mode == "layer") layers_.insert(label.empty() ? id : label);
+    if (const std::string& shown = label.empty() ? id : label; !shown.empty())
+      (mode == "layer" ? layers_ : groups_).insert(shown);
     if (!layer_.empty() && (label == layer_ || id == layer_)) found_layer_ = state.in_layer = true;
     return !for_construction(label.empty() ? id : label) || (!layer_.empty() && state.in_layer);
   }
@@ -292,8 +304,8 @@ class Copier {
   xmlNs* space_ = nullptr;  ///< of the result
   SvgStyles styles_;
   std::map<std::string, xmlNode*> ids_;
-  std::vector<std::string> used_;  ///< the references within which the element is
-  std::set<std::string> layers_;
+  std::vector<std::string> used_;          ///< the references within which the element is
+  std::set<std::string> layers_, groups_;  ///< names of layers of Inkscape, and of other groups
   bool found_layer_ = false;
   std::vector<std::string> notes_;
   std::set<std::string_view> noted_;  // kinds that have a note

@@ -164,6 +164,31 @@ TEST(Throw, RefusesAPinchSessionWithoutAGapInTheScene) {
   EXPECT_FALSE(std::filesystem::exists(pot));
 }
 
+TEST(Throw, NamesThePotWhereThereIsNoScene) {
+  const ScratchFolder folder;
+  const std::string drawing = folder.file("a.csv"), pot = folder.file("a.pot.json");
+  write_text(drawing, "30,0\n30,60\n");
+  ASSERT_EQ(claystack("import -q --ring-height 0.05 " + drawing + " -o " + pot).status, 0);
+  const Ran two_tools =
+      claystack("throw --from " + pot + " --session " + sample("paper/cylinder.session"));
+  EXPECT_EQ(two_tools.status, 2);
+  EXPECT_NE(two_tools.err.find("expected one tool throughout, as the pot " + pot +
+                               " holds no tool.gap_mm, found a gap of 36 mm"),
+            std::string::npos)
+      << two_tools.err;
+  EXPECT_NE(two_tools.err.find("; name the scene of the session before --from"), std::string::npos);
+
+  // 1200 rings on a wheel for 800. An import of 60 mm in rings of at most 0.15 mm makes 400 to 800.
+  const Ran many = claystack("throw " + sample("paper/vase.scene.json") + " --from " + pot);
+  EXPECT_EQ(many.status, 2);
+  EXPECT_NE(many.err.find("expected 0 or at least the pot's rings, 1200, found "),
+            std::string::npos)
+      << many.err;
+  EXPECT_NE(many.err.find("if the pot was imported, import --ring-height 0.15 makes"),
+            std::string::npos)
+      << many.err;
+}
+
 TEST(Throw, DrawsTheErrorOfBothModels) {
   const ScratchFolder folder;
   const auto run =

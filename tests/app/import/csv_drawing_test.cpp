@@ -53,7 +53,10 @@ TEST(CsvDrawing, ReadsColumnsByTheirNames) {
         "Height [in], Radius [in]\n0,1\n2,0.5\n",
         "note;y (cm);r (mm)\nfoot;0;25,4\nrim;5,08;12,7\n",
         "\xEF\xBB\xBF\"diameter_in\"\t\"height_in\"\r\n2\t0\r\n1\t2\r\n",
-        "x;y\n25,4;0\n12,7;50,8\n", "25,4;0\n+12,7;50,8\n", "25,4\t0\n12,7\t50,8\n"}) {
+        "Radius [mm];Höhe [mm]\n25.4;0\n12.7;50.8\n",
+        "Durchmesser (cm)\tHOEHE\n5,08\t0\n2,54\t50,8\n",
+        "outer_radius, height\n25.4,0\n12.7,50.8\n", "x;y\n25,4;0\n12,7;50,8\n",
+        "25,4;0\n+12,7;50,8\n", "25,4\t0\n12,7\t50,8\n"}) {
     const auto found = points_of(csv);
     ASSERT_EQ(found.size(), 2u) << csv;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -63,9 +66,33 @@ TEST(CsvDrawing, ReadsColumnsByTheirNames) {
   }
 }
 
+TEST(CsvDrawing, ReadsInnerAndOuterRadii) {
+  // A cup: solid up to a floor of 5 mm, then a wall of 3 mm.
+  const char* const cup = "outer_radius, inner_radius, height\n30,0,0\n30,0,5\n30,27,5\n30,27,60\n";
+  const auto section = section_of(cup, "cup.csv");
+  ASSERT_TRUE(section) << refusal_of(section);
+  EXPECT_NEAR(section->volume_mm3(), std::numbers::pi * (900.0 * 60.0 - 729.0 * 55.0), 1e-6);
+  const auto inches = section_of(
+      "Inside diameter (in);Height (in);Outside diameter (in)\n"
+      "1;0;2\n1;3;2\n",
+      "tube.csv");
+  ASSERT_TRUE(inches) << refusal_of(inches);
+  EXPECT_NEAR(inches->volume_mm3(), std::numbers::pi * 0.75 * 3.0 * 25.4 * 25.4 * 25.4, 1e-6);
+  EXPECT_THAT(refusal_of(read_drawing("outer radius,inner radius,height\n9,10,0\n", "cup.csv")),
+              HasSubstr("cup.csv:2: expected an inner radius up to the outer one of 9 mm"));
+}
+
+TEST(CsvDrawing, NamesTheTableOfWallsThatExportWrites) {
+  EXPECT_THAT(refusal_of(read_drawing("piece,face,arc_mm,rho_mm,y_mm,thickness_mm,opposite_rho_mm,"
+                                      "opposite_y_mm\n0,outer,0.02,34.1,0.02,20.4,32.4,5.6\n",
+                                      "w.csv")),
+              HasSubstr("the walls of a pot, as export writes them, which are no outline"));
+}
+
 TEST(CsvDrawing, RefusesAmbiguousColumns) {
   for (const char* csv : {"radius,diameter,height\n1,2,3\n", "height,height_mm\n1,2\n",
-                          "radius_mm\n1\n", "radius_px,height\n1,2\n", "outer radius,height\n1,2\n",
+                          "radius_mm\n1\n", "radius_px,height\n1,2\n", "inner radius,height\n1,2\n",
+                          "outer radius,radius,height\n1,2,3\n", "outer,height\n1,2\n",
                           "radius mm cm,height\n1,2\n", "a,b\n1,2\n", "radius,depth\n1,2\n"})
     EXPECT_THAT(refusal_of(read_drawing(csv, "cup.csv")),
                 HasSubstr("cup.csv:1: expected columns named radius and height"))

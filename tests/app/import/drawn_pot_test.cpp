@@ -95,6 +95,21 @@ TEST(DrawnPot, WallOptionHollowsTheOutline) {
               HasSubstr("--wall: expected less than the height of 40 mm"));
 }
 
+TEST(DrawnPot, MeasuresTheThinnestWallOfAHollowedOutlineAcrossIt) {
+  // A cone that opens by 3 in 4: across its wall 0.8 of the horizontal thickness.
+  const auto section = section_of("40,0\n70,40\n", "pot.csv");
+  const auto cone = drawn_pot(*section, {{}, 5.0, 1.9}, "pot.csv");
+  ASSERT_TRUE(cone) << refusal_of(cone);
+  ASSERT_TRUE(cone->thinnest);
+  EXPECT_NEAR(cone->thinnest->mm, 4.0, 1e-9);
+  EXPECT_FALSE(drawn_pot(*section, {}, "pot.csv")->thinnest);
+  // A dish: the wall rises by 5 mm over 50, so it is 3 sin(atan(0.1)) thick.
+  const auto dish = section_of("30,0\n80,5\n80,10\n", "pot.csv");
+  const auto flat = drawn_pot(*dish, {{}, 3.0, 1.9}, "pot.csv");
+  ASSERT_TRUE(flat) << refusal_of(flat);
+  EXPECT_NEAR(flat->thinnest->mm, 3.0 * std::sin(std::atan(0.1)), 1e-9);
+}
+
 TEST(DrawnPot, RefusesShapesThatNoStackCanRepresent) {
   EXPECT_THAT(refusal_of(pot_of("30,0\n30,60000\n", {1e-3, {}, 1.9})), HasSubstr("rings"));
   EXPECT_THAT(refusal_of(pot_of("6000,0\n6000,60\n")), HasSubstr("5000 mm"));

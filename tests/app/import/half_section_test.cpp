@@ -91,6 +91,92 @@ TEST(HalfSection, RecognisesAnAxisLineAnywhere) {
   EXPECT_THAT(refusal_of(half_section(two, {}, "pot")), HasSubstr("expected one axis line"));
 }
 
+/// The half section of a cup: a solid floor and a wall between two radii. `at_axis_mm`: the floor's
+/// height there.
+Line cup(double floor_mm, double at_axis_mm) {
+  return {{{0, 0}, {30, 0}, {30, 60}, {27, 60}, {27, floor_mm}, {0, at_axis_mm}}, true};
+}
+
+Drawing turned(Line line, double axis_mm) {
+  for (glm::dvec2& p : line.points_mm) p.x = axis_mm - p.x;
+  return {{line}, false};
+}
+
+TEST(HalfSection, LevelsAFloorThatRisesWithinTheTolerance) {
+  const double volume = std::numbers::pi * (900.0 * 60.0 - 729.0 * 55.0);
+  for (const double rise : {-0.01, 0.0, 0.01, 0.019}) {
+    const auto section = half_section({{cup(5.0, 5.0 + rise)}, true}, {}, "pot");
+    ASSERT_TRUE(section) << rise << refusal_of(section);
+    // A change of the floor by the tolerance at most.
+    EXPECT_NEAR(section->volume_mm3(), volume, std::numbers::pi * 729.0 * kLevelWithinMm);
+    EXPECT_EQ(section->height_mm, 60.0);
+  }
+  // Broken into pieces, of which the highest is in the middle.
+  Line pieces = cup(5.0, 5.0);
+  pieces.points_mm.insert(pieces.points_mm.end() - 1, {{20, 5.008}, {10, 5.012}, {5, 5.004}});
+  ASSERT_TRUE(half_section({{pieces}, true}, {}, "pot"));
+  EXPECT_THAT(
+      refusal_of(half_section({{cup(5.0, 6.0)}, true}, {}, "pot")),
+      HasSubstr("5.500 mm above the foot: expected clay in one place, between a bore or the "
+                "axis and the outside, found it from the axis to 13.500 mm and from 27.000 "
+                "to 30.000 mm: the floor rises towards the axis"));
+}
+
+TEST(HalfSection, NamesWhyThereAreTwoWalls) {
+  // A lip that hangs over.
+  EXPECT_THAT(refused("0,0\n30,0\n30,50\n36,40\n36,60\n27,60\n27,5\n0,5\n0,0\n"),
+              HasSubstr("found it from 27.000 to 30.000 mm and from 33.000 to 36.000 mm: the wall "
+                        "or the rim overhangs"));
+  EXPECT_THAT(refused("0,0\n10,0\n10,5\n0,5\n0,0\n\n20,0\n30,0\n30,5\n20,5\n20,0\n"),
+              HasSubstr("hide a frame or background"));
+  // Both halves, by a hand that is 0.2 mm off.
+  Line both{{{0, 0}, {60, 0}, {62, 60}, {59, 60}, {57, 5}, {3, 5}, {1, 60}, {-2.2, 60}}, true};
+  EXPECT_THAT(refusal_of(half_section({{both}, false}, {}, "pot")),
+              HasSubstr("the drawing is nearly symmetric about x = 29.9 mm: --axis middle"));
+  EXPECT_TRUE(half_section({{both}, false}, {AxisRule::middle, 0.0, {}}, "pot"));
+}
+
+TEST(HalfSection, NamesTheNarrowestGap) {
+  EXPECT_THAT(refused("0,0\n30,0\n30,60\n27,60\n\n27.03,59.96\n27,5\n0,5\n"),
+              HasSubstr("found a gap of 0.050 mm between the ends at (27.030, 59.960) and (27.000, "
+                        "60.000) mm from axis and foot"));
+}
+
+TEST(HalfSection, TurnsAnOutlineLeftOfItsAxis) {
+  const double volume = std::numbers::pi * (900.0 * 60.0 - 729.0 * 55.0);
+  Line leaning = cup(5.0, 5.0);
+  leaning.points_mm[2].x = 32.0;  // no edge at its far end
+  const double more = half_section({{leaning}, true}, {}, "pot")->volume_mm3();
+  const auto edge = half_section(turned(leaning, 80.0), {}, "pot");
+  ASSERT_TRUE(edge) << refusal_of(edge);
+  EXPECT_EQ(edge->axis, AxisRule::right);
+  EXPECT_EQ(edge->axis_mm, 80.0);
+  EXPECT_TRUE(edge->notes.empty());
+  EXPECT_NEAR(edge->volume_mm3(), more, 1e-6);
+
+  Drawing with_line = turned(cup(5.0, 5.0), 80.0);
+  const auto asked = half_section(with_line, {AxisRule::at, 80.0, {}}, "pot");
+  ASSERT_TRUE(asked) << refusal_of(asked);
+  EXPECT_NEAR(asked->volume_mm3(), volume, 1e-6);
+  with_line.lines.push_back({{{80, -5}, {80, 70}}, false});
+  const auto line = half_section(with_line, {}, "pot");
+  ASSERT_TRUE(line) << refusal_of(line);
+  EXPECT_EQ(line->axis, AxisRule::line);
+  EXPECT_NEAR(line->volume_mm3(), volume, 1e-6);
+}
+
+TEST(HalfSection, WarnsOfAnAxisThroughACorner) {
+  // The wall of a vase without a floor.
+  const Line wall{{{130, 0}, {145, 50}, {125, 100}, {122, 100}, {142, 50}, {127, 0}}, true};
+  const auto section = half_section({{wall}, false}, {}, "pot");
+  ASSERT_TRUE(section) << refusal_of(section);
+  ASSERT_EQ(section->notes.size(), 1u);
+  EXPECT_THAT(section->notes[0], HasSubstr("found only a corner at the left end, x = 122 mm"));
+  EXPECT_TRUE(half_section({{wall}, false}, {AxisRule::at, 100.0, {}}, "pot")->notes.empty());
+  const Line open{{{0, 0}, {40, 0}, {20, 90}}, false};
+  EXPECT_TRUE(half_section({{open}, false}, {}, "pot")->notes.empty());
+}
+
 TEST(HalfSection, HeightOptionScalesUniformly) {
   const auto cone = section_of("40,10\n20,100\n", "pot.csv", {AxisRule::by_itself, 0.0, 45.0});
   ASSERT_TRUE(cone) << refusal_of(cone);

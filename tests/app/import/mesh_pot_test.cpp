@@ -135,6 +135,88 @@ TEST(MeshPot, RevolvesANoisyScan) {
   EXPECT_NEAR(glm::dot(pot->axis.direction, up), 1.0, 1e-7);
 }
 
+/// A cup of radius 40 and height 80 mm with a wall of 3 and a floor of 4 mm: 96 corners around each
+/// circle, about 2 mm apart, and normal noise in each coordinate.
+TriangleMesh noisy_cup(double noise_mm) {
+  std::vector<glm::dvec2> circles;
+  for (int r = 2; r < 40; r += 2) circles.emplace_back(r, 0.0);
+  for (int z = 0; z < 80; z += 2) circles.emplace_back(40.0, z);
+  for (const double r : {40.0, 38.5, 37.0}) circles.emplace_back(r, 80.0);
+  for (int z = 78; z > 4; z -= 2) circles.emplace_back(37.0, z);
+  circles.emplace_back(37.0, 4.0);
+  for (int r = 36; r > 0; r -= 2) circles.emplace_back(r, 4.0);
+  constexpr std::uint32_t kAround = 96;
+  std::mt19937 random(77);
+  std::normal_distribution<double> noise(0.0, noise_mm);
+  TriangleMesh mesh;
+  for (const glm::dvec2& circle : circles)
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const double azimuth = 2.0 * std::numbers::pi * i / kAround;
+      const double x = circle.x * std::cos(azimuth), y = circle.x * std::sin(azimuth);
+      mesh.points.emplace_back(x + noise(random), y + noise(random), circle.y + noise(random));
+    }
+  const auto foot = static_cast<std::uint32_t>(mesh.points.size());
+  mesh.points.emplace_back(0.0, 0.0, 0.0);
+  mesh.points.emplace_back(0.0, 0.0, 4.0);
+  const auto last = static_cast<std::uint32_t>(circles.size() - 1) * kAround;
+  for (std::uint32_t i = 0; i < kAround; ++i) {
+    const std::uint32_t k = (i + 1) % kAround;
+    mesh.triangles.push_back({foot, k, i});
+    mesh.triangles.push_back({foot + 1, last + i, last + k});
+    for (std::uint32_t row = 0; row < last; row += kAround) {
+      mesh.triangles.push_back({row + i, row + k, row + kAround + k});
+      mesh.triangles.push_back({row + i, row + kAround + k, row + kAround + i});
+    }
+  }
+  return mesh;
+}
+
+TEST(MeshPot, LevelsFacesOfAScanWithinItsNoise) {
+  const auto clean = mesh_pot(noisy_cup(0.0), {}, "cup.stl");
+  ASSERT_TRUE(clean) << clean.error().message;
+  EXPECT_EQ(clean->noise_mm, 0.0);
+  // The foot, the floor and the rim are at 0, 4 and 80 mm: bounds of 120 rings of 80/120 mm.
+  EXPECT_EQ(clean->pot.stack.size(), 120u);
+  for (const double noise_mm : {0.005, 0.02, 0.05}) {
+    const auto pot = mesh_pot(noisy_cup(noise_mm), {}, "scan.stl");
+    ASSERT_TRUE(pot) << pot.error().message;
+    EXPECT_GT(pot->noise_mm, 0.5 * noise_mm);
+    EXPECT_LT(pot->noise_mm, 2.0 * noise_mm + 0.01) << "with the chords of the circles";
+    // No point of 12,000 is farther than five standard deviations, or the chord's 0.02 mm.
+    EXPECT_LE(pot->deviation.mm, 5.0 * noise_mm + 0.03);
+    const ClayStack& stack = pot->pot.stack;
+    EXPECT_LE(stack.size(), 1000u) << noise_mm;
+    EXPECT_NEAR(stack.height_mm(), 80.0, 2.0 * noise_mm + 0.01);
+    std::size_t solid = 0;
+    while (stack.rings()[solid].inner2 == 0) ++solid;
+    EXPECT_NEAR(static_cast<double>(solid) * stack.ring_height_mm(), 4.0, 3.0 * noise_mm + 0.01);
+    for (std::size_t i = solid; i < stack.size(); ++i)
+      ASSERT_NEAR(stack.rings()[i].outer_mm() - stack.rings()[i].inner_mm(), 3.0, noise_mm + 0.03)
+          << i << " of " << noise_mm;
+  }
+}
+
+TEST(MeshPot, CommandWarnsOfNoise) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.file("scan.stl"), pot = folder.file("scan.pot.json");
+  test::write_text(file, *solid::encode_mesh(noisy_cup(0.02), solid::MeshFormat::stl_binary, {}));
+  const auto run = test::claystack("import --json " + file + " -o " + pot);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("warning: " + file +
+                                 ": expected points on a surface of "
+                                 "revolution, found noise of about 0.01"));
+  ASSERT_EQ(run.json().at("warnings").size(), 1u) << run.out;
+  EXPECT_NEAR(run.json().at("noise_mm").get<double>(), 0.02, 0.01);
+  // A height asked for does not bring the noise of the floor back.
+  const auto asked = test::claystack("import --json --ring-height 1 " + file + " -o " + pot);
+  EXPECT_LE(asked.json().at("deviation_mm").get<double>(), 0.13) << asked.out;
+  EXPECT_LE(asked.json().at("rings"), 160) << asked.out;
+  const std::string stl = folder.file("again.stl");
+  const auto exported = test::claystack("export " + pot + " " + stl + " --min-wall 2.8");
+  EXPECT_EQ(exported.status, 0) << exported.out << exported.err;
+  EXPECT_EQ(test::claystack("check -q " + stl).status, 0);
+}
+
 TEST(MeshPot, RefusesWhatIsNotOfRevolution) {
   TriangleMesh box;
   add_box(box, {0.0, 0.0, 0.0}, {80.0, 50.0, 30.0});

@@ -1,0 +1,152 @@
+#include "app/import/drawn_axis.hpp"
+
+#include "app/import/joined_lines.hpp"
+#include "app/import/outline_faults.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <optional>
+
+namespace clay::importing {
+namespace {
+
+/// Whether every corner has a mirror image among the corners, in its cell or a neighbouring one: a
+/// drawing of both halves.
+bool mirrored(const std::vector<Line>& lines, double middle) {
+  std::vector<Cell> cells, images;
+  for (const Line& line : lines) {
+    for (const glm::dvec2& p : line.points_mm) {
+      cells.push_back(cell_of(p));
+      images.push_back(cell_of({2.0 * middle - p.x, p.y}));
+    }
+  }
+  std::sort(cells.begin(), cells.end());
+  return std::all_of(images.begin(), images.end(), [&](const Cell& image) {
+    for (const std::int64_t beside : {0, -1, 1}) {
+      const Cell lowest{image.first + beside, image.second - 1};
+      const auto near = std::lower_bound(cells.begin(), cells.end(), lowest);
+      if (near != cells.end() && near->first == lowest.first && near->second <= image.second + 1)
+        return true;
+    }
+    return false;
+  });
+}
+
+/// A straight vertical line.
+std::optional<double> upright(const Line& line) {
+  if (line.closed) return std::nullopt;
+  const glm::dvec2 first = line.points_mm.front();
+  for (const glm::dvec2& p : line.points_mm)
+    if (std::abs(p.x - first.x) > kSamePointMm) return std::nullopt;
+  return first.x;
+}
+
+/// Removes axis lines, which are straight, vertical, and connected to no other line, and returns
+/// where they are. `asked`: the axis, if it is given.
+Result<std::optional<double>> take_axis_lines(std::vector<Line>& lines, std::optional<double> asked,
+                                              const std::string& name) {
+  std::vector<double> found;
+  for (const Line& line : lines)
+    if (const auto x = upright(line)) found.push_back(*x);
+  if (found.empty() || lines.size() == 1) return std::nullopt;
+  std::sort(found.begin(), found.end());
+  // Among upright lines alone, the others are outlines.
+  if (found.size() == lines.size()) found.resize(1);
+  if (!asked && std::abs(found.front() - found.back()) > kSamePointMm)
+    return failure(
+        ErrorKind::bad_input,
+        fmt::format("{}: expected one axis line, found unconnected vertical lines at x = "
+                    "{:g} and {:g} mm; --axis chooses the axis, --layer one layer of a drawing",
+                    name, found.front(), found.back()));
+  const double axis = asked.value_or(found.front());
+  std::erase_if(lines, [&](const Line& line) {
+    const auto x = upright(line);
+    return x && std::abs(*x - axis) <= kSamePointMm;
+  });
+  return axis;
+}
+
+/// No line begins, ends or runs along the vertical line, as they do at an axis.
+bool only_a_corner_at(const std::vector<Line>& lines, double x_mm) {
+  const auto near = [&](glm::dvec2 p) { return std::abs(p.x - x_mm) <= kSamePointMm; };
+  return !edge_along(lines, x_mm) && std::none_of(lines.begin(), lines.end(), [&](const Line& l) {
+    return !l.closed && (near(l.points_mm.front()) || near(l.points_mm.back()));
+  });
+}
+
+/// Closed outlines with a straight edge at their right end and none at their left: the edge is the
+/// axis, unless the drawing shows both halves.
+bool drawn_left_of_its_edge(const std::vector<Line>& lines) {
+  const Bounds bounds = bounds_of(lines);
+  return std::all_of(lines.begin(), lines.end(), [](const Line& l) { return l.closed; }) &&
+         only_a_corner_at(lines, bounds.low.x) && edge_along(lines, bounds.high.x) &&
+         !nearly_mirrored(lines, 0.5 * (bounds.low.x + bounds.high.x));
+}
+
+}  // namespace
+
+Bounds bounds_of(const std::vector<Line>& lines) {
+  Bounds bounds;
+  for (const Line& line : lines) {
+    for (const glm::dvec2& p : line.points_mm) {
+      bounds.low = glm::min(bounds.low, p);
+      bounds.high = glm::max(bounds.high, p);
+    }
+  }
+  return bounds;
+}
+
+Result<void> place_axis(HalfSection& section, Drawing& drawing, const HalfSectionSettings& settings,
+                        const std::string& name) {
+  const Bounds bounds = bounds_of(drawing.lines);
+  const double middle = 0.5 * (bounds.low.x + bounds.high.x);
+  section.axis =
+      settings.axis == AxisRule::by_itself && drawing.axis_at_zero ? AxisRule::at : settings.axis;
+  std::optional<double> asked;
+  if (section.axis == AxisRule::at)
+    asked = settings.axis == AxisRule::at ? settings.axis_mm : 0.0;
+  else if (section.axis != AxisRule::by_itself)
+    asked = section.axis == AxisRule::left ? bounds.low.x : middle;
+  const auto line = take_axis_lines(drawing.lines, asked, name);
+  if (!line) return tl::make_unexpected(line.error());
+  if (section.axis == AxisRule::by_itself)
+    section.axis = *line                                   ? AxisRule::line
+                   : mirrored(drawing.lines, middle)       ? AxisRule::middle
+                   : drawn_left_of_its_edge(drawing.lines) ? AxisRule::right
+                                                           : AxisRule::left;
+  section.axis_mm = asked                              ? *asked
+                    : section.axis == AxisRule::line   ? **line
+                    : section.axis == AxisRule::middle ? middle
+                    : section.axis == AxisRule::right  ? bounds.high.x
+                                                       : bounds.low.x;
+  if (section.axis == AxisRule::left && settings.axis == AxisRule::by_itself &&
+      only_a_corner_at(drawing.lines, section.axis_mm))
+    section.notes.push_back(fmt::format(
+        "{}: expected a straight edge of the outline along the axis, or a vertical line beside it, "
+        "found only a corner at the left end, x = {:g} mm, which is used as the axis; --axis "
+        "places it",
+        name, section.axis_mm));
+  return {};
+}
+
+void turn_to_the_right(std::vector<Line>& lines, double axis_mm) {
+  const Bounds bounds = bounds_of(lines);
+  if (!(bounds.high.x <= axis_mm + kSamePointMm) || !(bounds.low.x < axis_mm)) return;
+  for (Line& line : lines)
+    for (glm::dvec2& p : line.points_mm) p.x = 2.0 * axis_mm - p.x;
+}
+
+std::string hint_about(const std::vector<Line>& lines, const HalfSection& section, bool chosen) {
+  const Bounds bounds = bounds_of(lines);
+  const double middle = 0.5 * (bounds.low.x + bounds.high.x);
+  if (chosen || section.axis != AxisRule::left || !nearly_mirrored(lines, middle)) return {};
+  return fmt::format(
+      "; the drawing is nearly symmetric about x = {:g} mm: --axis middle uses its right half",
+      middle);
+}
+
+}  // namespace clay::importing

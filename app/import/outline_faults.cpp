@@ -1,0 +1,86 @@
+#include "app/import/outline_faults.hpp"
+
+#include "app/import/deviation.hpp"
+#include "app/import/joined_lines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace clay::importing {
+namespace {
+
+/// Calls `use` with the ends of each piece; of an open line, without the one that would close it.
+template <class Use>
+void for_each_piece(const std::vector<Line>& lines, Use use) {
+  for (const Line& line : lines) {
+    const std::size_t count = line.points_mm.size();
+    for (std::size_t i = 0; i + (line.closed ? 0 : 1) < count; ++i)
+      use(line.points_mm[i], line.points_mm[(i + 1) % count]);
+  }
+}
+
+}  // namespace
+
+bool nearly_mirrored(const std::vector<Line>& lines, double middle_mm) {
+  std::vector<Segment> outline;
+  std::vector<glm::dvec2> images;
+  double half_mm = 0.0;
+  for_each_piece(lines, [&](glm::dvec2 a, glm::dvec2 b) { outline.push_back({a, b}); });
+  for (const Line& line : lines)
+    for (const glm::dvec2& p : line.points_mm) {
+      images.emplace_back(2.0 * middle_mm - p.x, p.y);
+      half_mm = std::max(half_mm, std::abs(p.x - middle_mm));
+    }
+  const std::vector<double> distances = distances_from(outline, images);
+  return std::all_of(distances.begin(), distances.end(),
+                     [&](double mm) { return mm <= 0.04 * half_mm; });
+}
+
+bool edge_along(const std::vector<Line>& lines, double x_mm) {
+  bool found = false;
+  for_each_piece(lines, [&](glm::dvec2 a, glm::dvec2 b) {
+    found = found || (std::abs(a.x - x_mm) <= kSamePointMm &&
+                      std::abs(b.x - x_mm) <= kSamePointMm && std::abs(a.y - b.y) > kSamePointMm);
+  });
+  return found;
+}
+
+std::optional<Gap> narrowest_gap(const std::vector<Line>& lines) {
+  constexpr std::size_t kMostCompared = 1000;  // a drawing has few open ends; of many, neighbours
+  std::vector<glm::dvec2> ends;
+  for (const Line& line : lines) {
+    if (line.closed) continue;
+    for (const glm::dvec2& p : {line.points_mm.front(), line.points_mm.back()})
+      if (p.x > kSamePointMm) ends.push_back(p);
+  }
+  std::sort(ends.begin(), ends.end(), [](glm::dvec2 a, glm::dvec2 b) { return a.y < b.y; });
+  std::optional<Gap> narrowest;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t k = i + 1; k < std::min(ends.size(), i + kMostCompared); ++k) {
+      const double mm = glm::length(ends[k] - ends[i]);
+      if (!narrowest || mm < narrowest->mm) narrowest = Gap{ends[i], ends[k], mm};
+      if (ends[k].y - ends[i].y > narrowest->mm) break;
+    }
+  return narrowest;
+}
+
+std::string clay_between(std::span<const double> radii_mm) {
+  std::string text;
+  const std::size_t count = radii_mm.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = count - 1 - k;  // from the axis outward
+    const bool ends = i % 2 == 0;
+    if (k == 0 && ends) text += "from the axis";
+    text += fmt::format("{}{:.3f}{}",
+                        ends    ? " to "
+                        : k > 0 ? " and from "
+                                : "from ",
+                        radii_mm[i], ends ? " mm" : "");
+  }
+  return text;
+}
+
+}  // namespace clay::importing
