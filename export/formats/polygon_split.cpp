@@ -72,7 +72,7 @@ class PolygonTriangulation {
             {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
     if (inside.size() != corners_.size() - 2) return std::nullopt;
     // An order of its own: that of the library is not documented.
-    for (auto& t : inside) std::ranges::rotate(t, std::ranges::min_element(t));
+    for (auto& t : inside) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     std::ranges::sort(inside);
     return inside;
   }
@@ -110,7 +110,7 @@ class PolygonTriangulation {
 
   /// An edge that the polygon passes along there and back is no border.
   [[nodiscard]] bool is_border(std::uint32_t a, std::uint32_t b) const {
-    const auto [first, last] = std::ranges::equal_range(edges_, edge_between(a, b));
+    const auto [first, last] = std::equal_range(edges_.begin(), edges_.end(), edge_between(a, b));
     return (last - first) % 2 == 1;
   }
 

@@ -265,8 +265,10 @@ TEST_F(CheckRepair, MakesAWallAroundAnOpenSurface) {
   const std::string in = write("cup.stl", open_cup()), out = folder.file("out.stl");
   const Ran run = claystack("check --json --repair --thicken 2 " + in + " -o " + out);
   EXPECT_EQ(run.status, 0) << run.err;
-  // Five sides of 400 mm2, 2 mm thick, less the corners inside and more at the edges.
-  EXPECT_NEAR(run.json().at("volume_mm3"), 4000.0, 400.0);
+  // Five sides of 400 mm2, 2 mm thick, less the corners inside and more at the edges; and up to a
+  // fifth more, so that no sample is thinner near the sharp rim.
+  EXPECT_GE(run.json().at("volume_mm3"), 3600.0);
+  EXPECT_LE(run.json().at("volume_mm3"), 1.2 * 4000.0);
   // 1 mm, and up to 3 sqrt(3) - 2 mm in the corners inside, which a ball of 2 mm radius rounds off
   // between three faces.
   EXPECT_GE(run.json().at("change").at("added_mm"), 0.99);
