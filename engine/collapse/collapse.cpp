@@ -1,7 +1,7 @@
 #include "engine/collapse/collapse.hpp"
 
 #include "claystack/engine/collapse.hpp"
-#include "engine/clay/portable_trig.hpp"
+#include "core/portable_trig.hpp"
 #include "engine/collapse/fall_path.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "engine/collapse/fall_path.hpp"
 
 #include "claystack/engine/tick.hpp"
-#include "engine/clay/portable_trig.hpp"
+#include "core/portable_trig.hpp"
 #include "engine/collapse/fallen_body.hpp"
 #include "engine/collapse/yield_power.hpp"
 

@@ -1,6 +1,6 @@
 #include "engine/collapse/fallen_body.hpp"
 
-#include "engine/clay/portable_trig.hpp"
+#include "core/portable_trig.hpp"
 
 #include <algorithm>
 #include <array>

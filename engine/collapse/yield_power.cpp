@@ -1,6 +1,6 @@
 #include "engine/collapse/yield_power.hpp"
 
-#include "engine/clay/portable_trig.hpp"
+#include "core/portable_trig.hpp"
 
 #include <algorithm>
 #include <array>

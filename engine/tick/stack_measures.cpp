@@ -1,6 +1,6 @@
 #include "claystack/engine/tick.hpp"
 
-#include "engine/clay/portable_trig.hpp"
+#include "core/portable_trig.hpp"
 #include "engine/tick/stability.hpp"
 
 #include <algorithm>

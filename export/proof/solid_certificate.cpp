@@ -4,6 +4,7 @@
 #include "claystack/export/walls.hpp"
 #include "core/compensated_sum.hpp"
 #include "core/content_hash.hpp"
+#include "core/portable_trig.hpp"
 #include "export/proof/describe.hpp"
 #include "export/proof/revolve_match.hpp"
 #include "export/proof/rounded_claims.hpp"
@@ -44,13 +45,13 @@ ContentHash hash_of_profile(const Profile& profile) {
 double volume_bound(const RevolveLayout& rule, double rounding) {
   const auto n = static_cast<double>(rule.segments());
   const double chord_per_radius =
-      2.0 * equal_area_factor(rule.segments()) * std::sin(std::numbers::pi / n);
+      2.0 * equal_area_factor(rule.segments()) * cos_sin(std::numbers::pi / n).sine;
   CompensatedSum area;
   for (const Shell& shell : rule.shells())
     for (const auto& [from, to] : shell.bands) {
       const ProfilePoint &p = shell.points[from], &q = shell.points[to];
       const double a = chord_per_radius * p.rho, b = chord_per_radius * q.rho;
-      const double slant = std::hypot(q.rho - p.rho, q.y - p.y) + 0.5 * std::abs(a - b);
+      const double slant = length_of(q.rho - p.rho, q.y - p.y) + 0.5 * std::abs(a - b);
       const double edges = a + b + 2.0 * (slant + std::min(a, b));
       area.add(n * (0.5 * (a + b) * slant + rounding * (edges + 4.0 * rounding)));
     }
@@ -61,7 +62,7 @@ double volume_bound(const RevolveLayout& rule, double rounding) {
 /// facets; at their sides the factor is the equal-volume factor.
 double scale_at_facets(std::size_t segments) {
   return std::min(1.0, equal_area_factor(segments) *
-                           std::cos(std::numbers::pi / static_cast<double>(segments)));
+                           cos_sin(std::numbers::pi / static_cast<double>(segments)).cosine);
 }
 
 tl::unexpected<Error> wrong(std::string_view file, std::string_view claim,
@@ -93,7 +94,7 @@ double counting_slack(const Profile& profile) {
       low = std::min(low, p.y);
       high = std::max(high, p.y);
     }
-  const double step = std::ldexp(std::hypot(radius, high - low), -19);
+  const double step = std::ldexp(length_of(radius, high - low), -19);
   return std::numbers::pi * (high - low) * (2.0 * step * step + std::ldexp(radius * radius, -50));
 }
 
@@ -175,9 +176,10 @@ double Margins::safe_rounding_mm() const noexcept {
 
 Margins margins_of(const Profile& profile, std::size_t segments) {
   const Clearance found = clearance(profile, scale_at_facets(segments));
-  return {found.distance_mm,
-          found.least_radius_mm * std::sin(2.0 * std::numbers::pi / static_cast<double>(segments)),
-          segments};
+  return {
+      found.distance_mm,
+      found.least_radius_mm * cos_sin(2.0 * std::numbers::pi / static_cast<double>(segments)).sine,
+      segments};
 }
 
 SolidCertificate claims_of(const Profile& profile, std::size_t segments, double rounding_mm) {

@@ -1,5 +1,6 @@
 #include "export/solid/revolve_layout.hpp"
 
+#include "core/portable_trig.hpp"
 #include "export/section/stack_section.hpp"
 
 #include <algorithm>
@@ -22,9 +23,9 @@ glm::dvec2 direction(std::size_t s, std::size_t n) {
   if (steep) eighths = 2 * n - eighths;
   const double angle =
       std::numbers::pi / 4.0 * (static_cast<double>(eighths) / static_cast<double>(n));
-  // On the diagonal the library's sine and cosine may differ by one ulp.
-  glm::dvec2 d =
-      eighths == n ? glm::dvec2{std::sqrt(0.5)} : glm::dvec2{std::cos(angle), std::sin(angle)};
+  const CosSin turned = cos_sin(angle);
+  // On the diagonal, which the angle misses by its rounding, both are equal.
+  glm::dvec2 d = eighths == n ? glm::dvec2{std::sqrt(0.5)} : glm::dvec2{turned.cosine, turned.sine};
   if (steep) std::swap(d.x, d.y);
   if (behind) d.x = -d.x;
   if (below) d.y = -d.y;
@@ -83,14 +84,14 @@ std::size_t RevolveLayout::vertices() const noexcept {
 
 double equal_area_factor(std::size_t segments) noexcept {
   const double step = 2.0 * std::numbers::pi / static_cast<double>(segments);
-  return std::sqrt(step / std::sin(step));
+  return std::sqrt(step / cos_sin(step).sine);
 }
 
 double float_rounding_mm(const RevolveLayout& rule) noexcept {
   double farthest = 0.0;
   for (const Shell& shell : rule.shells())
     for (const ProfilePoint& p : shell.points)
-      farthest = std::max(farthest, std::hypot(equal_area_factor(rule.segments()) * p.rho, p.y));
+      farthest = std::max(farthest, length_of(equal_area_factor(rule.segments()) * p.rho, p.y));
   // The products are themselves rounded to double first.
   constexpr double kDoubleRounding = 1.0 + 0x1p-20;
   return std::ldexp(farthest * kDoubleRounding, -24);

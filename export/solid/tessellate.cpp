@@ -1,6 +1,7 @@
 #include "claystack/export/solid.hpp"
 
 #include "core/cancel.hpp"
+#include "core/portable_trig.hpp"
 #include "export/solid/revolve_layout.hpp"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ double chordal_error_mm(double radius_mm, std::size_t segments) noexcept {
   const double factor = equal_area_factor(segments);
   const double at_vertices = factor - 1.0;
   const double at_mid_edges =
-      1.0 - factor * std::cos(std::numbers::pi / static_cast<double>(segments));
+      1.0 - factor * cos_sin(std::numbers::pi / static_cast<double>(segments)).cosine;
   return radius_mm * std::max(at_vertices, at_mid_edges);
 }
 

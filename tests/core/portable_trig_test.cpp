@@ -1,4 +1,4 @@
-#include "engine/clay/portable_trig.hpp"
+#include "core/portable_trig.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
