@@ -348,8 +348,8 @@ std::string verdict_of(const ExportReport& report) {
   std::size_t faults = 0, notes = 0;
   for (const solid::Problem& problem : solid::problems_of(report))
     ++(problem.fails ? faults : notes);
-  const std::string solid = std::string(report.collapsed ? "collapsed; " : "") +
-                            "closed and without self-intersections";
+  const std::string solid =
+      std::string(report.collapsed ? "collapsed; " : "") + "closed and without self-intersections";
   if (faults > 0) return fmt::format("{}, but {} failed", solid, counted(faults, "limit"));
   return notes > 0 ? fmt::format("{}; {}", solid, counted(notes, "warning")) : solid;
 }

@@ -179,7 +179,8 @@ TEST_F(SectionFiles, ScalesAPotToACapacity) {
   EXPECT_EQ(thin.status, 1);
   EXPECT_NE(thin.err.find("thin wall"), std::string::npos) << thin.err;
   EXPECT_FALSE(std::filesystem::exists(folder.file("thin.stl")));
-  const auto pound = run("--json --weighs 1lb").json(), ounces = run("--json --weighs 16oz").json();
+  const auto pound = run("--json --weighs 1lb " + stl).json();
+  const auto ounces = run("--json --weighs 16oz " + stl).json();
   EXPECT_NEAR(pound.at("maker").at("thrown").at("weight_g").get<double>(), 453.59237, 1e-3);
   EXPECT_EQ(pound.at("maker"), ounces.at("maker"));
   for (const char* bad : {"--holds 5x", "--holds 0", "--fired", "--holds 350 --weighs 400"})
