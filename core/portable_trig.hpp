@@ -1,7 +1,7 @@
 #pragma once
 // libm's sine, cosine and hypotenuse may differ in the last bit between platforms, and a collapse
-// writes that bit to the pot file, an export to a certificate. These use only +, -, *, / and sqrt, which IEEE 754 defines
-// exactly.
+// writes that bit to the pot file, an export to a certificate. These use only +, -, *, / and sqrt,
+// which IEEE 754 defines exactly.
 
 namespace clay {
 
