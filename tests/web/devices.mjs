@@ -129,10 +129,9 @@ function checkBites(strokes, strengths, what) {
   found.forEach((v, i) => near(v, expected[i], 0.02, `${what}, strength ${strengths[i].toFixed(2)} [mm/s]`));
 }
 
-// Places of the pointer [px]: beside the lump, at its surface, and about 20 mm within it. Half of its
-// height; the view moves after the first stroke, to make room for the timeline.
-const kBesidePx = 790, kSurfacePx = 782, kWithinPx = 700;
-const halfHeightPx = stroke => stroke === 1 ? 345 : 455;
+// Places of the pointer [px]: beside the lump, at its surface, and about 20 mm within it, at half of
+// its height. The view stands still when the timeline appears over it.
+const kBesidePx = 790, kSurfacePx = 782, kWithinPx = 700, kHalfHeightPx = 345;
 
 /// A firmer pen goes faster into the clay.
 export async function pen({open, folder}) {
@@ -140,7 +139,7 @@ export async function pen({open, folder}) {
   const events = await page.createCDPSession();
   const stroke = async (force, count) => {
     const event = (type, x, more) => events.send('Input.dispatchMouseEvent',
-      {type, x, y: halfHeightPx(count), pointerType: 'pen', force, button: 'left', clickCount: 1, buttons: 1, ...more});
+      {type, x, y: kHalfHeightPx, pointerType: 'pen', force, button: 'left', clickCount: 1, buttons: 1, ...more});
     await event('mouseMoved', kBesidePx, {button: 'none', buttons: 0, force: 0});
     await pause(300);
     await event('mousePressed', kBesidePx);
@@ -185,8 +184,8 @@ export async function gamepad({open, folder}) {
   await page.evaluate(() => window.plug());
   await pause(500);
   const press = async (pulled, count) => {
-    await page.mouse.move(870, halfHeightPx(count));
-    await page.mouse.move(860, halfHeightPx(count));  // beside the lump
+    await page.mouse.move(870, kHalfHeightPx);
+    await page.mouse.move(860, kHalfHeightPx);  // beside the lump
     await pause(300);
     await hold(kRight, pulled);
     await page.says('stroke started', count);
