@@ -42,7 +42,9 @@ std::string in_cm3(double mm3) {
 }
 
 std::string volume_text(const solid::MeshReport& mesh) {
-  if (mesh.has_volume) return in_cm3(mesh.volume_mm3);
+  const bool counted_twice = mesh.components > 1 && mesh.self_intersections > 0;
+  if (mesh.has_volume)
+    return in_cm3(mesh.volume_mm3) + (counted_twice ? " (twice where bodies overlap)" : "");
   return mesh.closed ? "no volume: neighbours face opposite ways" : "no volume: the mesh is open";
 }
 

@@ -61,14 +61,6 @@ std::vector<std::string> warnings_about(const ImportOptions& options, const Half
         "{}: expected rings within {:g} mm of the drawing, found {:.3f} mm; rings lower than {:g} "
         "mm are not nearer, as the drawing has lower details",
         options.drawing, kDrawnDeviationMm, drawn.deviation.mm, drawn.pot.stack.ring_height_mm()));
-  constexpr double kClearly = 0.8;
-  const std::optional<double> wall_mm = options.pot_settings.wall_mm;
-  if (drawn.thinnest && drawn.thinnest->mm < kClearly * wall_mm.value_or(0.0))
-    warnings.push_back(fmt::format(
-        "--wall: expected walls of about {:g} mm, found {:.2f} mm across the wall {:.1f} mm above "
-        "the foot: the option measures horizontally, and the wall leans there; draw the inside for "
-        "a wall of even thickness",
-        *wall_mm, drawn.thinnest->mm, drawn.thinnest->height_mm));
   return warnings;
 }
 
@@ -190,10 +182,11 @@ void add_drawing_options(CLI::App* command, ImportOptions& options) {
 }
 
 void add_pot_options(CLI::App* command, DrawnPotSettings& settings) {
-  add_length(*command, "--wall", settings.wall_mm,
-             "Thickness of the wall, measured horizontally, and of the floor, for a drawing that "
-             "shows only the outside [mm] (default: solid)",
-             0.01, 1000.0);
+  add_length(
+      *command, "--wall", settings.wall_mm,
+      "Thickness of the wall, measured across it, and of the floor, for a drawing that shows "
+      "only the outside [mm] (default: solid)",
+      0.01, 1000.0);
   add_length(*command, "--ring-height", settings.ring_height_mm,
              "Maximum ring height [mm] (default: 0.75, or less where the rings would deviate "
              "by more than 0.02 mm from the drawing)",

@@ -10,19 +10,6 @@
 namespace clay::importing {
 namespace {
 
-/// The part of a slab between two heights.
-Slab part_of(const Slab& slab, double from, double to) {
-  const auto along = [&](double a, double b, double y) {
-    return a + (b - a) * ((y - slab.from_mm) / (slab.to_mm - slab.from_mm));
-  };
-  return {from,
-          to,
-          along(slab.outer_from_mm, slab.outer_to_mm, from),
-          along(slab.outer_from_mm, slab.outer_to_mm, to),
-          along(slab.inner_from_mm, slab.inner_to_mm, from),
-          along(slab.inner_from_mm, slab.inner_to_mm, to)};
-}
-
 /// Calls `use(ring, part)` for each part of a slab that lies within one ring, bottom to top.
 template <class Use>
 void for_each_part(const std::vector<Slab>& slabs, double ring_mm, std::size_t count, Use use) {
@@ -72,66 +59,6 @@ Result<std::vector<Ring>> rings_of(const RingSums& sums, double ring_mm, const s
     rings.push_back({quanta_from_mm2(outer2), quanta_from_mm2(inner2)});
   }
   return rings;
-}
-
-/// The section with a bore: a wall of constant radial thickness above a floor of the same height.
-Result<HalfSection> hollowed(const HalfSection& solid, double wall_mm, const std::string& name) {
-  HalfSection section = solid;
-  section.slabs.clear();
-  for (const Slab& slab : solid.slabs) {
-    if (slab.inner_from_mm > 0.0 || slab.inner_to_mm > 0.0)
-      return failure(
-          ErrorKind::bad_input,
-          name + ": --wall: expected a drawing of the outside alone, found a bore in it");
-    const double floor = std::clamp(wall_mm, slab.from_mm, slab.to_mm);
-    if (floor > slab.from_mm) section.slabs.push_back(part_of(slab, slab.from_mm, floor));
-    if (floor >= slab.to_mm) continue;
-    Slab wall = part_of(slab, floor, slab.to_mm);
-    const bool low = wall.outer_from_mm < wall.outer_to_mm;
-    const double radius = low ? wall.outer_from_mm : wall.outer_to_mm;
-    if (!(radius > wall_mm))
-      return failure(ErrorKind::bad_input,
-                     fmt::format("{}: --wall: expected less than the radius, found {:g} mm; the "
-                                 "radius is {:g} mm at {:g} mm above the foot",
-                                 name, wall_mm, radius, low ? wall.from_mm : wall.to_mm));
-    wall.inner_from_mm = wall.outer_from_mm - wall_mm;
-    wall.inner_to_mm = wall.outer_to_mm - wall_mm;
-    section.slabs.push_back(wall);
-  }
-  if (!(wall_mm < section.height_mm))
-    return failure(
-        ErrorKind::bad_input,
-        fmt::format("{}: --wall: expected less than the height of {:g} mm, found {:g} mm", name,
-                    section.height_mm, wall_mm));
-  return section;
-}
-
-/// The outside and foot of solid slabs, without what is level at the rim.
-std::vector<Segment> below_rim(const std::vector<Slab>& solid, double height_mm) {
-  std::vector<Segment> outline = outline_of(solid);
-  std::erase_if(outline, [&](const Segment& s) { return std::min(s.from.y, s.to.y) >= height_mm; });
-  return outline;
-}
-
-/// Of a hollowed section. Two lines that do not cross are nearest at an end of one of them.
-ThinnestWall thinnest_wall(const HalfSection& section) {
-  std::vector<Slab> solid = section.slabs, bore;
-  for (Slab& slab : solid) {
-    if (slab.inner_from_mm > 0.0 || slab.inner_to_mm > 0.0)
-      bore.push_back({slab.from_mm, slab.to_mm, slab.inner_from_mm, slab.inner_to_mm, 0.0, 0.0});
-    slab.inner_from_mm = slab.inner_to_mm = 0.0;
-  }
-  const auto outside = below_rim(solid, section.height_mm),
-             inside = below_rim(bore, section.height_mm);
-  ThinnestWall thinnest{1e300, 0.0, 0.0};
-  for (const auto& [ends, other] : {std::pair(&inside, &outside), {&outside, &inside}}) {
-    std::vector<glm::dvec2> points;
-    for (const Segment& s : *ends) points.insert(points.end(), {s.from, s.to});
-    const std::vector<double> distances = distances_from(*other, points);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (distances[i] < thinnest.mm) thinnest = {distances[i], points[i].x, points[i].y};
-  }
-  return thinnest;
 }
 
 std::vector<Slab> slabs_of_rings(std::span<const Ring> rings, double ring_mm) {

@@ -3,6 +3,7 @@
 
 #include "app/import/deviation.hpp"
 #include "app/import/half_section.hpp"
+#include "app/import/hollowing.hpp"
 
 #include "claystack/engine/clay.hpp"
 
@@ -19,15 +20,9 @@ inline constexpr double kFineRingMm = 0.02;
 struct DrawnPotSettings {
   /// At most; empty: as low as `deviation_mm` needs, up to kHighestRingMm.
   std::optional<double> ring_height_mm;
-  std::optional<double> wall_mm;  ///< hollows a solid drawing: radial wall thickness, and floor
-                                  ///< height
+  std::optional<double> wall_mm;  ///< hollows a solid drawing: thickness of wall and floor
   double density_g_cm3 = 1.9;
   double deviation_mm = kDrawnDeviationMm;  ///< aimed at
-};
-
-/// The least distance across the wall and floor, and where on the inside.
-struct ThinnestWall {
-  double mm = 0.0, radius_mm = 0.0, height_mm = 0.0;
 };
 
 struct DrawnPot {

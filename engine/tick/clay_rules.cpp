@@ -153,7 +153,7 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
   work.shift.clear();
   work.walls.begin(removals.front().contact.bottom);
   const Squeeze squeeze{plan.removal.min_wall_mm, plan.clay.floor_rings,
-                        (rules & kShift) ? &work.shift : nullptr};
+                        plan.mode == ToolMode::trim_foot, (rules & kShift) ? &work.shift : nullptr};
   const bool two = removals.size() == 2;
   if (!two || kTwoToolBand<rules>)
     for (std::size_t k = 0; k < removals.size(); ++k) {

@@ -201,7 +201,7 @@ void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
   Squeezed s;
   s.load(squeeze, rings, slice);
   const Ring* const shifted = s.raw.data();
-  const bool on_floor = !outside && slice.ring < squeeze.floor_rings;
+  const bool on_floor = !outside && (squeeze.from_below || slice.ring < squeeze.floor_rings);
   bool fits = false;
   in_packs([=, to = &s, of = &slice, min_wall = squeeze.min_wall_mm, smallest = kSmallestOuter2,
             ok = &fits](auto n) CLAYSTACK_INLINE {
@@ -209,8 +209,9 @@ void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
     if (!on_floor) *ok = take_rows<n>(*to, count, outside, smallest);
   });
   // On the floor row by row: what has no bore stays closed.
-  for (std::size_t k = 0; on_floor && k < std::min(count, squeeze.floor_rings - slice.ring); ++k)
-    if (shifted[k].inner2 == 0) slice.rows.depth[slice.begin + k] += std::exchange(s.eps[k], 0.0);
+  for (std::size_t k = 0; on_floor && k < count; ++k)
+    if (shifted[k].inner2 == 0 && squeeze.of_floor(slice.ring + k, rings))
+      slice.rows.depth[slice.begin + k] += std::exchange(s.eps[k], 0.0);
   for (std::size_t k = 0; k < count && !fits; ++k)
     s.removed[k] = outside ? take_outside(shifted[k], s.near[k], s.eps[k])
                            : take_inside(shifted[k], s.near[k], s.eps[k]);
@@ -281,7 +282,7 @@ void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, doub
     Ring ring = rules != nullptr ? rules->ring(i, stack.rings()) : stack.rings()[i];
     auto eps = pinch_ring<model>(plan, ring.outer_mm() - ring.inner_mm(), least_wall, fraction,
                                  dt_s, {out.get(i), in.get(i)});
-    if (rules != nullptr && i < rules->floor_rings && ring.inner2 == 0) eps[1] = 0.0;
+    if (rules != nullptr && ring.inner2 == 0 && rules->of_floor(i, stack.rings())) eps[1] = 0.0;
     if (out.has(i)) {
       Quanta& removed = outer.removed[i - out.from()];
       removed = take_outside(ring, ring.outer_mm(), eps[0]);

@@ -30,8 +30,17 @@ void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_
 /// Clay rules: how what gives way is squeezed out of rings that a shift has moved.
 struct Squeeze {
   double min_wall_mm = 0.0;
-  std::size_t floor_rings = 0;   ///< that are not opened from inside
+  std::size_t floor_rings = 0;   ///< RulesPlan
+  bool from_below = false;       ///< the tool trims the foot
   const Shift* shift = nullptr;  ///< none: the rings as they are
+
+  /// Whether ring i is of the floor, which stays closed where it has no bore: the lowest rings, and
+  /// for a tool from below the rings next to the bore. Without a bore the pot ends at its rim.
+  [[nodiscard]] bool of_floor(std::size_t i, std::span<const Ring> rings) const noexcept {
+    if (!from_below) return i < floor_rings;
+    const std::size_t above = i + floor_rings;
+    return above >= rings.size() || rings[above].inner2 > 0;
+  }
 
   [[nodiscard]] Ring ring(std::size_t i, std::span<const Ring> rings) const noexcept {
     return shift != nullptr ? shift->after(i, rings[i]) : rings[i];

@@ -78,8 +78,11 @@ unsigned rules_of(const SceneSpec& s) {
 
 RulesPlan rules_plan(const SceneSpec& s) {
   if (!s.clay) return {};
-  // Rings whose middle is below the floor's height.
-  const double rings = s.clay->floor_mm / s.lump.ring_height_mm + 0.5;
+  // Rings whose middle is below the floor's height. A foot may be trimmed until the floor is as
+  // thin as a wall may be.
+  const double h = s.lump.ring_height_mm;
+  const double rings = s.tool.mode == ToolMode::trim_foot ? std::ceil(s.removal.min_wall_mm / h)
+                                                          : s.clay->floor_mm / h + 0.5;
   constexpr double kTurn = 2.0 * std::numbers::pi;
   return {rules_of(s), static_cast<std::size_t>(std::fmin(rings, static_cast<double>(kMaxRings))),
           kTurn * s.clay->wheel_rpm / 60.0};

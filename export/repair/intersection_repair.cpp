@@ -43,6 +43,7 @@ struct Cut {
   TriangleMesh mesh;
   std::vector<bool> on_seam;
   std::size_t inner = 0;
+  bool reversed = false;
 };
 
 Result<Cut> cut_and_select(const TriangleMesh& mesh, StageReport& stage) {
@@ -53,7 +54,10 @@ Result<Cut> cut_and_select(const TriangleMesh& mesh, StageReport& stage) {
   if (!skin) return tl::make_unexpected(skin.error());
   if (skin->triangles.empty())
     return failure(ErrorKind::unsound, "expected a surface that encloses clay, found none");
-  Cut cut{{std::move(soup->points), std::move(skin->triangles)}, soup->at_cut, skin->inner};
+  Cut cut{{std::move(soup->points), std::move(skin->triangles)},
+          soup->at_cut,
+          skin->inner,
+          skin->reversed};
   cut.on_seam.resize(cut.mesh.points.size(), true);
   return cut;
 }
@@ -97,8 +101,10 @@ TriangleMesh snapped(const TriangleMesh& mesh, const std::vector<bool>& at_cut, 
 
 class Resolution {
  public:
-  Resolution(TriangleMesh mesh, std::vector<Repair>& repaired, StageReport& stage)
+  Resolution(TriangleMesh mesh, Reversed reversed, std::vector<Repair>& repaired,
+             StageReport& stage)
       : input_(std::move(mesh)),
+        reversed_(reversed),
         unit_mm_(last_place_mm(input_)),
         repaired_(repaired),
         stage_(stage) {}
@@ -139,6 +145,8 @@ class Resolution {
           stage_);
       if (!cut) return tl::make_unexpected(cut.error());
       if (first && pass == 0) {
+        if (cut->reversed && reversed_ == Reversed::refused)
+          return failure(ErrorKind::unsound, "expected no part that is turned inside out");
         at_cut_ = cut->on_seam;
         note_repair(repaired_, "triangle inside the solid removed", cut->inner);
       }
@@ -188,6 +196,7 @@ class Resolution {
   }
 
   TriangleMesh input_;
+  Reversed reversed_;
   double unit_mm_;
   std::vector<Repair>& repaired_;
   StageReport& stage_;
@@ -198,11 +207,11 @@ class Resolution {
 
 }  // namespace
 
-Result<TriangleMesh> resolve_intersections(const TriangleMesh& closed,
+Result<TriangleMesh> resolve_intersections(const TriangleMesh& closed, Reversed reversed,
                                            std::vector<Repair>& repaired, StageReport& stage) {
   TriangleMesh mesh = closed;
   merge_equal_points(mesh);
-  return Resolution(std::move(mesh), repaired, stage).run();
+  return Resolution(std::move(mesh), reversed, repaired, stage).run();
 }
 
 }  // namespace clay::solid::inline repair

@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <exception>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -109,12 +110,34 @@ bool is_closed(const TriangleMesh& soup) {
   return true;
 }
 
+/// Of solids that share edges, as the parts of a stacked cup do, whose triangles no surface joins:
+/// winding numbers tell what they enclose. None for an open soup, and if a solid is inside out,
+/// which half-edges can show.
+std::optional<TriangleMesh> united_solids(TriangleMesh soup, std::vector<Repair>& repaired,
+                                          StageReport& stage) {
+  if (!is_closed(soup)) return std::nullopt;
+  if (signed_volume(soup) < 0.0) {
+    for (Triangle& t : soup.triangles) std::swap(t[1], t[2]);
+    note_repair(repaired, "shell turned", 1);
+  }
+  auto united = resolve_intersections(soup, Reversed::refused, repaired, stage);
+  if (!united) return std::nullopt;
+  note_repair(repaired, "solids with common edges united", 1);
+  return std::move(*united);
+}
+
 /// The stages in their order.
 Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& options,
                               RepairedMesh& report, StageReport& stage) {
   stage.begin("joining triangles");
+  std::vector<Repair> cleaned = report.repaired;
   auto surface = make_surface(soup, report.repaired);
   if (!surface) return tl::make_unexpected(surface.error());
+  if (!CGAL::is_closed(*surface))
+    if (auto united = united_solids(soup, cleaned, stage)) {
+      report.repaired = std::move(cleaned);
+      return std::move(*united);
+    }
   stage.begin("filling holes");
   auto holes = fill_holes(*surface, options.cap_openings);
   if (!holes && is_closed(soup)) holes = fill_holes(*surface, true);
@@ -130,7 +153,7 @@ Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& opt
   note_repair(report.repaired, "shell turned", turn_shells(*surface));
   const TriangleMesh closed = mesh_of(*surface);
   if (closed.triangles.empty()) return nothing_left();
-  return resolve_intersections(closed, report.repaired, stage);
+  return resolve_intersections(closed, Reversed::accepted, report.repaired, stage);
 }
 
 /// Exceptions of the library become errors.

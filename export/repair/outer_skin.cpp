@@ -34,7 +34,9 @@ class Regions {
     if (!number_regions()) return open();
     OuterSkin result;
     for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
-      if (winding_of(t, true) <= 0 && winding_of(t, false) > 0)
+      const int front = winding_of(t, true), back = winding_of(t, false);
+      result.reversed = result.reversed || front < 0 || back < 0;
+      if (front <= 0 && back > 0)
         result.triangles.push_back(soup_.triangles[t]);
       else
         ++result.inner;

@@ -11,6 +11,7 @@ namespace clay::solid::inline repair {
 struct OuterSkin {
   std::vector<Triangle> triangles;  ///< on the points of the soup, each once, outward
   std::size_t inner = 0;            ///< triangles of the soup that are not part of it
+  bool reversed = false;            ///< a part is turned inside out
 };
 
 /// A region is inside if its winding number is at least 1: overlapping bodies are united, a part

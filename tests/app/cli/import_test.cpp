@@ -144,23 +144,16 @@ TEST(Import, PointsToThePotInA3mf) {
   }
 }
 
-TEST(Import, WarnsOfAWallThatLeans) {
+TEST(Import, ReportsTheThinnestWallOfAHollowedOutline) {
   const ScratchFolder folder;
   const std::string dish = folder.file("dish.csv"), pot = folder.file("dish.pot.json");
   write_text(dish, "radius_mm,height_mm\n30,0\n80,10\n80,15\n");
   const Ran leaning = claystack("import --json --wall 3 " + dish + " -o " + pot);
   ASSERT_EQ(leaning.status, 0) << leaning.err;
-  // The wall rises by 1 in 5.
-  EXPECT_NEAR(leaning.json().at("thinnest_wall_mm").get<double>(), 3.0 * std::sin(std::atan(0.2)),
-              1e-6);
-  EXPECT_THAT(leaning.err, HasSubstr("--wall: expected walls of about 3 mm, found 0.59 mm"));
-  EXPECT_EQ(leaning.json().at("warnings").size(), 1u);
+  EXPECT_NEAR(leaning.json().at("thinnest_wall_mm").get<double>(), 3.0, 1e-3);
+  EXPECT_EQ(leaning.err, "");
   EXPECT_THAT(claystack("import --wall 3 " + dish + " -o " + pot).out,
-              HasSubstr("thinnest wall: 0.59 mm"));
-  write_text(dish, "30,0\n30,50\n");
-  const Ran upright = claystack("import --json --wall 3 " + dish + " -o " + pot);
-  EXPECT_EQ(upright.err, "");
-  EXPECT_NEAR(upright.json().at("thinnest_wall_mm").get<double>(), 3.0, 1e-9);
+              HasSubstr("thinnest wall: 3 mm"));
   const Ran solid = claystack("import --json " + dish + " -o " + pot);
   EXPECT_TRUE(solid.json().at("thinnest_wall_mm").is_null());
 }

@@ -8,6 +8,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace clay::importing {
 namespace {
@@ -89,25 +90,79 @@ TEST(DrawnPot, WallOptionHollowsTheOutline) {
               HasSubstr("found a bore in it"));
   EXPECT_THAT(
       refusal_of(pot_of("30,0\n25,60\n", {2.0, 40.0, 1.9})),
-      HasSubstr("--wall: expected less than the radius, found 40 mm; the radius is 25 mm at "
-                "60 mm above the foot"));
+      HasSubstr("--wall: expected a wall that leaves a bore up to the rim, found 40 mm; the bore "
+                "would close 60 mm above the foot"));
+  // The neck is 3 mm wide from 40 to 60 mm. The disc of 4 mm touches its edge at 37.35 mm.
+  EXPECT_THAT(refusal_of(pot_of("30,0\n30,40\n3,40\n3,60\n30,60\n30,90\n", {2.0, 4.0, 1.9})),
+              HasSubstr("the bore would close 37.4 mm above the foot"));
   EXPECT_THAT(refusal_of(pot_of("90,0\n90,40\n", {2.0, 40.0, 1.9})),
               HasSubstr("--wall: expected less than the height of 40 mm"));
 }
 
-TEST(DrawnPot, MeasuresTheThinnestWallOfAHollowedOutlineAcrossIt) {
-  // A cone that opens by 3 in 4: across its wall 0.8 of the horizontal thickness.
+TEST(DrawnPot, AHollowedWallIsEvenHoweverItLeans) {
+  // A cone that opens by 3 in 4: 5 mm across its wall are 6.25 mm horizontally.
   const auto section = section_of("40,0\n70,40\n", "pot.csv");
-  const auto cone = drawn_pot(*section, {{}, 5.0, 1.9}, "pot.csv");
+  const auto cone = drawn_pot(*section, {0.1, 5.0, 1.9}, "pot.csv");
   ASSERT_TRUE(cone) << refusal_of(cone);
+  const auto& rings = cone->pot.stack.rings();
+  EXPECT_EQ(rings[49].inner_mm(), 0.0);
+  for (std::size_t i = 50; i < rings.size(); ++i)
+    EXPECT_NEAR(rings[i].inner_mm(), 40.0 + 0.75 * (0.1 * static_cast<double>(i) + 0.05) - 6.25,
+                2e-3)
+        << i;
   ASSERT_TRUE(cone->thinnest);
-  EXPECT_NEAR(cone->thinnest->mm, 4.0, 1e-9);
+  EXPECT_NEAR(cone->thinnest->mm, 5.0, kFlatMm);
   EXPECT_FALSE(drawn_pot(*section, {}, "pot.csv")->thinnest);
-  // A dish: the wall rises by 5 mm over 50, so it is 3 sin(atan(0.1)) thick.
+  // A dish whose wall rises by 5 mm over 50.
   const auto dish = section_of("30,0\n80,5\n80,10\n", "pot.csv");
   const auto flat = drawn_pot(*dish, {{}, 3.0, 1.9}, "pot.csv");
   ASSERT_TRUE(flat) << refusal_of(flat);
-  EXPECT_NEAR(flat->thinnest->mm, 3.0 * std::sin(std::atan(0.1)), 1e-9);
+  EXPECT_NEAR(flat->thinnest->mm, 3.0, kFlatMm);
+}
+
+TEST(DrawnPot, TheBoreOfAHemisphereIsAHemisphere) {
+  // Of 40 mm about (0, 40), cut level at 39 mm, with a foot where it is 1 mm above the wheel.
+  std::string csv;
+  for (double z = 1.0; z <= 39.0; z += 0.05)
+    csv += fmt::format("{:.9f},{:.9f}\n", std::sqrt(1600.0 - (40.0 - z) * (40.0 - z)), z - 1.0);
+  const auto pot = pot_of(csv, {0.25, 4.0, 1.9});
+  ASSERT_TRUE(pot) << refusal_of(pot);
+  const auto& rings = pot->stack.rings();
+  for (std::size_t i = 16; i < rings.size(); ++i) {
+    // The mean square over the ring; the foot is nearer than the sphere up to 4 mm above it.
+    const double low = 0.25 * static_cast<double>(i) - 39.0, high = low + 0.25;
+    const double square = 36.0 * 36.0 - (low * low + low * high + high * high) / 3.0;
+    EXPECT_NEAR(rings[i].inner_mm(), std::sqrt(square), 5e-3) << i;
+  }
+}
+
+TEST(DrawnPot, TheBoreKeepsItsDistanceFromLedges) {
+  // A stem of radius 20 below a head of radius 50. Above the stem, which ends at 30 mm, the bore
+  // follows a circle of 6 mm about the edge between them: from 14 mm to 20.
+  constexpr double kPi = std::numbers::pi;
+  const auto section = section_of("20,0\n20,30\n50,30\n50,60\n", "pot.csv");
+  const auto hollow = hollowed(*section, 6.0, "pot.csv");
+  ASSERT_TRUE(hollow) << refusal_of(hollow);
+  const double circle = 20.0 * 20.0 * 6.0 - 2.0 * 20.0 * 9.0 * kPi + (36.0 * 6.0 - 72.0);
+  EXPECT_NEAR(section->volume_mm3() - hollow->volume_mm3(),
+              kPi * (14.0 * 14.0 * 24.0 + circle + 44.0 * 44.0 * 24.0), 1.0);
+}
+
+RC_GTEST_PROP(DrawnPot, AHollowedWallIsNowhereThinner, ()) {
+  std::string csv;
+  double height = 0.0;
+  for (int i = *rc::gen::inRange(2, 20); i > 0; --i) {
+    csv += fmt::format("{},{}\n", 0.01 * *rc::gen::inRange(1000, 9000), height);
+    height += 0.01 * *rc::gen::inRange(0, 3000);
+  }
+  const double wall = 0.1 * *rc::gen::inRange(5, 80);
+  const auto section = section_of(csv, "pot.csv");
+  RC_PRE(section.has_value());
+  const auto pot = hollowed(*section, wall, "pot.csv");
+  RC_PRE(pot.has_value());
+  const double thinnest = thinnest_wall(*pot).mm;
+  RC_ASSERT(thinnest > wall - 2.0 * kFlatMm);
+  RC_ASSERT(thinnest < wall + 2.0 * kFlatMm);
 }
 
 TEST(DrawnPot, RefusesShapesThatNoStackCanRepresent) {

@@ -104,6 +104,39 @@ TEST(TrimFoot, MirrorsTrimmingTheRim) {
   expect_balanced(inverted);
 }
 
+/// A foot ring: the tool goes 20 mm deep into a floor of 12 mm and outwards. What remains of the
+/// floor is as thick as a wall must be, and the bore above is untouched.
+TEST(TrimFoot, HollowsTheFootAndLeavesAFloor) {
+  SceneSpec scene = scene_with(ToolMode::trim_foot);
+  scene.removal.min_wall_mm = 2.1;
+  constexpr std::size_t kFloor = 60, kLeast = 11;  // rings of 0.2 mm
+  std::vector<Ring> rings(600, Ring{quanta_from_radius(45.0), quanta_from_radius(38.0)});
+  for (std::size_t i = 0; i < kFloor; ++i) rings[i].inner2 = 0;
+  Pot pot{ClayStack::from_rings(kH, rings, 0, 2400).value(),
+          {},
+          Model::conserving,
+          1.9,
+          {},
+          {},
+          {},
+          {}};
+  pot.ledger.initial = pot.stack.volume();
+  Wheel wheel = Wheel::build(scene, pot).value();
+  std::int64_t time_us = 0;
+  move(wheel, time_us, {0, 140, 0}, {0, 100, 0}, 2000);
+  move(wheel, time_us, {0, 100, 0}, {20, 100, 0}, 2000);
+  move(wheel, time_us, {20, 100, 0}, {20, 140, 0}, 2000);
+  const auto cut = wheel.stack().rings();
+  ASSERT_EQ(cut.size(), rings.size());
+  const std::size_t ceiling = kFloor - kLeast;
+  for (std::size_t i = 0; i < cut.size(); ++i)
+    EXPECT_EQ(cut[i].inner2 == 0, i >= ceiling && i < kFloor) << i;
+  for (std::size_t i = kFloor; i < cut.size(); ++i) EXPECT_EQ(cut[i], rings[i]) << i;
+  EXPECT_GT(cut[0].inner_mm(), 20.0);
+  EXPECT_GT(wheel.ledger().trimmed, 0);
+  expect_balanced(wheel);
+}
+
 /// A wall with waves 8 mm long and 0.3 mm deep.
 Pot waved_pot(const SceneSpec& scene) {
   std::vector<Ring> rings;

@@ -114,6 +114,29 @@ TEST(Repair, CapsWideOpeningsOnRequestOnly) {
   }
 }
 
+/// A cup of two parts, one upon the other, whose common ring has other diagonals in each part.
+TEST(Repair, KeepsTheInsideOfAStackedCup) {
+  TriangleMesh lower = revolve({{{{0, 0}, {40, 0}, {40, 50}, {36, 50}, {36, 5}, {0, 5}}}}, 48);
+  TriangleMesh upper = revolve({{{{36, 50}, {40, 50}, {40, 90}, {36, 90}}}}, 48);
+  const double clay = signed_volume(lower) + signed_volume(upper);
+  // A mirrored part has the other diagonals.
+  for (glm::dvec3& p : upper.points) p.y = -p.y;
+  for (Triangle& t : upper.triangles) std::swap(t[1], t[2]);
+  for (const bool reversed : {false, true}) {
+    for (const TriangleMesh& cup : {together(lower, upper), together(upper, lower)}) {
+      TriangleMesh mesh = cup;
+      for (Triangle& t : mesh.triangles)
+        if (reversed) std::swap(t[1], t[2]);
+      const auto repaired = repair_mesh(mesh);
+      ASSERT_TRUE(repaired) << repaired.error().message;
+      EXPECT_TRUE(check_mesh(repaired->mesh).sound());
+      EXPECT_NEAR(signed_volume(repaired->mesh), clay, 1e-4 * clay) << names(*repaired);
+      EXPECT_EQ(times(*repaired, "solids with common edges united"), 1u) << names(*repaired);
+      EXPECT_LT(repaired->change.added_mm, 0.01);
+    }
+  }
+}
+
 /// As of a cup and its lid in one file: the shared face has other diagonals in each.
 TEST(Repair, JoinsSolidsThatShareAFace) {
   const auto add_box = [](TriangleMesh& mesh, double from, bool turned) {
