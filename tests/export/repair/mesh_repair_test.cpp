@@ -121,11 +121,11 @@ TEST(Repair, KeepsTheInsideOfAStackedCup) {
   const double clay = signed_volume(lower) + signed_volume(upper);
   // A mirrored part has the other diagonals.
   for (glm::dvec3& p : upper.points) p.y = -p.y;
-  for (Triangle& t : upper.triangles) std::swap(t[1], t[2]);
+  for (auto& t : upper.triangles) std::swap(t[1], t[2]);
   for (const bool reversed : {false, true}) {
     for (const TriangleMesh& cup : {together(lower, upper), together(upper, lower)}) {
       TriangleMesh mesh = cup;
-      for (Triangle& t : mesh.triangles)
+      for (auto& t : mesh.triangles)
         if (reversed) std::swap(t[1], t[2]);
       const auto repaired = repair_mesh(mesh);
       ASSERT_TRUE(repaired) << repaired.error().message;
