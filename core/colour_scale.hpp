@@ -53,18 +53,19 @@ using LinearColour = std::array<float, 3>;
 }
 
 /// The top of the scale for these walls [mm]: the first of 5, 10, 20, 50 and 100 that four fifths
-/// of the finite ones do not exceed; else 10. The thickest part of most pots is the floor's corner.
+/// of the finite ones do not exceed, because the thickest part of most pots is the floor's corner;
+/// 100 if none is. Without a finite wall: 10.
 [[nodiscard]] inline double scale_top_mm(std::vector<float> walls_mm) {
   constexpr std::array kTopsMm = {5.0, 10.0, 20.0, 50.0, 100.0};
-  constexpr double kMost = 0.8, kOtherwiseMm = 10.0;
+  constexpr double kMost = 0.8, kWithoutWallsMm = 10.0;
   std::erase_if(walls_mm, [](float mm) { return !std::isfinite(mm); });
-  if (walls_mm.empty()) return kOtherwiseMm;
+  if (walls_mm.empty()) return kWithoutWallsMm;
   const auto at = walls_mm.begin() +
                   static_cast<std::ptrdiff_t>(kMost * static_cast<double>(walls_mm.size() - 1));
   std::ranges::nth_element(walls_mm, at);
   const auto* top =
       std::ranges::find_if(kTopsMm, [&](double mm) { return mm >= static_cast<double>(*at); });
-  return top == kTopsMm.end() ? kOtherwiseMm : *top;
+  return top == kTopsMm.end() ? kTopsMm.back() : *top;
 }
 
 }  // namespace clay

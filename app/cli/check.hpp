@@ -122,8 +122,10 @@ struct PrintedBody {
   [[nodiscard]] const solid::TriangleMesh& mesh() const { return united ? *united : *file; }
 };
 
-/// The mesh outlives it; `verdict` holds the report on it.
-PrintedBody printed_body(const solid::TriangleMesh& mesh, const Verdict& verdict);
+/// The mesh outlives it; `verdict` holds the report on it. An error of kind `io`: the shells cannot
+/// be united for lack of memory.
+Result<PrintedBody> printed_body(const solid::TriangleMesh& mesh, const CheckCommand& command,
+                                 const Verdict& verdict);
 /// Size and undersides, upright as the file has them.
 void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckCommand& command,
                    Verdict& verdict);

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -74,8 +73,7 @@ struct Undersides {
 Undersides undersides_of(const TriangleMesh& mesh, double limit_deg) {
   constexpr double kOnBedMm = 0.05;
   Undersides found;
-  double bed_mm = std::numeric_limits<double>::infinity();
-  for (const glm::dvec3& p : mesh.points) bed_mm = std::min(bed_mm, p.z);
+  const double bed_mm = solid::extent_of(mesh).low.z;
   for (const auto& corners : mesh.triangles) {
     const glm::dvec3 a = mesh.points[corners[0]], b = mesh.points[corners[1]],
                      c = mesh.points[corners[2]];
@@ -92,7 +90,8 @@ Undersides undersides_of(const TriangleMesh& mesh, double limit_deg) {
 
 }  // namespace
 
-PrintedBody printed_body(const TriangleMesh& mesh, const Verdict& verdict) {
+Result<PrintedBody> printed_body(const TriangleMesh& mesh, const CheckCommand& command,
+                                 const Verdict& verdict) {
   PrintedBody body{&mesh, {}, {}};
   const solid::MeshReport& report = verdict.mesh;
   const bool nested =
@@ -107,6 +106,8 @@ PrintedBody printed_body(const TriangleMesh& mesh, const Verdict& verdict) {
     return body;
   }
   auto repaired = solid::repair_unsound_mesh(mesh);
+  if (!repaired && repaired.error().kind == ErrorKind::io)
+    return failure(ErrorKind::io, command.file + ": " + repaired.error().message);
   if (repaired)
     body.united = std::move(repaired->mesh);
   else

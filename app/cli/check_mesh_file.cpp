@@ -109,38 +109,62 @@ void check_claims(std::string_view bytes, const TriangleMesh& mesh, Verdict& ver
     verdict.add("contents", Grade::fail, problem.what + ": " + problem.where);
 }
 
-/// The pot and the certificate that a 3MF by Claystack carries. The certificate is that of its
-/// model part.
-void check_packed(std::string_view bytes, const TriangleMesh& mesh, const std::string& file,
-                  Verdict& verdict) {
-  const auto report = [&](const Result<void>& found, std::string_view what) {
-    if (!found)
-      verdict.add("contents", Grade::fail, std::string(what) + ": " + found.error().message);
-    return found.has_value();
-  };
+/// Adds the reason if `found` is an error: a failed check. Returns whether it holds. An error of
+/// kind `io`, such as lack of memory, is not about the file.
+Result<bool> holds(const Result<void>& found, std::string_view check, std::string_view what,
+                   Verdict& verdict) {
+  if (found) return true;
+  if (found.error().kind == ErrorKind::io) return tl::make_unexpected(found.error());
+  verdict.add(std::string(check), Grade::fail, std::string(what) + ": " + found.error().message);
+  return false;
+}
+
+Result<void> check_packed_pot(const solid::PackedParts& parts, const TriangleMesh& mesh,
+                              const std::string& file, Verdict& verdict) {
+  const auto pot = parse_pot(parts.pot, file);
+  return holds(pot.map([](const Pot&) {}), "contents", "the pot inside", verdict)
+      .map([&](bool reads) {
+        if (!reads) return;
+        verdict.add("contents", Grade::pass, "carries the pot, to be thrown on with throw --from");
+        if (!parts.certificate.empty()) return;  // the mesh is compared with the certificate
+        if (const auto difference = mesh_differs(mesh, *pot))
+          verdict.add("contents", Grade::warn, *difference);
+      });
+}
+
+/// The certificate is that of the model part.
+Result<void> check_packed_certificate(std::string_view bytes, const solid::PackedParts& parts,
+                                      const std::string& file, Verdict& verdict) {
+  double wall_mm = 0.0;
+  const auto verified =
+      solid::parse_certificate(parts.certificate, file)
+          .and_then([&](const SolidCertificate& certificate) {
+            wall_mm = certificate.wall_lower_mm;
+            return solid::model_in_3mf(bytes, file).and_then([&](const std::string& model) {
+              return solid::verify_certificate(certificate, model, file);
+            });
+          });
+  return holds(verified, "contents", "the certificate inside does not hold", verdict)
+      .map([&](bool held) {
+        if (!held) return;
+        verdict.add("contents", Grade::pass, "the certificate inside holds");
+        verdict.certified_wall_mm = wall_mm;
+      });
+}
+
+/// The pot and the certificate that a 3MF by Claystack carries.
+Result<void> check_packed(std::string_view bytes, const TriangleMesh& mesh, const std::string& file,
+                          Verdict& verdict) {
   const auto parts = solid::parts_in_3mf(bytes, file);
-  if (!parts) return (void)report(failure(parts.error().kind, parts.error().message), "parts");
-  if (!parts->pot.empty()) {
-    const auto pot = parse_pot(parts->pot, file);
-    if (report(pot.map([](const Pot&) {}), "the pot inside"))
-      verdict.add("contents", Grade::pass, "carries the pot, to be thrown on with throw --from");
-    // With a certificate, the mesh is compared with that.
-    const bool foreign = pot && parts->certificate.empty();
-    if (const auto difference = foreign ? mesh_differs(mesh, *pot) : std::nullopt)
-      verdict.add("contents", Grade::warn, *difference);
-  }
-  if (parts->certificate.empty()) return;
-  const auto wall_mm = solid::parse_certificate(parts->certificate, file)
-                           .and_then([&](const SolidCertificate& certificate) {
-                             return solid::model_in_3mf(bytes, file)
-                                 .and_then([&](const std::string& model) {
-                                   return solid::verify_certificate(certificate, model, file);
-                                 })
-                                 .map([&] { return certificate.wall_lower_mm; });
-                           });
-  if (!report(wall_mm.map([](double) {}), "the certificate inside does not hold")) return;
-  verdict.add("contents", Grade::pass, "the certificate inside holds");
-  verdict.certified_wall_mm = *wall_mm;
+  return holds(parts.map([](const solid::PackedParts&) {}), "contents", "parts", verdict)
+      .and_then([&](bool reads) -> Result<void> {
+        if (!reads || parts->pot.empty()) return {};
+        return check_packed_pot(*parts, mesh, file, verdict);
+      })
+      .and_then([&]() -> Result<void> {
+        if (!parts || parts->certificate.empty()) return {};
+        return check_packed_certificate(bytes, *parts, file, verdict);
+      });
 }
 
 /// Empty if no certificate is checked.
@@ -165,16 +189,15 @@ Result<void> same_format(const SolidCertificate& certificate, MeshFormat format,
                                                  file, certificate.format, name_of(format)));
 }
 
-void verify(std::string_view bytes, MeshFormat format, const CheckCommand& command,
-            Verdict& verdict) {
+Result<void> verify(std::string_view bytes, MeshFormat format, const CheckCommand& command,
+                    Verdict& verdict) {
   const auto verified = same_format(*verdict.certificate, format, command.file).and_then([&] {
     return solid::verify_certificate(*verdict.certificate, bytes, command.file);
   });
-  verdict.certificate_holds = verified.has_value();
-  if (verified)
-    verdict.certified_wall_mm = verdict.certificate->wall_lower_mm;
-  else
-    verdict.add("certificate", Grade::fail, "does not hold: " + verified.error().message);
+  return holds(verified, "certificate", "does not hold", verdict).map([&](bool held) {
+    verdict.certificate_holds = held;
+    if (held) verdict.certified_wall_mm = verdict.certificate->wall_lower_mm;
+  });
 }
 
 /// A closed cavity bursts in a kiln, and traps resin or powder elsewhere.
@@ -188,13 +211,14 @@ void check_cavities(const CheckCommand& command, Verdict& verdict) {
                           one ? "it needs a drain hole" : "they need drain holes"));
 }
 
-/// What the mesh encloses, and what the file holds besides the mesh.
-void check_contents(std::string_view bytes, const TriangleMesh& mesh, MeshFormat format,
-                    const CheckCommand& command, Verdict& verdict) {
+/// Cavities of the mesh, and the parts of the file besides the mesh.
+Result<void> check_contents(std::string_view bytes, const TriangleMesh& mesh, MeshFormat format,
+                            const CheckCommand& command, Verdict& verdict) {
   check_cavities(command, verdict);
-  if (command.changes_mesh()) return;
+  if (command.changes_mesh()) return {};
   if (format == MeshFormat::drc) check_claims(bytes, mesh, verdict);
-  if (format == MeshFormat::three_mf) check_packed(bytes, mesh, command.file, verdict);
+  if (format != MeshFormat::three_mf) return {};
+  return check_packed(bytes, mesh, command.file, verdict);
 }
 
 /// Repairs if requested, and gives its verdict on the mesh, or on the result.
@@ -218,12 +242,13 @@ Result<TriangleMesh> judged(TriangleMesh mesh, const CheckCommand& command, bool
 }
 
 /// A file that cannot be read no longer matches its certificate.
-Verdict unread_with_certificate(std::string_view bytes, MeshFormat format,
-                                const CheckCommand& command, Verdict verdict) {
-  verify(bytes, format, command, verdict);
-  verdict.examined = false;
-  verdict.state = MeshState::unreadable;
-  return verdict;
+Result<Verdict> unread_with_certificate(std::string_view bytes, MeshFormat format,
+                                        const CheckCommand& command, Verdict verdict) {
+  return verify(bytes, format, command, verdict).map([&] {
+    verdict.examined = false;
+    verdict.state = MeshState::unreadable;
+    return std::move(verdict);
+  });
 }
 
 }  // namespace
@@ -249,19 +274,24 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
     return unread_with_certificate(bytes, format, command, std::move(verdict));
   if (mesh) mesh = judged(std::move(*mesh), command, slicer_reads_less, progress, verdict);
   if (!mesh) return tl::make_unexpected(mesh.error());
-  check_contents(bytes, *mesh, format, command, verdict);
+  if (auto done = check_contents(bytes, *mesh, format, command, verdict); !done)
+    return tl::make_unexpected(done.error());
   progress.clear();
   const glm::dvec3 size = verdict.mesh.size_mm;
   if (const auto doubt = doubted_unit(size, format)) verdict.add("geometry", Grade::warn, *doubt);
-  const PrintedBody body =
-      command.walls.asked() ? printed_body(*mesh, verdict) : PrintedBody{&*mesh, {}, {}};
-  check_process(body, size, command, verdict);
+  const auto body = command.walls.asked() ? printed_body(*mesh, command, verdict)
+                                          : Result<PrintedBody>(PrintedBody{&*mesh, {}, {}});
+  if (!body) return tl::make_unexpected(body.error());
+  check_process(*body, size, command, verdict);
   if (verdict.certificate) {
     progress.stage("verifying the certificate");
-    verify(bytes, format, command, verdict);
+    if (auto done = verify(bytes, format, command, verdict); !done)
+      return tl::make_unexpected(done.error());
     progress.clear();
   }
-  return check_walls(body, size, command, console, verdict).map([&] { return std::move(verdict); });
+  return check_walls(*body, size, command, console, verdict).map([&] {
+    return std::move(verdict);
+  });
 }
 
 }  // namespace clay::cli

@@ -100,6 +100,8 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command,
   options.wall_spacing_mm = solid::kWallTableSpacingMm;
   const auto report =
       solid::run_export(*pot, {}, options, [&](std::string_view stage) { progress.stage(stage); });
+  if (!report && report.error().kind == ErrorKind::io)
+    return failure(ErrorKind::io, command.file + ": " + report.error().message);
   if (!report) return not_examined(MeshState::will_not_print, "no solid", report.error().message);
   progress.stage("checking");
   Verdict verdict = verdict_on(*report);

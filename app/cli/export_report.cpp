@@ -123,15 +123,6 @@ void print_collapse(const Console& console, const solid::CollapsedSolid& collaps
       "union holds {:.3f} cm3",
       cm3(collapsed.lower_mm3), cm3(collapsed.upper_mm3), cm3(collapsed.overlap_mm3),
       cm3(collapsed.union_mm3)));
-  if (collapsed.pieces > 1)
-    console.warn(fmt::format("the file holds {} bodies that do not touch", collapsed.pieces));
-  if (collapsed.voids > 0)
-    console.warn(
-        collapsed.voids == 1
-            ? fmt::format("1 closed cavity of {:.3g} cm3: it needs a drain hole",
-                          cm3(collapsed.voids_mm3))
-            : fmt::format("{} closed cavities of {:.3g} cm3 in total: they need drain holes",
-                          collapsed.voids, cm3(collapsed.voids_mm3)));
 }
 
 /// What fairing moved, and where the walls made its length shorter.

@@ -165,7 +165,7 @@ Result<void> import_mesh(const std::string& path, const std::string& pot,
         "--from and claystack export read it");
   progress.stage("finding the axis and making rings");
   const auto made = mesh_pot(*mesh, settings, path);
-  const auto doubt = doubted_unit(size_mm(*mesh), *format);
+  const auto doubt = doubted_unit(solid::extent_of(*mesh).size(), *format);
   if (!made && doubt)
     return failure(made.error().kind, made.error().message + "; " + *doubt + kScaleHint);
   if (!made) return tl::make_unexpected(made.error());

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <glm/common.hpp>
 #endif
 
 #include <algorithm>
@@ -87,19 +86,10 @@ bool carries_pot(const std::string& path) {
   return parts && !parts->pot.empty();
 }
 
-glm::dvec3 size_mm(const solid::TriangleMesh& mesh) {
-  glm::dvec3 low = mesh.points.front(), high = low;
-  for (const glm::dvec3& p : mesh.points) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  return high - low;
-}
-
 std::optional<std::string> mesh_differs(const solid::TriangleMesh& mesh, const Pot& pot) {
   // Smoothing, facets and finishing change the size by less; a shrinkage of 50 % doubles it.
   constexpr double kTolerance = 0.03, kMostEnlarged = 2.0;
-  const glm::dvec3 size = size_mm(mesh);
+  const glm::dvec3 size = solid::extent_of(mesh).size();
   const double width_mm = std::max(size.x, size.y);
   const double pot_width_mm = 2.0 * largest_radius_mm(pot.stack);
   const double pot_height_mm = pot.stack.height_mm();

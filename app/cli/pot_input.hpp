@@ -7,7 +7,6 @@
 #ifdef CLAYSTACK_EXPORT
 #include "claystack/export/solid.hpp"
 
-#include <glm/vec3.hpp>
 #include <optional>
 #endif
 
@@ -31,9 +30,6 @@ Result<Pot> read_pot(const std::string& path, const Console& console);
 #ifdef CLAYSTACK_EXPORT
 /// Whether the file is a 3MF that carries its pot.
 [[nodiscard]] bool carries_pot(const std::string& path);
-
-/// Width, depth and height.
-[[nodiscard]] glm::dvec3 size_mm(const solid::TriangleMesh& mesh);
 
 /// The difference in words if the mesh beside a pot cannot be of that pot: another program may have
 /// scaled or cut it, or added other objects. Empty if it may be, in its size as thrown or enlarged

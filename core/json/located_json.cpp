@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 #include <iterator>
+#include <new>
 #include <utility>
 
 namespace clay::inline json {
@@ -152,6 +153,8 @@ Result<LocatedJson> LocatedJson::from_json(std::string_view text, std::string_vi
     const char* reached = parse(text, builder);
     if (!builder.refusal().empty()) return input_failure(place(reached), builder.refusal());
     return LocatedJson(builder.take(), text, name, first_line);
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorKind::io, std::string(name) + ": not enough memory to read it");
   } catch (const std::exception& error) {
     return input_failure(std::string(name), error.what());
   }
@@ -163,6 +166,8 @@ Result<LocatedJson> LocatedJson::from_cbor(std::string_view bytes, std::string_v
     JsonBuilder builder(max_values);
     if (!read_cbor(bytes, builder)) return input_failure(std::string(name), builder.refusal());
     return LocatedJson(builder.take(), {}, name, 0);
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorKind::io, std::string(name) + ": not enough memory to read it");
   } catch (const std::exception& error) {
     return input_failure(std::string(name), error.what());
   }

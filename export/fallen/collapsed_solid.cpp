@@ -5,6 +5,7 @@
 #include "claystack/export/solid.hpp"
 #include "export/fallen/mesh_union.hpp"
 #include "export/fallen/pockets.hpp"
+#include "export/proof/completed_check.hpp"
 #include "export/proof/describe.hpp"
 #include "export/proof/verify_file.hpp"
 #include "export/solid/seam_cure.hpp"
@@ -58,7 +59,7 @@ TriangleMesh fallen(TriangleMesh mesh, const FallenPlace& place) {
 }
 
 Result<void> check_part(const TriangleMesh& mesh, const std::string& name) {
-  const MeshReport report = check_mesh(rounded_to_float(mesh));
+  const MeshReport report = completed_check(rounded_to_float(mesh));
   if (report.sound()) return {};
   return failure(ErrorKind::unsound,
                  "the " + name + " part in float32: found " + describe(report.problems.front()));
@@ -133,7 +134,7 @@ class Union {
 
   static Result<CollapsedSolid> finished(const CuredMesh& cured, CollapsedSolid solid) {
     solid.mesh = rounded_to_float(cured.mesh);
-    solid.check = check_mesh(solid.mesh);
+    solid.check = completed_check(solid.mesh);
     if (!solid.check.sound())
       return failure(ErrorKind::unsound, "the collapsed pot in float32: found " +
                                              describe(solid.check.problems.front()));
@@ -171,6 +172,8 @@ Result<CollapsedSolid> collapsed_solid(const CollapsedParts& parts, const Collap
                                              std::to_string(triangles) +
                                              "; ask for a larger tolerance or fewer segments");
   return Union(parts, collapse, segments, tolerance_mm).run();
+} catch (const std::bad_alloc&) {
+  return failure(ErrorKind::io, "union stopped: not enough memory");
 } catch (const std::exception& e) {
   return failure(ErrorKind::io, std::string("union failed: ") + e.what());
 }

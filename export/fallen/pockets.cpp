@@ -1,32 +1,23 @@
 #include "export/fallen/pockets.hpp"
 
 #include "core/compensated_sum.hpp"
+#include "export/solid/disjoint_sets.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 namespace clay::solid::inline fallen {
 namespace {
 
-/// Points joined by triangles, as union-find; roots represent shells.
-class Forest {
- public:
-  explicit Forest(const TriangleMesh& mesh) : parent_(mesh.points.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-    for (const auto& [a, b, c] : mesh.triangles) {
-      parent_[root(a)] = root(b);
-      parent_[root(a)] = root(c);
-    }
+/// Points joined by triangles: one set for each shell.
+DisjointSets joined_points(const TriangleMesh& mesh) {
+  DisjointSets sets(mesh.points.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    sets.unite(a, b);
+    sets.unite(a, c);
   }
-  std::uint32_t root(std::uint32_t point) {
-    while (parent_[point] != point) point = parent_[point] = parent_[parent_[point]];
-    return point;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
+  return sets;
+}
 
 struct Shell {
   std::size_t triangles = 0;
@@ -44,30 +35,30 @@ struct Shell {
   }
 };
 
-/// The shell of each point that is a root.
-std::vector<Shell> shells_of(const TriangleMesh& mesh, Forest& forest) {
+/// The shell of each point that names a set.
+std::vector<Shell> shells_of(const TriangleMesh& mesh, DisjointSets& points) {
   std::vector<Shell> shells(mesh.points.size());
   for (const auto& [a, b, c] : mesh.triangles)
-    shells[forest.root(a)].add(mesh.points[a], mesh.points[b], mesh.points[c]);
+    shells[points.of(a)].add(mesh.points[a], mesh.points[b], mesh.points[c]);
   return shells;
 }
 
 }  // namespace
 
 std::vector<double> shell_volumes(const TriangleMesh& mesh) {
-  Forest forest(mesh);
+  DisjointSets points = joined_points(mesh);
   std::vector<double> volumes;
-  for (const Shell& shell : shells_of(mesh, forest))
+  for (const Shell& shell : shells_of(mesh, points))
     if (shell.triangles > 0) volumes.push_back(shell.volume_mm3());
   return volumes;
 }
 
 FilledPockets fill_pockets(const TriangleMesh& mesh, const std::vector<bool>& on_seam,
                            double deepest_mm) {
-  Forest forest(mesh);
-  std::vector<Shell> shells = shells_of(mesh, forest);
+  DisjointSets points = joined_points(mesh);
+  std::vector<Shell> shells = shells_of(mesh, points);
   for (std::uint32_t v = 0; v < mesh.points.size(); ++v)
-    if (on_seam[v]) shells[forest.root(v)].on_seam = true;
+    if (on_seam[v]) shells[points.of(v)].on_seam = true;
   const auto is_pocket = [&](const Shell& shell) {
     return shell.on_seam && shell.volume_mm3() < 0.0 && shell.depth_mm() <= deepest_mm;
   };
@@ -83,14 +74,14 @@ FilledPockets fill_pockets(const TriangleMesh& mesh, const std::vector<bool>& on
   }
   std::vector<std::uint32_t> kept(mesh.points.size());
   for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
-    const std::uint32_t root = forest.root(v);
+    const std::uint32_t root = points.of(v);
     if (filled[root] || shells[root].triangles == 0) continue;
     kept[v] = static_cast<std::uint32_t>(result.mesh.points.size());
     result.mesh.points.push_back(mesh.points[v]);
     result.on_seam.push_back(on_seam[v]);
   }
   for (const auto& [a, b, c] : mesh.triangles)
-    if (!filled[forest.root(a)]) result.mesh.triangles.push_back({kept[a], kept[b], kept[c]});
+    if (!filled[points.of(a)]) result.mesh.triangles.push_back({kept[a], kept[b], kept[c]});
   return result;
 }
 

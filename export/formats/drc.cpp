@@ -13,6 +13,7 @@
 #include <cmath>
 #include <exception>
 #include <glm/common.hpp>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -161,6 +162,8 @@ Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& se
       .map([&](EncodedDraco plain) {
         return claims == nullptr ? std::move(plain.bytes) : with_claims(plain.bytes, *claims);
       });
+} catch (const std::bad_alloc&) {
+  return failure(ErrorKind::io, "cannot write .drc: not enough memory");
 } catch (const std::exception& error) {
   return failure(ErrorKind::unsound, std::string("cannot write .drc: ") + error.what());
 }
@@ -185,6 +188,8 @@ Result<EncodedDraco> encode_draco(const TriangleMesh& mesh, const DracoSettings&
               return std::move(encoded);
             });
       });
+} catch (const std::bad_alloc&) {
+  return failure(ErrorKind::io, "cannot encode with Draco: not enough memory");
 } catch (const std::exception& error) {
   return failure(ErrorKind::unsound, std::string("cannot encode with Draco: ") + error.what());
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What the writer and the reader of GLB share: chunks, component types, and the turn from mm and z
+// Shared by the writer and the reader of GLB: chunks, component types, and the turn from mm and z
 // up to metres and y up; and the rounding of points by every format.
 
 #include "claystack/export/formats.hpp"

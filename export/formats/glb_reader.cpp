@@ -158,10 +158,9 @@ class GlbReader {
     check_extensions();
     const Json& scene = object_at(json_, "scenes", count_in(json_, "scene", 0));
     for (const std::size_t node : nodes_in(scene, "nodes")) visit(node, glm::dmat4(1.0), 0);
-    check_limit();
+    if (auto fits = check_limit(); !fits) return tl::make_unexpected(fits.error());
     for (const auto& [mesh, matrix] : placed_) place(meshes_.at(mesh), matrix);
-    if (fault_) return tl::make_unexpected(*fault_);
-    return check_facet_count(mesh_.triangles.size(), name_).map([&] { return std::move(mesh_); });
+    return std::move(mesh_);
   }
 
  private:
@@ -233,8 +232,14 @@ class GlbReader {
       throw BadGlb("primitives: expected a list");
     for (std::size_t i = 0; i < primitives->size(); ++i)
       add_primitive(object_at(json, "primitives", i), mesh);
-    stored_ += mesh.triangles.size();
+  }
+
+  /// Counts triangles and points of the file, before they take memory.
+  void expect_room(std::size_t points, std::size_t triangles) {
+    stored_points_ += points;
+    stored_ += triangles;
     if (stored_ > kMaxTriangles) throw BadGlb("expected at most 20000000 triangles");
+    if (stored_points_ > kMaxPoints) throw BadGlb("expected at most 60000000 vertices");
   }
 
   void add_primitive(const Json& primitive, TriangleMesh& mesh) {
@@ -260,12 +265,14 @@ class GlbReader {
     add_triangles(corners, mode, first, mesh);
   }
 
-  static void add_triangles(const std::vector<std::uint32_t>& c, std::size_t mode,
-                            std::uint32_t first, TriangleMesh& mesh) {
+  void add_triangles(const std::vector<std::uint32_t>& c, std::size_t mode, std::uint32_t first,
+                     TriangleMesh& mesh) {
     if (mode == kTriangles && c.size() % 3 != 0)
       throw BadGlb("expected 3 corners for each triangle, found " + std::to_string(c.size()));
     const std::size_t step = mode == kTriangles ? 3 : 1;
+    expect_room(0, c.size() < 3 ? 0 : (c.size() - 3) / step + 1);
     for (std::size_t i = 0; i + 2 < c.size(); i += step) {
+      step_of_loop();
       const std::size_t odd = mode == kTriangleStrip ? i % 2 : 0;
       mesh.triangles.push_back({first + c[mode == kTriangleFan ? 0 : i], first + c[i + 1 + odd],
                                 first + c[i + 2 - odd]});
@@ -280,6 +287,7 @@ class GlbReader {
       if (!fault_) fault_ = decoded.error();
       throw BadGlb("");
     }
+    expect_room(decoded->points.size(), decoded->triangles.size());
     const auto first = static_cast<std::uint32_t>(mesh.points.size());
     mesh.points.insert(mesh.points.end(), decoded->points.begin(), decoded->points.end());
     for (const auto& [a, b, c] : decoded->triangles)
@@ -288,7 +296,7 @@ class GlbReader {
 
   // ---- buffers
 
-  /// What an element is the extension of, if it has it.
+  /// The meshopt extension of an element, or null.
   [[nodiscard]] static const Json* meshopt_in(const Json& json) {
     const auto extensions = json.find("extensions");
     if (extensions == json.end() || !extensions->is_object()) return nullptr;
@@ -372,8 +380,7 @@ class GlbReader {
         (normalized && component.most == 0.0))
       throw BadGlb("POSITION: expected 3 float32, or whole numbers of 8 or 16 bits");
     const Values found = values(accessor, 3 * component.size);
-    if (points.size() + found.count > kMaxPoints)
-      throw BadGlb("expected at most 60000000 vertices");
+    expect_room(found.count, 0);
     for (std::size_t i = 0; i < found.count; ++i) {
       step_of_loop();
       glm::dvec3 point;
@@ -412,14 +419,24 @@ class GlbReader {
 
   // ---- build
 
-  void check_limit() const {
+  [[nodiscard]] Result<void> check_limit() const {
     constexpr std::uint64_t kFree = 1'000'000, kMostCopies = 64;
-    std::uint64_t triangles = 0;
-    for (const auto& [mesh, matrix] : placed_) triangles += meshes_.at(mesh).triangles.size();
-    if (triangles > std::max<std::uint64_t>(kFree, kMostCopies * stored_))
+    std::uint64_t points = 0, triangles = 0;
+    for (const auto& [mesh, matrix] : placed_) {
+      points += meshes_.at(mesh).points.size();
+      triangles += meshes_.at(mesh).triangles.size();
+    }
+    const auto most = [&](std::uint64_t stored, std::uint64_t free, std::string_view what,
+                          std::uint64_t found) {
+      if (found <= std::max(free, kMostCopies * stored)) return;
       throw BadGlb("expected a scene of at most " + std::to_string(kMostCopies) + " times the " +
-                   std::to_string(stored_) + " triangles in the file, found " +
-                   std::to_string(triangles));
+                   std::to_string(stored) + " " + std::string(what) + " in the file, found " +
+                   std::to_string(found));
+    };
+    most(stored_, kFree, "triangles", triangles);
+    most(stored_points_, 3 * kFree, "points", points);
+    if (points > kMaxPoints) throw BadGlb("expected at most 60000000 vertices");
+    return check_facet_count(triangles, name_);
   }
 
   void place(const TriangleMesh& mesh, const glm::dmat4& matrix) {
@@ -445,7 +462,7 @@ class GlbReader {
   std::map<std::size_t, std::string> unpacked_;  ///< views by number
   std::size_t unpacked_bytes_ = 0;
   std::vector<std::pair<std::size_t, glm::dmat4>> placed_;
-  std::uint64_t stored_ = 0;
+  std::uint64_t stored_ = 0, stored_points_ = 0;  ///< triangles and points of all meshes read
   TriangleMesh mesh_;
   VertexWelder welder_{mesh_.points, 0};
 

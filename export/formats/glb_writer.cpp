@@ -1,5 +1,6 @@
 #include "claystack/export/formats.hpp"
 #include "claystack/version.hpp"
+#include "core/cancel.hpp"
 #include "core/colour_scale.hpp"
 #include "core/little_endian.hpp"
 #include "core/material.hpp"
@@ -21,7 +22,10 @@ using namespace glb;
 
 TriangleMesh in_metres(const TriangleMesh& mesh) {
   TriangleMesh turned = mesh;
-  for (glm::dvec3& point : turned.points) point = glm::dvec3(file_point(to_metres(point)));
+  for (glm::dvec3& point : turned.points) {
+    step_of_loop();
+    point = glm::dvec3(file_point(to_metres(point)));
+  }
   return turned;
 }
 
@@ -31,6 +35,7 @@ std::vector<Colour16> colours_of(const FileContents& contents) {
   std::vector<Colour16> colours;
   colours.reserve(contents.wall_mm.size());
   for (const float wall_mm : contents.wall_mm) {
+    step_of_loop();
     Colour16& colour = colours.emplace_back();
     colour[3] = static_cast<std::uint16_t>(kOne);
     const LinearColour light = scale_colour(double{wall_mm} / contents.wall_top_mm);
@@ -63,22 +68,28 @@ Packed plain_of(const TriangleMesh& metres, std::span<const Colour16> colours) {
       accessors(points.size(), 3 * metres.triangles.size(), bounds_of(points), !colours.empty());
   std::string stream(12 * points.size(), '\0');
   char* at = stream.data();
-  for (const glm::vec3& point : points)
+  for (const glm::vec3& point : points) {
+    step_of_loop();
     for (int axis = 0; axis < 3; ++axis, at += 4) store_f32(at, point[axis]);
+  }
   plain.accessors[0]["bufferView"] = plain.add_view(stream, {{"target", kVertexTarget}});
   stream.assign(12 * metres.triangles.size(), '\0');
   at = stream.data();
-  for (const auto& triangle : metres.triangles)
+  for (const auto& triangle : metres.triangles) {
+    step_of_loop();
     for (const std::uint32_t index : triangle) {
       store_u32(at, index);
       at += 4;
     }
+  }
   plain.accessors[1]["bufferView"] = plain.add_view(stream, {{"target", kIndexTarget}});
   if (colours.empty()) return plain;
   stream.clear();
-  for (const Colour16& colour : colours)
+  for (const Colour16& colour : colours) {
+    step_of_loop();
     for (const std::uint16_t channel : colour)
       stream.append({static_cast<char>(channel & 0xFFU), static_cast<char>(channel >> 8U)});
+  }
   plain.accessors[2]["bufferView"] = plain.add_view(stream, {{"target", kVertexTarget}});
   return plain;
 }

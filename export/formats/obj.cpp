@@ -214,9 +214,9 @@ class ObjReader {
            "a face names a " + std::string(list->keyword) + " that the file does not define");
     }
     if (odd_faces_ > 0)
-      note(odd_face_line_, std::to_string(odd_faces_) +
-                               " faces with a slash at the end of a corner, or on several lines: "
-                               "PrusaSlicer does not read them");
+      note(odd_face_line_, counted(odd_faces_, "face") +
+                               " with a slash at the end of a corner, or on several lines: "
+                               "PrusaSlicer does not read such faces");
     if (refused_faces_ > 0)
       note(refused_face_line_,
            counted(refused_faces_, "face") +

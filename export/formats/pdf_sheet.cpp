@@ -3,6 +3,7 @@
 #include <cairo-pdf.h>
 
 #include <array>
+#include <exception>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -12,9 +13,12 @@ namespace {
 
 constexpr double kPointsPerMm = 72.0 / 25.4;
 
-cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count) {
+/// No exception may pass through the frames of the library, which is C.
+cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count) noexcept try {
   static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
   return CAIRO_STATUS_SUCCESS;
+} catch (const std::exception&) {  // out of memory
+  return CAIRO_STATUS_NO_MEMORY;
 }
 
 class PdfSheet {

@@ -138,7 +138,8 @@ const Element* element_named(const Header& header, std::string_view name) {
 }
 
 bool is_corner_list(const Property& property) {
-  return property.name == "vertex_indices" || property.name == "vertex_index";
+  return (property.name == "vertex_indices" || property.name == "vertex_index") &&
+         property.count_type && is_whole(property.type);
 }
 
 /// The elements that make a mesh, with the properties that it needs, each once.
@@ -158,13 +159,13 @@ Result<void> check_elements(const Header& header, std::string_view name) {
             *vertices, [&](const Property& p) { return p.name == axis && !p.count_type; }, axis);
         !found)
       return found;
-  if (vertices->count > kMaxPoints || faces->count > kMaxTriangles)
+  if (vertices->count > kMaxPoints)
+    return bad_file(name, "expected at most " + std::to_string(kMaxPoints) + " vertices, found " +
+                              std::to_string(vertices->count));
+  if (faces->count > kMaxTriangles)
     return bad_file(name, "expected at most " + std::to_string(kMaxTriangles) +
                               " triangles, found " + std::to_string(faces->count));
-  return once(
-      *faces,
-      [](const Property& p) { return is_corner_list(p) && p.count_type && is_whole(p.type); },
-      "vertex_indices or vertex_index, a list of whole numbers");
+  return once(*faces, is_corner_list, "vertex_indices or vertex_index, a list of whole numbers");
 }
 
 template <class Numbers>
@@ -195,7 +196,7 @@ class BodyReader {
         const auto axis = std::ranges::find(kAxes, property.name) - kAxes.begin();
         if (vertex && axis < 3 && !property.count_type)
           point[static_cast<int>(axis)] = numbers_.coordinate(property.type);
-        else if (face && property.count_type && is_corner_list(property))
+        else if (face && is_corner_list(property))
           read_face(property);
         else
           skip(property);

@@ -1,5 +1,6 @@
 #include "export/formats/shaded_obj.hpp"
 
+#include "core/cancel.hpp"
 #include "export/formats/file_floats.hpp"
 
 #include <array>
@@ -53,7 +54,10 @@ class ShadedObj {
 
   std::string encode(std::string_view object_name) {
     text_.append("# claystack: units mm\no ").append(one_line(object_name)).append("\n");
-    for (const glm::dvec3& point : mesh_.points) append_point_line(text_, "v", file_point(point));
+    for (const glm::dvec3& point : mesh_.points) {
+      step_of_loop();
+      append_point_line(text_, "v", file_point(point));
+    }
     for (const Shell& shell : rule_.shells()) append_normals(normals_.emplace_back(shell));
     std::size_t first = 1;
     for (std::size_t i = 0; i < normals_.size(); ++i) {
@@ -67,6 +71,7 @@ class ShadedObj {
   void append_normals(const Normals& normals) {
     for (const glm::dvec2& n : normals.all)
       for (const glm::dvec2& d : rule_.circle()) {
+        step_of_loop();
         const glm::dvec2 radial = n.x * glm::normalize(d);
         append_point_line(text_, "vn", file_point({radial.x, radial.y, n.y}));
       }
@@ -87,6 +92,7 @@ class ShadedObj {
   }
 
   void append_face(const std::array<std::size_t, 3>& normals) {
+    step_of_loop();
     const auto& triangle = mesh_.triangles[face_++];
     text_ += 'f';
     for (std::size_t c = 0; c < 3; ++c) {

@@ -22,7 +22,7 @@ constexpr double kSameMm = 1e-6;
 
 bool same(double a, double b) { return std::abs(a - b) <= kSameMm; }
 
-/// What is wrong with an entity; never leaves this file.
+/// A fault of an entity; never leaves this file.
 struct BadStep {
   std::string what;
 };

@@ -215,6 +215,7 @@ std::string encode_stl_binary(const TriangleMesh& mesh) {
   stl::store_prologue(bytes.data(), mesh.triangles.size());
   char* at = bytes.data() + kPrologueBytes;
   for (const auto& triangle : mesh.triangles) {
+    step_of_loop();
     stl::store_facet(at, corners_of(triangle, points));
     at += kFacetBytes;
   }
@@ -228,6 +229,7 @@ std::string encode_stl_ascii(const TriangleMesh& mesh, std::string_view solid_na
   text.reserve(2 * solid.size() + kUsualTextFacetBytes * mesh.triangles.size());
   text += solid;
   for (const auto& triangle : mesh.triangles) {
+    step_of_loop();
     const Corners corners = corners_of(triangle, points);
     append_point_line(text, "facet normal", stl::facet_normal(corners));
     text += "  outer loop\n";

@@ -437,7 +437,7 @@ Result<TriangleMesh> ModelReader::build(std::string_view name) const {
       return bad_file(name, std::string("expected ").append(kCoordinateRule) +
                                 " after the transforms of its items");
   if (supports > 0 && options_.notes != nullptr)
-    options_.notes->push_back(std::to_string(supports) + " items are supports and were not read");
+    options_.notes->push_back(counted(supports, "support item") + " not read");
   return mesh;
 }
 

@@ -6,6 +6,7 @@
 #include <libxml/parser.h>
 
 #include <cstring>
+#include <exception>
 #include <new>
 
 namespace clay::solid::inline formats {
@@ -38,18 +39,16 @@ struct XmlReader::Parser {
     events.initialized = XML_SAX2_MAGIC;
     events.startElementNs = &begin;
     events.endElementNs = [](void* self, const xmlChar*, const xmlChar*, const xmlChar*) {
-      XmlReader& r = static_cast<Parser*>(self)->reader;
-      if (!r.fault_) r.events_.end(r);
+      guarded_call(self, [](XmlReader& r) { r.events_.end(r); });
     };
     events.characters = events.cdataBlock = [](void* self, const xmlChar* text, int length) {
-      XmlReader& r = static_cast<Parser*>(self)->reader;
-      if (!r.fault_)
+      guarded_call(self, [&](XmlReader& r) {
         r.events_.text(r, {reinterpret_cast<const char*>(text), static_cast<std::size_t>(length)});
+      });
     };
     events.internalSubset = [](void* self, const xmlChar*, const xmlChar*, const xmlChar*) {
-      Parser& parser = *static_cast<Parser*>(self);
-      parser.reader.fail("expected no document type, found one");
-      xmlStopParser(parser.context);  // before it reads the entities
+      guarded_call(self, [](XmlReader& r) { r.fail("expected no document type, found one"); });
+      xmlStopParser(static_cast<Parser*>(self)->context);  // before it reads the entities
     };
     context = xmlCreatePushParserCtxt(&events, this, nullptr, 0, nullptr);
     if (context == nullptr) throw std::bad_alloc();
@@ -64,32 +63,47 @@ struct XmlReader::Parser {
     xmlFreeParserCtxt(context);
   }
 
+  /// Calls work(reader) unless there is a fault. No exception may pass through the frames of the
+  /// library, which is C: it waits until the library has returned.
+  template <class Work>
+  static void guarded_call(void* self, const Work& work) noexcept {
+    auto& parser = *static_cast<Parser*>(self);
+    if (parser.reader.fault_ || parser.thrown) return;
+    try {
+      work(parser.reader);
+    } catch (...) {
+      parser.thrown = std::current_exception();
+      xmlStopParser(parser.context);
+    }
+  }
+
   static void begin(void* self, const xmlChar* name, const xmlChar*, const xmlChar* space,
                     int namespaces, const xmlChar** namespace_list, int attributes, int,
                     const xmlChar** list) {
-    auto& parser = *static_cast<Parser*>(self);
-    if (parser.reader.fault_) return;
-    XmlElement& element = parser.element;
-    element.space = view(space);
-    element.name = view(name);
-    element.namespaces.clear();
-    for (int i = 0; i < namespaces; ++i)
-      element.namespaces.push_back(
-          {{}, view(namespace_list[2 * i]), view(namespace_list[2 * i + 1])});
-    element.attributes.clear();
-    for (int i = 0; i < attributes; ++i) {
-      const xmlChar** const a = list + 5 * i;
-      element.attributes.push_back(
-          {view(a[2]),
-           view(a[0]),
-           {reinterpret_cast<const char*>(a[3]), static_cast<std::size_t>(a[4] - a[3])}});
-    }
-    parser.reader.events_.begin(parser.reader, element);
+    guarded_call(self, [&](XmlReader& reader) {
+      XmlElement& element = reader.parser_->element;
+      element.space = view(space);
+      element.name = view(name);
+      element.namespaces.clear();
+      for (int i = 0; i < namespaces; ++i)
+        element.namespaces.push_back(
+            {{}, view(namespace_list[2 * i]), view(namespace_list[2 * i + 1])});
+      element.attributes.clear();
+      for (int i = 0; i < attributes; ++i) {
+        const xmlChar** const a = list + 5 * i;
+        element.attributes.push_back(
+            {view(a[2]),
+             view(a[0]),
+             {reinterpret_cast<const char*>(a[3]), static_cast<std::size_t>(a[4] - a[3])}});
+      }
+      reader.events_.begin(reader, element);
+    });
   }
 
   XmlReader& reader;
   xmlParserCtxtPtr context = nullptr;
   XmlElement element;
+  std::exception_ptr thrown;  ///< by an event
 };
 
 XmlReader::XmlReader(Events& events, std::string_view name)
@@ -104,6 +118,7 @@ Result<void> XmlReader::parse(std::string_view piece, bool last) {
   if (!fault_) {
     xmlParserCtxtPtr const context = parser_->context;
     (void)xmlParseChunk(context, piece.data(), static_cast<int>(piece.size()), last ? 1 : 0);
+    if (parser_->thrown) std::rethrow_exception(parser_->thrown);
     const bool good = context->wellFormed != 0 && context->nsWellFormed != 0;
     if (!fault_ && !good) {
       const xmlError* const error = xmlCtxtGetLastError(context);

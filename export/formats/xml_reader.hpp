@@ -28,7 +28,7 @@ struct XmlElement {
 
 class XmlReader {
  public:
-  /// What to do at each event. `fail` of the reader ends the reading.
+  /// Handlers of the events. `fail` of the reader ends the reading.
   class Events {
    public:
     virtual ~Events() = default;

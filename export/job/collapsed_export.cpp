@@ -11,9 +11,9 @@
 #include "export/job/resolution.hpp"
 #include "export/job/solid_contents.hpp"
 #include "export/job/stages.hpp"
+#include "export/proof/completed_check.hpp"
 #include "export/proof/describe.hpp"
 #include "export/proof/verify_file.hpp"
-#include "export/solid/mesh_extent.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +117,7 @@ class CollapsedExport {
   }
 
   void describe_solid(CollapsedSolid solid) {
-    const glm::dvec3 extent = extent_of(mesh_);
+    const glm::dvec3 extent = extent_of(mesh_).size();
     report_.prepared = prepared_.done;
     report_.size.diameter_mm = std::max(extent.x, extent.y);
     report_.size.height_mm = extent.z;
@@ -149,7 +149,7 @@ class CollapsedExport {
     return stages_.run("decimate", [&] { return decimate(mesh_, *options_.max_triangles); })
         .and_then([&](DecimatedMesh decimated) -> Result<void> {
           mesh_ = rounded_to_float(decimated.mesh);
-          const MeshReport check = stages_.run("check", [&] { return check_mesh(mesh_); });
+          const MeshReport check = stages_.run("check", [&] { return completed_check(mesh_); });
           if (!check.sound())
             return failure(ErrorKind::unsound,
                            "decimated: found " + describe(check.problems.front()));

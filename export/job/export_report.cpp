@@ -82,6 +82,31 @@ std::optional<std::string> below_each_process(const ExportReport& report) {
                      smallest);
 }
 
+/// Of a fallen pot those of the union: the parts may enclose one together, or fill one of a part.
+std::vector<Problem> cavities_of(const ExportReport& report) {
+  const bool fired = report.process.limits && report.process.limits->fired;
+  std::vector<Problem> cavities;
+  if (report.collapsed) {
+    const std::size_t voids = report.collapsed->voids;
+    const double cm3 = report.collapsed->voids_mm3 / 1000.0;
+    if (voids > 0)
+      cavities.push_back({voids == 1 ? fmt::format("1 closed cavity of {:.3g} cm3: it needs a "
+                                                   "drain hole",
+                                                   cm3)
+                                     : fmt::format("{} closed cavities of {:.3g} cm3 in total: "
+                                                   "they need drain holes",
+                                                   voids, cm3),
+                          std::nullopt, fired, ProblemKind::cavity});
+    return cavities;
+  }
+  for (const PieceShape& shape : report.section.shapes())
+    for (const Cavity& cavity : shape.cavities)
+      cavities.push_back({text_of(cavity),
+                          ProfilePoint{0.0, 0.5 * (cavity.bottom_mm + cavity.top_mm)}, fired,
+                          ProblemKind::cavity});
+  return cavities;
+}
+
 std::vector<Problem> problems_with(const ExportReport& report, std::optional<std::string> thin) {
   std::vector<Problem> problems;
   const bool fails = thin.has_value();
@@ -93,12 +118,7 @@ std::vector<Problem> problems_with(const ExportReport& report, std::optional<std
                         ProblemKind::thin_wall, report.thinnest_mm()});
   }
   if (auto size = too_large(report)) problems.push_back(std::move(*size));
-  const bool fired = report.process.limits && report.process.limits->fired;
-  for (const PieceShape& shape : report.section.shapes())
-    for (const Cavity& cavity : shape.cavities)
-      problems.push_back({text_of(cavity),
-                          ProfilePoint{0.0, 0.5 * (cavity.bottom_mm + cavity.top_mm)}, fired,
-                          ProblemKind::cavity});
+  for (Problem& cavity : cavities_of(report)) problems.push_back(std::move(cavity));
   if (auto steep = steep_overhang(report.process)) problems.push_back(std::move(*steep));
   if (report.collapsed && report.collapsed->pieces > 1)
     problems.push_back(

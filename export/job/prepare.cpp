@@ -42,6 +42,12 @@ std::size_t rings_to_drill(const ClayStack& stack) {
 }  // namespace
 
 Result<Pot> scaled(const Pot& pot, double radius_factor, double height_factor) {
+  // Before multiplying: quanta of larger radii may not fit into 64 bits.
+  if (const double radius_mm = radius_factor * largest_radius_mm(pot.stack);
+      !(radius_mm <= kMaxRadiusMm))
+    return failure(ErrorKind::bad_input, "expected a diameter of at most " +
+                                             in_mm(2.0 * kMaxRadiusMm) + " mm, found " +
+                                             in_mm(2.0 * radius_mm) + " mm");
   std::vector<Ring> rings;
   rings.reserve(pot.stack.size());
   // A double, and so every file, holds radii of at most 362 mm to the quantum.

@@ -12,6 +12,7 @@
 #include "export/formats/stl_stream.hpp"
 #include "export/formats/stored_file.hpp"
 #include "export/formats/three_mf_check.hpp"
+#include "export/proof/completed_check.hpp"
 #include "export/proof/describe.hpp"
 #include "export/proof/revolve_match.hpp"
 #include "export/proof/rounded_claims.hpp"
@@ -26,7 +27,7 @@ namespace clay::solid::inline job {
 namespace {
 
 Result<void> check_sound(const TriangleMesh& mesh, const std::string& name) {
-  const MeshReport report = check_mesh(mesh);
+  const MeshReport report = completed_check(mesh);
   if (report.sound()) return {};
   return failure(ErrorKind::unsound, name + ": found " + describe(report.problems.front()));
 }

@@ -38,7 +38,7 @@ class RevolveFiles {
 
  private:
   const TriangleMesh& mesh();
-  /// What a file of this format holds beside the surface.
+  /// Contents of a file of this format beside the surface.
   [[nodiscard]] FileContents contents_of(MeshFormat format);
   Result<FileReport> stream(FileStore& store);
   Result<FileReport> write_whole(MeshFormat format, FileStore& store);

@@ -9,7 +9,7 @@
 
 namespace clay::solid::inline job {
 
-/// What a caliper finds at a height of the section [mm]; the wall is level, not at right angles.
+/// Readings of a caliper at a height of the section [mm]; the wall is level, not at right angles.
 struct CaliperRow {
   double height = 0.0, outer = 0.0, bore = 0.0;  ///< diameters; no bore: 0
   [[nodiscard]] double wall() const noexcept { return 0.5 * (outer - bore); }

@@ -4,7 +4,7 @@
 
 namespace clay::solid::inline job {
 
-/// What files say about a pot beside its surface: name, process, shrinkage, pot. Views of
+/// Statements of files about a pot beside its surface: name, process, shrinkage, pot. Views of
 /// `options`, which outlive it.
 [[nodiscard]] FileContents solid_contents(const ExportOptions& options);
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -162,6 +163,8 @@ auto parsed_with(std::string_view bytes, std::string_view name, Follow follow, R
     -> Result<decltype(read(Json()))> try {
   expect_object_text(bytes);
   return read(Json::parse(bytes, std::ref(follow)));
+} catch (const std::bad_alloc&) {
+  return failure(ErrorKind::io, std::string(name) + ": not enough memory to read it");
 } catch (const std::exception& error) {
   constexpr std::size_t kLongest = 300;  // the parser quotes the last text it read
   return bad_json(name, shown(std::string(bare_message(error.what())), kLongest));

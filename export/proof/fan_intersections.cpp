@@ -41,17 +41,17 @@ void set_arc(BoundingHull& body, const glm::dvec3& from, const glm::dvec3& to) {
 
 class Fan {
  public:
-  Fan(const TriangleMesh& mesh, const HighValenceVertices& hubs, std::size_t hub)
+  Fan(const TriangleMesh& mesh, const HighValenceVertices& hubs, std::size_t hub, PairSink& sink)
       : mesh_(mesh),
         hubs_(hubs),
         centre_(hubs.vertex(hub)),
         triangles_(hubs.triangles(hub)),
-        test_(mesh) {}
+        test_(mesh),
+        sink_(sink) {}
 
-  Crossings run() {
+  bool run() {
     find_spokes();
-    if (count_about_spokes()) count_between_arcs();
-    return found_;
+    return search_spokes() && search_arcs();
   }
 
  private:
@@ -91,14 +91,14 @@ class Fan {
   }
 
   /// Returns false when the limit is reached.
-  bool count_about_spokes() {
+  bool search_spokes() {
     for (const std::span<Leaf> spoke : spokes_)
-      if (spoke.front().end > centre_ && !count_about(spoke)) return false;
+      if (spoke.front().end > centre_ && !search_book(spoke)) return false;
     return true;
   }
 
   /// Triangles on one edge intersect if they lie in one half-plane about it, like pages of a book.
-  bool count_about(std::span<Leaf> book) {
+  bool search_book(std::span<Leaf> book) {
     const std::uint32_t end = book.front().end, first = book.front().apex;
     const auto quarter = [&](const Leaf& leaf) {
       return test_.quarter(centre_, end, first, leaf.apex);
@@ -113,35 +113,25 @@ class Fan {
       while (past < book.size() && book[past].quarter == book[begin].quarter &&
              test_.quarter(centre_, end, book[begin].apex, book[past].apex) == 0)
         ++past;
-      if (!count_in_half_plane(book.subspan(begin, past - begin))) return false;
+      if (!add_half_plane(book.subspan(begin, past - begin))) return false;
       begin = past;
     }
     return true;
   }
 
   /// All pairs except those on the same three vertices.
-  bool count_in_half_plane(std::span<Leaf> leaves) {
+  bool add_half_plane(std::span<Leaf> leaves) {
     if (leaves.size() == 1) return true;
-    std::sort(leaves.begin(), leaves.end());  // by apex
-    std::size_t before = 0, pairs = 0;
-    for (auto begin = leaves.begin(); begin != leaves.end();) {
-      const auto end = std::find_if(begin, leaves.end(),
-                                    [&](const Leaf& leaf) { return leaf.apex != begin->apex; });
-      const auto same = static_cast<std::size_t>(end - begin);
-      pairs += before * same;
-      before += same;
-      begin = end;
+    std::sort(leaves.begin(), leaves.end());  // by apex, then by number
+    std::vector<std::vector<std::uint32_t>> by_apex;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      if (i == 0 || leaves[i].apex != leaves[i - 1].apex) by_apex.emplace_back();
+      by_apex.back().push_back(leaves[i].triangle);
     }
-    if (pairs == 0) return true;
-    const auto by_number = [](const Leaf& a, const Leaf& b) { return a.triangle < b.triangle; };
-    std::sort(leaves.begin(), leaves.end(), by_number);
-    const auto other = std::find_if(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
-      return leaf.apex != leaves.front().apex;
-    });
-    return found_.add(leaves.front().triangle, other->triangle, pairs);
+    return sink_.add_between(by_apex);
   }
 
-  void count_between_arcs() {
+  bool search_arcs() {
     std::vector<BoundingHull> bodies;
     bodies.reserve(triangles_.size());
     for (const std::uint32_t t : triangles_) {
@@ -153,11 +143,14 @@ class Fan {
       body.number = t;
     }
     NearPairs near(std::move(bodies));
+    bool more = true;
     near.for_each([&](std::uint32_t i, std::uint32_t j) {
       const std::uint32_t a = near[i].number, b = near[j].number;
       if (share_earlier_hub(a, b)) return true;
-      return !test_.meet(mesh_.triangles[a], mesh_.triangles[b]) || found_.add(a, b);
+      more = !test_.meet(mesh_.triangles[a], mesh_.triangles[b]) || sink_.add(a, b);
+      return more;
     });
+    return more;
   }
 
   [[nodiscard]] bool is_spoke(std::uint32_t end) const {
@@ -177,10 +170,10 @@ class Fan {
   std::uint32_t centre_;
   std::span<const std::uint32_t> triangles_;
   PairTest test_;
+  PairSink& sink_;
   std::vector<Leaf> leaves_;
   std::vector<std::span<Leaf>> spokes_;  ///< of leaves_, by end
   std::vector<std::uint32_t> spoke_ends_;
-  Crossings found_;
 };
 
 }  // namespace
@@ -214,9 +207,9 @@ std::span<const std::uint32_t> HighValenceVertices::triangles(std::size_t hub) c
   return std::span(triangles_).subspan(begins_[hub], begins_[hub + 1] - begins_[hub]);
 }
 
-Crossings crossings_about(const TriangleMesh& mesh, const HighValenceVertices& hubs,
-                          std::size_t hub) {
-  return Fan(mesh, hubs, hub).run();
+bool find_crossings_about(const TriangleMesh& mesh, const HighValenceVertices& hubs,
+                          std::size_t hub, PairSink& sink) {
+  return Fan(mesh, hubs, hub, sink).run();
 }
 
 }  // namespace clay::solid::inline proof

@@ -36,8 +36,9 @@ class HighValenceVertices {
   std::vector<std::uint32_t> triangles_;
 };
 
-/// The pairs of triangles that share this hub, but no earlier one, and intersect elsewhere.
-Crossings crossings_about(const TriangleMesh& mesh, const HighValenceVertices& hubs,
-                          std::size_t hub);
+/// Finds the pairs of triangles that share this hub, but no earlier one, and intersect elsewhere.
+/// Returns false if the sink ended the search.
+bool find_crossings_about(const TriangleMesh& mesh, const HighValenceVertices& hubs,
+                          std::size_t hub, PairSink& sink);
 
 }  // namespace clay::solid::inline proof

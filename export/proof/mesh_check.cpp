@@ -10,7 +10,6 @@
 
 #include <cmath>
 #include <exception>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <new>
 #include <string>
@@ -120,15 +119,12 @@ class Inspection {
 
   void measure() {
     CompensatedSum doubled_area;
-    glm::dvec3 low = mesh_.points[mesh_.triangles.front()[0]], high = low;
     for (const auto& [a, b, c] : mesh_.triangles) {
       const glm::dvec3 &p = mesh_.points[a], &q = mesh_.points[b], &r = mesh_.points[c];
       doubled_area.add(glm::length(glm::cross(q - p, r - p)));
-      low = glm::min(low, glm::min(p, glm::min(q, r)));
-      high = glm::max(high, glm::max(p, glm::max(q, r)));
     }
     report_.area_mm2 = 0.5 * doubled_area.value();
-    report_.size_mm = high - low;
+    report_.size_mm = extent_of(mesh_).size();
   }
 
   void count_cavities(const MeshTopology& topology, const std::vector<std::uint32_t>& enclosed) {

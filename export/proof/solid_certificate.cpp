@@ -5,6 +5,7 @@
 #include "core/compensated_sum.hpp"
 #include "core/content_hash.hpp"
 #include "core/portable_trig.hpp"
+#include "export/proof/completed_check.hpp"
 #include "export/proof/describe.hpp"
 #include "export/proof/revolve_match.hpp"
 #include "export/proof/rounded_claims.hpp"
@@ -15,6 +16,7 @@
 #include <bit>
 #include <cmath>
 #include <exception>
+#include <new>
 #include <numbers>
 
 namespace clay::solid::inline proof {
@@ -153,7 +155,7 @@ Result<void> same_solid(const SolidCertificate& stated, const Margins& margins,
     return wrong(file, "proof", "that margins cover the rounding of " + in_mm(stated.rounding_mm),
                  "that they cover less than " + in_mm(safe) + " mm");
   }
-  const MeshReport report = check_mesh(decoded);
+  const MeshReport report = completed_check(decoded);
   if (report.sound()) return {};
   return wrong(file, "proof", "a sound mesh", describe(report.problems.front()));
 }
@@ -222,6 +224,9 @@ Result<void> verify_certificate(const SolidCertificate& certificate, std::string
       .and_then([&](const TriangleMesh& decoded) {
         return same_mesh(certificate, decoded, *format, file_name);
       });
+} catch (const std::bad_alloc&) {
+  return failure(ErrorKind::io,
+                 std::string(file_name) + ": verification stopped: not enough memory");
 } catch (const std::exception& e) {
   return failure(ErrorKind::io, std::string(file_name) + ": verification failed: " + e.what());
 }

@@ -106,18 +106,25 @@ void SoupIntersections::halve_slabs() {
 }
 
 void SoupIntersections::search(std::size_t part) {
+  CrossingCount count;
+  search(part, count);
+  found_[part] = count.found;
+}
+
+void SoupIntersections::search(std::size_t part, PairSink& sink) {
   const std::size_t groups = groups_.size() - 1;
-  found_[part] = part < groups ? search_hubs(part) : search_slab(part - groups);
+  if (part < groups)
+    search_hubs(part, sink);
+  else
+    search_slab(part - groups, sink);
 }
 
-Crossings SoupIntersections::search_hubs(std::size_t group) const {
-  Crossings found;
+void SoupIntersections::search_hubs(std::size_t group, PairSink& sink) const {
   for (std::size_t hub = groups_[group]; hub < groups_[group + 1]; ++hub)
-    if (!found.add(crossings_about(mesh_, hubs_, hub))) break;
-  return found;
+    if (!find_crossings_about(mesh_, hubs_, hub, sink)) return;
 }
 
-Crossings SoupIntersections::search_slab(std::size_t slab) {
+void SoupIntersections::search_slab(std::size_t slab, PairSink& sink) {
   const double begin = begins_[slab];
   std::vector<BoundingHull> bodies;
   bodies.reserve(members_[slab].size());
@@ -132,15 +139,13 @@ Crossings SoupIntersections::search_slab(std::size_t slab) {
   }
   members_[slab] = {};
   const PairTest test(mesh_);
-  Crossings found;
   NearPairs near(std::move(bodies));
   near.for_each([&](std::uint32_t i, std::uint32_t j) {
     // A pair that reaches several slabs is counted in the first of them.
     if (near[i].early && near[j].early) return true;
     const std::uint32_t a = near[i].number, b = near[j].number;
-    return !test.meet(mesh_.triangles[a], mesh_.triangles[b]) || found.add(a, b);
+    return !test.meet(mesh_.triangles[a], mesh_.triangles[b]) || sink.add(a, b);
   });
-  return found;
 }
 
 Fault SoupIntersections::found() const {

@@ -29,8 +29,11 @@ class SoupIntersections {
   [[nodiscard]] const Fault& degenerate() const noexcept { return degenerate_; }
   [[nodiscard]] std::size_t slabs() const noexcept { return begins_.size(); }
   [[nodiscard]] std::size_t parts() const noexcept { return found_.size(); }
-  void search(std::size_t part);  ///< each part once, in any order and on any thread
-  /// Of the searched parts: the number of pairs, and the pair of lowest numbers.
+  /// Searches each part once, in any order and on any thread.
+  void search(std::size_t part);
+  /// The same, for the pairs themselves.
+  void search(std::size_t part, PairSink& sink);
+  /// Of the parts searched without a sink: the number of pairs, and the pair of lowest numbers.
   [[nodiscard]] Fault found() const;
 
  private:
@@ -39,8 +42,8 @@ class SoupIntersections {
   void choose_begins();
   bool distribute();
   void halve_slabs();
-  [[nodiscard]] Crossings search_hubs(std::size_t group) const;
-  [[nodiscard]] Crossings search_slab(std::size_t slab);
+  void search_hubs(std::size_t group, PairSink& sink) const;
+  void search_slab(std::size_t slab, PairSink& sink);
   [[nodiscard]] std::pair<double, double> reach(const Triangle& triangle) const;
   [[nodiscard]] std::size_t slab_of(double low) const;
 

@@ -2,7 +2,6 @@
 
 #include "export/repair/soup_edges.hpp"
 #include "export/repair/soup_repair.hpp"
-#include "export/solid/mesh_extent.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -90,9 +89,9 @@ std::size_t weld_cracks(TriangleMesh& mesh, std::optional<double> weld_mm) {
   const double least_mm = 4.0 * std::numeric_limits<float>::epsilon() * largest_coordinate(mesh);
   const Border border = border_of(mesh, least_mm);
   if (std::isinf(border.shortest_mm)) return 0;
-  const double crack_mm = std::max(
-      least_mm,
-      weld_mm.value_or(std::min(0.25 * border.shortest_mm, 1e-3 * glm::length(extent_of(mesh)))));
+  const double crack_mm =
+      std::max(least_mm, weld_mm.value_or(std::min(0.25 * border.shortest_mm,
+                                                   1e-3 * glm::length(extent_of(mesh).size()))));
   CrackCells cells(mesh.points, crack_mm);
   std::vector<std::uint32_t> number(mesh.points.size());
   std::size_t welded = 0;

@@ -6,6 +6,7 @@
 #include "export/repair/intersecting_pairs.hpp"
 #include "export/repair/sheet_count.hpp"
 #include "export/repair/triangle_crossing.hpp"
+#include "export/solid/disjoint_sets.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_face_base_2.h>
@@ -164,34 +165,26 @@ class Refinement {
 
   std::vector<Sheet> sheets_of(const std::vector<TrianglePair>& pairs) {
     touched_.assign(mesh_.triangles.size(), false);
-    std::map<std::uint32_t, std::uint32_t> parent;
-    const auto root = [&](std::uint32_t t) {
-      while (parent[t] != t) t = parent[t] = parent[parent[t]];
-      return t;
-    };
+    DisjointSets planes(mesh_.triangles.size());
     std::vector<bool> flat(pairs.size());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       step_of_loop();
       const auto& [t, u] = pairs[i];
-      for (const std::uint32_t each : {t, u}) {
-        touched_[each] = true;
-        parent.emplace(each, each);
-      }
+      touched_[t] = touched_[u] = true;
       flat[i] = coplanar(t, u);
-      if (!flat[i]) continue;
-      const std::uint32_t a = root(t), b = root(u);
-      parent[std::max(a, b)] = std::min(a, b);
+      if (flat[i]) planes.unite(t, u);
     }
     std::map<std::uint32_t, Sheet> by_root;
     plane_of_.assign(mesh_.triangles.size(), kNoPart);
-    for (const auto& entry : parent) {
-      plane_of_[entry.first] = root(entry.first);
-      by_root[plane_of_[entry.first]].triangles.push_back(entry.first);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!touched_[t]) continue;
+      plane_of_[t] = planes.of(t);
+      by_root[plane_of_[t]].triangles.push_back(t);
     }
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (flat[i]) continue;
-      by_root[root(pairs[i].first)].cuts.push_back(i);
-      by_root[root(pairs[i].second)].cuts.push_back(i);
+      by_root[planes.of(pairs[i].first)].cuts.push_back(i);
+      by_root[planes.of(pairs[i].second)].cuts.push_back(i);
     }
     flat_ = std::move(flat);
     std::vector<Sheet> sheets;

@@ -79,18 +79,21 @@ Patch fill(Surface& surface, HalfEdge start) {
   return patch;
 }
 
+std::string size_and_place(const FilledHole& hole) {
+  return in_mm(hole.extent_mm) + " mm wide at (" + in_mm(hole.place.x) + ", " +
+         in_mm(hole.place.y) + ", " + in_mm(hole.place.z) + ") mm";
+}
+
 tl::unexpected<Error> wide_opening(const FilledHole& hole) {
   return failure(ErrorKind::unsound, "expected small holes, found an opening " +
-                                         in_mm(hole.extent_mm) + " mm wide at (" +
-                                         in_mm(hole.place.x) + ", " + in_mm(hole.place.y) + ", " +
-                                         in_mm(hole.place.z) +
-                                         ") mm: the mesh may be a surface without a wall. "
+                                         size_and_place(hole) +
+                                         ": the mesh may be a surface without a wall. "
                                          "--thicken MM gives it one, --cap closes it by a cap");
 }
 
 }  // namespace
 
-Result<std::vector<FilledHole>> fill_holes(Surface& surface, bool cap_openings) {
+Result<FilledHoles> fill_holes(Surface& surface, bool cap_openings) {
   constexpr double kWideShare = 0.02, kRimShare = 0.75;
   std::vector<HalfEdge> holes;
   pmp::extract_boundary_cycles(surface, std::back_inserter(holes));
@@ -102,15 +105,28 @@ Result<std::vector<FilledHole>> fill_holes(Surface& surface, bool cap_openings) 
   double area = 0.0;
   for (const Face face : surface.faces())
     area += 0.5 * glm::length(normal_of(surface, surface.halfedge(face)));
-  std::vector<FilledHole> filled;
+  FilledHoles result;
   for (const Patch& patch : patches) {
-    if (patch.faces.empty()) continue;
+    if (patch.faces.empty()) {
+      if (!result.left) result.left = patch.hole;
+      continue;
+    }
     if (!cap_openings && patch.hole.edges > 3 && patch.hole.area_mm2 > kWideShare * area &&
         rim_of(surface, patch.border) > kRimShare)
       return wide_opening(patch.hole);
-    filled.push_back(patch.hole);
+    result.filled.push_back(patch.hole);
   }
-  return filled;
+  return result;
+}
+
+tl::unexpected<Error> unfilled(const FilledHole& hole) {
+  const std::string found = "found one of " + counted(hole.edges, "edge") + ", " +
+                            size_and_place(hole) + "; --wrap MM makes a new surface";
+  if (hole.edges > kMaxHoleEdges)
+    return failure(ErrorKind::unsound, "expected holes of at most " +
+                                           std::to_string(kMaxHoleEdges) + " edges, " + found);
+  return failure(ErrorKind::unsound,
+                 "expected holes that triangles between their vertices fill, " + found);
 }
 
 }  // namespace clay::solid::inline repair

@@ -1,10 +1,10 @@
 #include "claystack/export/repair.hpp"
 
 #include "claystack/export/check.hpp"
-#include "claystack/export/proof.hpp"
 #include "core/cancel.hpp"
 #include "core/parallel_parts.hpp"
 #include "core/text.hpp"
+#include "export/proof/completed_check.hpp"
 #include "export/repair/hole_filling.hpp"
 #include "export/repair/intersection_repair.hpp"
 #include "export/repair/order_keeping.hpp"
@@ -14,13 +14,13 @@
 #include "export/repair/stage_report.hpp"
 #include "export/repair/surface_making.hpp"
 #include "export/repair/wrapping.hpp"
-#include "export/solid/mesh_extent.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <exception>
 #include <glm/geometric.hpp>
+#include <new>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -41,7 +41,7 @@ tl::unexpected<Error> nothing_left() {
 Result<TriangleMesh> wrapped_or_error(const TriangleMesh& soup, double offset_mm, double alpha_mm,
                                       const Error& reason) {
   TriangleMesh mesh = wrapped(soup, offset_mm, alpha_mm);
-  const MeshReport report = check_mesh(mesh);
+  const MeshReport report = completed_check(mesh);
   if (report.sound()) return mesh;
   return failure(ErrorKind::unsound, reason.message + "; wrapped: expected a sound mesh, found " +
                                          report.problems.front().what);
@@ -126,6 +126,27 @@ std::optional<TriangleMesh> united_solids(TriangleMesh soup, std::vector<Repair>
   return std::move(*united);
 }
 
+/// Fills the holes and turns shells outward.
+Result<TriangleMesh> closed_surface(Surface& surface, const TriangleMesh& soup,
+                                    const RepairOptions& options, RepairedMesh& report,
+                                    StageReport& stage) {
+  stage.begin("filling holes");
+  auto holes = fill_holes(surface, options.cap_openings || is_closed(soup));
+  if (!holes) return tl::make_unexpected(holes.error());
+  if (holes->left) {
+    // Borders in one place close each other, as where solids share a face.
+    TriangleMesh mesh = mesh_of(surface);
+    merge_equal_points(mesh);
+    drop_collapsed(mesh);
+    if (!is_closed(mesh)) return unfilled(*holes->left);
+  }
+  report.holes = std::move(holes->filled);
+  note_repair(report.repaired, "hole filled", report.holes.size());
+  stage.begin("turning shells");
+  note_repair(report.repaired, "shell turned", turn_shells(surface));
+  return mesh_of(surface);
+}
+
 /// The stages in their order.
 Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& options,
                               RepairedMesh& report, StageReport& stage) {
@@ -138,28 +159,23 @@ Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& opt
       report.repaired = std::move(cleaned);
       return std::move(*united);
     }
-  stage.begin("filling holes");
-  auto holes = fill_holes(*surface, options.cap_openings);
-  if (!holes && is_closed(soup)) holes = fill_holes(*surface, true);
-  if (!holes && options.thicken_mm) {
+  const auto closed = closed_surface(*surface, soup, options, report, stage);
+  if (!closed && options.thicken_mm) {
     note_repair(report.repaired, "wall made around an open surface", 1);
     stage.begin("making a wall");
-    return thickened(soup, *options.thicken_mm, holes.error(), report.thickened.emplace());
+    return thickened(soup, *options.thicken_mm, closed.error(), report.thickened.emplace());
   }
-  if (!holes) return tl::make_unexpected(holes.error());
-  report.holes = std::move(*holes);
-  note_repair(report.repaired, "hole filled", report.holes.size());
-  stage.begin("turning shells");
-  note_repair(report.repaired, "shell turned", turn_shells(*surface));
-  const TriangleMesh closed = mesh_of(*surface);
-  if (closed.triangles.empty()) return nothing_left();
-  return resolve_intersections(closed, Reversed::accepted, report.repaired, stage);
+  if (!closed) return closed;
+  if (closed->triangles.empty()) return nothing_left();
+  return resolve_intersections(*closed, Reversed::accepted, report.repaired, stage);
 }
 
 /// Exceptions of the library become errors.
 Result<TriangleMesh> repaired_or_error(const TriangleMesh& soup, const RepairOptions& options,
                                        RepairedMesh& report, StageReport& stage) try {
   return repaired(soup, options, report, stage);
+} catch (const std::bad_alloc&) {
+  throw;  // a wrap needs more memory
 } catch (const std::exception& e) {
   return failure(ErrorKind::unsound, std::string("repair failed: ") + e.what());
 }
@@ -174,7 +190,7 @@ Result<RepairedMesh> repair_unsound(const TriangleMesh& mesh, const RepairOption
   if (auto quick = expect_quick_wraps(soup, options); !quick)
     return tl::make_unexpected(quick.error());
   auto sound = repaired_or_error(soup, options, result, stage);
-  if (!sound && options.wrap_mm) {
+  if (!sound && sound.error().kind == ErrorKind::unsound && options.wrap_mm) {
     result = {};
     stage.begin("wrapping");
     result.wrapped_mm = options.wrap_mm;
@@ -186,7 +202,7 @@ Result<RepairedMesh> repair_unsound(const TriangleMesh& mesh, const RepairOption
   soup = mesh;
   drop_unusable(soup);
   drop_unused_points(soup);  // their places may not be finite
-  const double tolerance_mm = kDistanceTolerance * glm::length(extent_of(*sound));
+  const double tolerance_mm = kDistanceTolerance * glm::length(extent_of(*sound).size());
   for_each_part(2, [&](std::size_t part) {
     if (part == 0)
       result.mesh = in_order_of(soup, *sound);
@@ -209,10 +225,12 @@ template <class Work>
 Result<RepairedMesh> guarded(const RepairOptions& options, const Work& work) try {
   const CancelScope scope(options.cancelled ? &options.cancelled : CancelScope::current());
   return work();
+} catch (const std::bad_alloc&) {
+  return failure(ErrorKind::io, "repair stopped: not enough memory");
 } catch (const std::exception& e) {
   return failure(ErrorKind::unsound, std::string("repair failed: ") + e.what());
 } catch (const Cancelled&) {
-  // Of a job around this one if it asked itself.
+  // Without a `cancelled` of its own, the cancellation belongs to an enclosing job.
   if (!options.cancelled) throw;
   return failure(ErrorKind::io, "repair stopped: cancelled");
 }
@@ -222,7 +240,7 @@ Result<RepairedMesh> guarded(const RepairOptions& options, const Work& work) try
 Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
   return guarded(options, [&]() -> Result<RepairedMesh> {
     if (options.progress) options.progress("checking", 0.0);
-    if (check_mesh(mesh).sound()) return RepairedMesh{mesh, {}, {}, {}};
+    if (completed_check(mesh).sound()) return RepairedMesh{mesh, {}, {}, {}};
     return repair_if_size_fits(mesh, options);
   });
 }

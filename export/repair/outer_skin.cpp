@@ -1,8 +1,8 @@
 #include "export/repair/outer_skin.hpp"
 
 #include "core/cancel.hpp"
-#include "export/repair/disjoint_sets.hpp"
 #include "export/repair/winding_ray.hpp"
+#include "export/solid/disjoint_sets.hpp"
 
 #include <algorithm>
 #include <optional>

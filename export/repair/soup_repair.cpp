@@ -2,8 +2,8 @@
 
 #include "export/formats/file_floats.hpp"
 #include "export/repair/crack_welding.hpp"
-#include "export/repair/disjoint_sets.hpp"
 #include "export/repair/soup_edges.hpp"
+#include "export/solid/disjoint_sets.hpp"
 #include "export/solid/mesh_topology.hpp"
 
 #include <algorithm>
@@ -17,26 +17,6 @@ namespace {
 
 bool finite(const glm::dvec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-/// Files hold float32.
-std::size_t merge_points(TriangleMesh& mesh) {
-  const auto place = [&](std::uint32_t v) {
-    const glm::dvec3& p = mesh.points[v];
-    return std::tuple(p.x, p.y, p.z, v);
-  };
-  std::vector<std::uint32_t> order(mesh.points.size()), number(mesh.points.size());
-  std::iota(order.begin(), order.end(), std::uint32_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
-  std::size_t merged = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && mesh.points[order[i]] == mesh.points[order[i - 1]];
-    number[order[i]] = same ? number[order[i - 1]] : order[i];
-    merged += same ? 1 : 0;
-  }
-  renumber(mesh, number);
-  return merged;
 }
 
 /// Whether the orientation of the corners is that of their sorted numbers.
@@ -149,7 +129,24 @@ void renumber(TriangleMesh& mesh, const std::vector<std::uint32_t>& number) {
     for (std::uint32_t& v : t) v = number[v];
 }
 
-std::size_t merge_equal_points(TriangleMesh& mesh) { return merge_points(mesh); }
+std::size_t merge_equal_points(TriangleMesh& mesh) {
+  const auto place = [&](std::uint32_t v) {
+    const glm::dvec3& p = mesh.points[v];
+    return std::tuple(p.x, p.y, p.z, v);
+  };
+  std::vector<std::uint32_t> order(mesh.points.size()), number(mesh.points.size());
+  std::iota(order.begin(), order.end(), std::uint32_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
+  std::size_t merged = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && mesh.points[order[i]] == mesh.points[order[i - 1]];
+    number[order[i]] = same ? number[order[i - 1]] : order[i];
+    merged += same ? 1 : 0;
+  }
+  renumber(mesh, number);
+  return merged;
+}
 
 std::size_t drop_collapsed(TriangleMesh& mesh) { return std::erase_if(mesh.triangles, collapsed); }
 

@@ -3,7 +3,7 @@
 #include "core/cancel.hpp"
 #include "export/formats/file_floats.hpp"
 #include "export/proof/pair_test.hpp"
-#include "export/repair/disjoint_sets.hpp"
+#include "export/solid/disjoint_sets.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>

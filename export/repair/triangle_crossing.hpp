@@ -1,5 +1,5 @@
 #pragma once
-// What two triangles have in common, named by vertices, edges and planes: by exact predicates, and
+// The common points of two triangles, named by vertices, edges and planes: by exact predicates, and
 // without constructing a point.
 
 #include "export/solid/mesh_topology.hpp"

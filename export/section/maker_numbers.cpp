@@ -142,8 +142,9 @@ void measure_surface(const Profile& profile, PotState& pot) noexcept {
 
 Result<void> ClayFigures::check() const {
   if (!(density_g_cm3 > 0.0 && density_g_cm3 < 100.0))
-    return failure(ErrorKind::bad_input,
-                   "density: expected 0 to 100 g/cm3, found " + in_mm(density_g_cm3));
+    return failure(
+        ErrorKind::bad_input,
+        "density: expected more than 0 and less than 100 g/cm3, found " + in_mm(density_g_cm3));
   return check_part("shrinkage", shrinkage, 1.0)
       .and_then([&] { return check_part("water", water, 1.0); })
       .and_then([&] { return check_part("loss on ignition", ignition_loss, 1.0); })

@@ -8,7 +8,7 @@
 
 namespace clay::solid::inline smoothing {
 
-/// What `fair_wall` may do at each ring.
+/// Limits of `fair_wall` at each ring.
 struct FairRings {
   double tolerance_mm = 0.0;          ///< the largest of `tolerances_mm`
   std::vector<double> tolerances_mm;  ///< of the simplification
@@ -32,8 +32,8 @@ struct FairWall {
 /// without them are omitted (`simplified`).
 ///
 /// Where rings have a length, stretches of at least kLeastFairedRings of them follow a FairedCurve
-/// instead: half of the tolerance is for its chords, the other half for their simplification. A
-/// curve that would halve the smallest radius of its stretch is not used.
+/// instead. An eighth of the tolerance is for its chords (kChordShare), the rest for their
+/// simplification. A curve that would halve the smallest radius of its stretch is not used.
 [[nodiscard]] FairWall fair_wall(const PieceWalls& piece, const WallRings& wall,
                                  const CutFlags& cut, const FairRings& rings);
 

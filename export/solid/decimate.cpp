@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <new>
 
 namespace clay::solid {
 namespace {
@@ -89,8 +90,8 @@ Result<DecimatedMesh> decimated(const TriangleMesh& sound_mesh, std::size_t max_
                                              std::to_string(max_triangles));
   if (!is_closed_manifold(sound_mesh))
     return failure(ErrorKind::unsound,
-                   "expected a closed manifold with neighbours agreeing, to have fewer triangles; "
-                   "found one that is not");
+                   "expected a closed, consistently oriented manifold mesh to decimate, found "
+                   "another; repair it first");
   if (sound_mesh.triangles.size() <= max_triangles) return DecimatedMesh{sound_mesh, 0.0};
   return decimate_closed(sound_mesh, max_triangles, progress);
 }
@@ -101,10 +102,12 @@ Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_t
                                const DecimateOptions& options) try {
   const CancelScope scope(options.cancelled ? &options.cancelled : CancelScope::current());
   return decimated(sound_mesh, max_triangles, options.progress);
+} catch (const std::bad_alloc&) {
+  return failure(ErrorKind::io, "decimation stopped: not enough memory");
 } catch (const std::exception& e) {
   return failure(ErrorKind::unsound, std::string("decimation failed: ") + e.what());
 } catch (const Cancelled&) {
-  // Of a job around this one if it asked itself.
+  // Without a `cancelled` of its own, the cancellation belongs to an enclosing job.
   if (!options.cancelled) throw;
   return failure(ErrorKind::io, "decimation stopped: cancelled");
 }

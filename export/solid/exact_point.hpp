@@ -17,7 +17,7 @@ template <class Exact>
   return CGAL::to_double(x);
 }
 
-/// The exact numbers of builds without GMP, which a page is. CGAL would divide two doubles, which
+/// Exact numbers of builds without GMP, such as the web page. CGAL would divide two doubles, which
 /// may both be infinite. Requires a result in the range of normal doubles.
 [[nodiscard]] inline double double_of(const CGAL::Quotient<boost::multiprecision::cpp_int>& x) {
   using Whole = boost::multiprecision::cpp_int;

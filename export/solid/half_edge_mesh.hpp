@@ -5,6 +5,7 @@
 #include "claystack/export/solid.hpp"
 
 #include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 namespace clay::solid {
 

@@ -1,6 +1,7 @@
 #include "export/solid/mesh_topology.hpp"
 
 #include "core/cancel.hpp"
+#include "export/solid/disjoint_sets.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -12,26 +13,6 @@ namespace {
 std::uint32_t narrow(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
 bool collapsed(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
-
-/// Union-find with path halving; a set is represented by its smallest member.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
-  }
-  std::uint32_t root(std::uint32_t member) {
-    while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
-    return member;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// A side of a triangle, stored with the lower vertex of its edge. Sides are numbered 3 * triangle
 /// + corner, from that corner to the next.
@@ -157,7 +138,7 @@ class TopologyCount {
     std::vector<bool> counted(points_, false);
     for (std::uint32_t corner = 0; corner < 3 * triangles_.size(); ++corner) {
       step_of_loop();
-      if (collapsed(triangles_[corner / 3]) || fans_.root(corner) != corner) continue;
+      if (collapsed(triangles_[corner / 3]) || fans_.of(corner) != corner) continue;
       const std::uint32_t v = vertex(corner);
       if (fan_of[v] == kNone) {
         fan_of[v] = corner;
@@ -170,10 +151,10 @@ class TopologyCount {
 
   void count_components() {
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-      if (!collapsed(triangles_[t]) && shells_.root(t) == t) ++found_.components;
+      if (!collapsed(triangles_[t]) && shells_.of(t) == t) ++found_.components;
     if (found_.components < 2) return;
     found_.component_of.resize(triangles_.size());
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t) found_.component_of[t] = shells_.root(t);
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) found_.component_of[t] = shells_.of(t);
   }
 
   std::size_t points_;

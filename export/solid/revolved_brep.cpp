@@ -153,7 +153,7 @@ void correct_volume(BrepBody& body, double target_mm3) {
   largest->curve = enclosing(near, wanted, middle_moved);
 }
 
-/// The points of a shell's line between two corners, for the distance.
+/// Upper bound of the distance [mm] between the walls of a shell and its line.
 double deviation_of(const BrepShell& shell, Line line, StepWalls walls) {
   constexpr double kRounding = kBrepGridMm;
   if (walls == StepWalls::lines) return kRounding;

@@ -1,9 +1,8 @@
 #include "export/solid/seam_cure.hpp"
 
+#include "export/solid/half_edge_mesh.hpp"
 #include "export/solid/mesh_topology.hpp"
 
-#include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
@@ -12,7 +11,6 @@
 namespace clay::solid {
 namespace {
 
-using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
 using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;

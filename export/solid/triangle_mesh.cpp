@@ -20,6 +20,18 @@ double cross_sizes(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
 
 }  // namespace
 
+MeshExtent extent_of(const TriangleMesh& mesh) noexcept {
+  if (mesh.triangles.empty()) return {};
+  const glm::dvec3 first = mesh.points[mesh.triangles.front().front()];
+  MeshExtent extent{first, first};
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle) {
+      extent.low = glm::min(extent.low, mesh.points[v]);
+      extent.high = glm::max(extent.high, mesh.points[v]);
+    }
+  return extent;
+}
+
 SignedVolume bounded_volume(const TriangleMesh& mesh) noexcept {
   if (mesh.points.empty()) return {};
   const glm::dvec3 origin = mesh.points.front();

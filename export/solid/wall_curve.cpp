@@ -1,5 +1,6 @@
 #include "export/solid/wall_curve.hpp"
 
+#include "core/cancel.hpp"
 #include "core/compensated_sum.hpp"
 
 #include <algorithm>
@@ -199,6 +200,7 @@ std::array<ProfilePoint, 4> WallCurve::bezier(std::size_t span, double a, double
 WallCurve fitted(const Polygon& line, double tolerance_mm) {
   const LineByLength by_length(line);
   const auto fit = [&](const std::vector<double>& knots) {
+    stop_if_cancelled();
     return least_squares(by_length, knots, line.front(), line.back());
   };
   WallCurve curve = fit({0.0, 1.0});

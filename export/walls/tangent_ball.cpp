@@ -320,7 +320,7 @@ AxisClay::AxisClay(const EdgeTree& tree, std::uint32_t piece) {
     i = next;
   }
   if (runs_.empty()) return;
-  // What comes before the first stretch belongs to the run after the last one.
+  // The part before the first stretch belongs to the run after the last one.
   runs_.back().end = runs_.front().begin - tree.axis_arc() + arc;
   runs_.insert(runs_.begin(), {runs_.back().begin - arc, runs_.back().end - arc});
   std::sort(stretches_.begin(), stretches_.end(),

@@ -414,6 +414,20 @@ TEST(Check, StatesSizeAreaAndVolume) {
   EXPECT_NE(tiny.out.find(", 6e-06 cm3\n"), std::string::npos) << tiny.out;
 }
 
+/// A point without a triangle is no part of the mesh: neither of its size nor of the bed.
+TEST(Check, StrayPointsDoNotMoveTheBed) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("block.obj"), limits = folder.file("kiln.process.json");
+  write_text(file, solid::encode_obj(block({20, 20, 20}), "block") + "v 0 0 -100\n");
+  write_text(limits, R"({"schema": "claystack-process-1", "name": "kiln",
+    "walls": [{"min_wall_mm": 1, "source": "s"}], "overhang": {"max_deg": 30, "source": "s"}})");
+  const Ran ran = claystack("check --process " + limits + ' ' + file);
+  EXPECT_EQ(ran.status, 0) << ran.out;
+  EXPECT_EQ(ran.out.find("overhang of up to"), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find("20.0 x 20.0 x 20.0 mm, no overhang above 30 degrees"), std::string::npos)
+      << ran.out;
+}
+
 TEST(Check, StatesNoVolumeOfAnOpenMesh) {
   const ScratchFolder folder;
   const std::string file = folder.file("open.obj");
@@ -430,8 +444,9 @@ TEST(Check, StatesNoVolumeOfAnOpenMesh) {
   EXPECT_NEAR(repaired.json().at("volume_mm3"), 1000.0, 1e-3);
   EXPECT_EQ(violation(load_schema("check"), Json::parse(repaired.out)), "") << repaired.out;
   const Ran repair_text = claystack("check --repair --dry-run " + file);
-  EXPECT_NE(repair_text.out.find("volume: none before, because the mesh is open, 1 cm3 after"),
-            std::string::npos)
+  EXPECT_NE(
+      repair_text.out.find("volume: none before, because the mesh encloses no volume, 1 cm3 after"),
+      std::string::npos)
       << repair_text.out;
 }
 

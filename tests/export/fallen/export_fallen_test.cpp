@@ -1,4 +1,5 @@
 #include "claystack/export/proof.hpp"
+#include "tests/export/fallen/collapsed_pots.hpp"
 #include "tests/export/formats/refused.hpp"
 #include "tests/export/job/exported.hpp"
 #include "tests/export/solid/shapes.hpp"
@@ -66,6 +67,23 @@ TEST(ExportFallen, WritesSeparatePiecesOnlyIfAllowed) {
     const auto result = exported(pot, {}, options);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_TRUE(result->report.collapsed->check.sound());
+  }
+}
+
+/// A bell that fell onto a slab: only the union encloses the air between them.
+TEST(ExportFallen, FailsForTrappedAirInAFiredProcess) {
+  const Pot pot = shapes::fallen(stack_of(8, {{20, 0}, {20, 15}, {20, 0}}), 0, {20, 8, 0}, 0.0);
+  ExportOptions options;
+  for (const bool fired : {false, true}) {
+    options.walls.process = ProcessLimits{};
+    options.walls.process->fired = fired;
+    const auto result = exported(pot, {}, options);
+    ASSERT_TRUE(result) << result.error().message;
+    std::vector<Problem> cavities = problems_of_solid(result->report);
+    std::erase_if(cavities, [](const Problem& p) { return p.kind != ProblemKind::cavity; });
+    ASSERT_EQ(cavities.size(), 1U);
+    EXPECT_EQ(cavities[0].fails, fired);
+    EXPECT_NE(cavities[0].text.find("needs a drain hole"), std::string::npos) << cavities[0].text;
   }
 }
 

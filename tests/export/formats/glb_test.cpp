@@ -301,6 +301,42 @@ TEST(Glb, RefusesBadFiles) {
   expect(changed("/extras", deep), "nested at most 32 deep");
 }
 
+/// A strip of one corner too many, before a primitive that is not read.
+TEST(Glb, RefusesTooManyTrianglesBeforeTheyTakeMemory) {
+  Plain plain;
+  plain.binary.resize(48 + kMaxTriangles + 4, '\0');
+  plain.json["buffers"][0]["byteLength"] = plain.binary.size();
+  plain.json["bufferViews"][1]["byteLength"] = kMaxTriangles + 4;
+  plain.json["accessors"][1]["componentType"] = 5121;
+  plain.json["accessors"][1]["count"] = kMaxTriangles + 3;
+  Json& primitives = plain.json["meshes"][0]["primitives"];
+  primitives[0]["mode"] = 5;
+  primitives.push_back({{"mode", 9}});
+  EXPECT_TRUE(refused(decode_glb(plain.file(), "x"), ErrorKind::bad_input,
+                      "expected at most 20000000 triangles"));
+}
+
+/// Each copy has few triangles, but all its points.
+TEST(Glb, RefusesManyCopiesOfPoints) {
+  constexpr std::size_t kPoints = 10'000, kCopies = 400;
+  Plain plain;
+  const std::string indices = plain.binary.substr(48);
+  plain.binary.resize(12 * kPoints, '\0');
+  plain.binary += indices;
+  plain.json["buffers"][0]["byteLength"] = plain.binary.size();
+  plain.json["bufferViews"][0]["byteLength"] = 12 * kPoints;
+  plain.json["bufferViews"][1]["byteOffset"] = 12 * kPoints;
+  plain.json["accessors"][0]["count"] = kPoints;
+  const std::string once = plain.file();
+  EXPECT_TRUE(decode_glb(once, "x"));
+  for (std::size_t copy = 1; copy < kCopies; ++copy) {
+    plain.json["nodes"].push_back({{"mesh", 0}});
+    plain.json["scenes"][0]["nodes"].push_back(copy);
+  }
+  EXPECT_TRUE(refused(decode_glb(plain.file(), "x"), ErrorKind::bad_input,
+                      "at most 64 times the 10000 points in the file, found 4000000"));
+}
+
 #ifdef CLAYSTACK_MESHOPT
 
 /// A torus, its JSON changed.

@@ -8,6 +8,7 @@
 #include <sys/mman.h>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 
 namespace clay::solid {
 namespace {
@@ -39,6 +40,14 @@ TEST(MeshFormats, RefuseLargeCountsBeforeAllocating) {
   std::memcpy(facets.data() + 80, &count, sizeof count);
   EXPECT_EQ(decode_stl(facets.bytes(), "big").error().message,
             "big: expected 1 to 20000000 triangles, found 20000001");
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 60000001\nproperty uchar x\n"
+      "property uchar y\nproperty uchar z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  const HugeFile points(header.size() + std::size_t{3} * 60'000'001 + 13);
+  std::memcpy(points.data(), header.data(), header.size());
+  EXPECT_EQ(decode_ply(points.bytes(), "big").error().message,
+            "big: expected at most 60000000 vertices, found 60000001");
   const HugeFile bytes((std::size_t{1} << 30) + 1);
   for (const auto decode : {decode_stl, decode_obj}) {
     EXPECT_EQ(decode(bytes.bytes(), "big", {}).error().message,

@@ -172,13 +172,13 @@ TEST(Obj, PassesOverWhatIsNoPartOfTheSurfaceWithANote) {
   const std::string no_vt = "a face names a vt that the file does not define";
   const std::string no_vn = "a face names a vn that the file does not define";
   const std::string odd =
-      " faces with a slash at the end of a corner, or on several lines: PrusaSlicer does not read "
-      "them";
+      " with a slash at the end of a corner, or on several lines: PrusaSlicer does not read such "
+      "faces";
   for (const Case& c : std::vector<Case>{
-           {kSquare + "f 1/ 2/ 3/\n", {"line 5: 1" + odd}},
-           {kSquare + "f 1// 2// 3//\nf 1 2 3\nf 1 2/ 3\n", {"line 5: 2" + odd}},
-           {kSquare + "vt 0\nf 1/1/ 2/1/ 3/1/\n", {"line 6: 1" + odd}},
-           {kSquare + "f 1 2 \\\n3\nf 1 2 3\n", {"line 5: 1" + odd}},
+           {kSquare + "f 1/ 2/ 3/\n", {"line 5: 1 face" + odd}},
+           {kSquare + "f 1// 2// 3//\nf 1 2 3\nf 1 2/ 3\n", {"line 5: 2 faces" + odd}},
+           {kSquare + "vt 0\nf 1/1/ 2/1/ 3/1/\n", {"line 6: 1 face" + odd}},
+           {kSquare + "f 1 2 \\\n3\nf 1 2 3\n", {"line 5: 1 face" + odd}},
            {kSquare + "f 1/1 2/1 3/1\n", {"line 5: " + no_vt}},
            {kSquare + "f 1//1 2//1 3//1\nvn 0 0 1\n", {}},
            {kSquare + "f 1//1 2//1 3//1\n", {"line 5: " + no_vn}},

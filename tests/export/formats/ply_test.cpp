@@ -102,6 +102,17 @@ TEST(Ply, PassesOverOtherPropertiesAndElements) {
   EXPECT_EQ(decode_ply(file, "x").value(), expected);
 }
 
+/// Only the list of whole numbers names corners.
+TEST(Ply, ReadsOneListOfCorners) {
+  const std::string two = with(ply_text(), "property list uchar int vertex_indices",
+                               "property list uchar float vertex_index\n"
+                               "property list uchar int vertex_indices");
+  std::string file = two.substr(0, two.find("3 0 2 1"));
+  for (const char* corners : {"0 2 1", "0 1 3", "1 2 3", "0 3 2"})
+    file += std::string("3 0.5 1 2 3 ") + corners + "\n";
+  EXPECT_EQ(decode_ply(file, "x").value(), tetrahedron());
+}
+
 TEST(Ply, NotesStrayLinesBeforeTheElements) {
   const std::string file =
       with(ply_text(), "format ascii 1.0\n", "format ascii 1.0\nCreated by a program\nv2\n");

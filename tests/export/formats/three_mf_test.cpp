@@ -1,5 +1,6 @@
 #include "claystack/export/formats.hpp"
 #include "core/base64.hpp"
+#include "core/cancel.hpp"
 #include "export/formats/zip_package.hpp"
 #include "tests/export/formats/refused.hpp"
 #include "tests/export/solid/mesh_generators.hpp"
@@ -9,6 +10,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -268,6 +270,35 @@ TEST(ThreeMf, RefusesPackagesWithoutAModel) {
         return ZipPackage::open(zip, "z").map([](const ZipPackage&) {});
       }),
       ErrorKind::bad_input, "found twice"));
+}
+
+TEST(ThreeMf, IsCancelledWhileItsModelIsRead) {
+  std::string model = kModelStart + R"(<object id="1"><mesh><vertices>)";
+  for (int i = 0; i < 10'000; ++i) model += R"(<vertex x="0" y="0" z="0"/>)";
+  model += R"(</vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>)" +
+           kBuild;
+  ASSERT_TRUE(decode_3mf_model(model, "m"));
+  bool no_memory = false;
+  std::size_t asked = 0;
+  const CancelScope::Question question = [&] {
+    ++asked;
+    if (no_memory) throw std::bad_alloc();
+    return true;
+  };
+  const CancelScope scope(&question);
+  EXPECT_THROW((void)decode_3mf_model(model, "m"), Cancelled);
+  EXPECT_EQ(asked, 1U) << "events continue after the first exception";
+  no_memory = true;
+  EXPECT_TRUE(refused(decode_3mf_model(model, "m"), ErrorKind::io, "not enough memory"));
+}
+
+TEST(ThreeMf, NotesSupportsThatAreNotRead) {
+  const std::string model = kModelStart + kObject + R"(<object id="2" type="support">)" + kMesh +
+                            "</object>" +
+                            changed(kBuild, "<build>", R"(<build><item objectid="2"/>)");
+  std::vector<std::string> notes;
+  ASSERT_TRUE(decode_3mf(package_of(model), "m", {.notes = &notes}));
+  EXPECT_EQ(notes, std::vector<std::string>{"1 support item not read"});
 }
 
 TEST(ThreeMf, RefusesBombs) {

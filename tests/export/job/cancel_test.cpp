@@ -4,12 +4,14 @@
 
 #include "core/cancel.hpp"
 #include "core/parallel_parts.hpp"
+#include "export/solid/wall_curve.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <mutex>
@@ -127,6 +129,35 @@ TEST(Cancel, LongStagesCheckContinuously) {
   for (const char* each :
        {"tessellate", "encode_stl_binary", "verify_stl_binary", "encode_obj", "verify_obj"})
     EXPECT_GE(asked[each], report->size.triangles / (2 * 1024)) << each;
+}
+
+TEST(Cancel, EncodersCheckContinuously) {
+  const TriangleMesh mesh =
+      revolve({{{{0, 0}, {30, 0}, {30, 20}, {28, 20}, {28, 2}, {0, 2}}}}, 20'000);
+  std::atomic<std::size_t> asked{0};
+  const CancelScope::Question question = [&] {
+    ++asked;
+    return false;
+  };
+  const CancelScope scope(&question);
+  for (const MeshFormat format : {MeshFormat::stl_binary, MeshFormat::stl_ascii, MeshFormat::glb}) {
+    asked = 0;
+    ASSERT_TRUE(encode_mesh(mesh, format, {.glb = GlbMesh::core}));
+    EXPECT_GE(asked, mesh.triangles.size() / 1024) << name_of(format);
+  }
+}
+
+TEST(Cancel, EachFitOfACurveChecks) {
+  Polygon line;
+  for (int i = 0; i <= 200; ++i) line.push_back({30.0 + 5.0 * std::sin(0.1 * i), 0.5 * i});
+  std::size_t asked = 0;
+  const CancelScope::Question question = [&] {
+    ++asked;
+    return false;
+  };
+  const CancelScope scope(&question);
+  const WallCurve curve = fitted(line, 1e-3);
+  EXPECT_GE(asked, curve.spans());
 }
 
 TEST(Cancel, NoStageBeginsAfterCancellation) {

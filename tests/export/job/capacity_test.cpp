@@ -183,6 +183,11 @@ TEST(Goal, IsRefusedWithTheReason) {
                 "expected a shrinkage"),
             "");
   EXPECT_EQ(has(why(vase, of([](Goal& g) { g.height_mm = 1e7; })), "within 50 times"), "");
+  // Beyond 64 bits, in quanta.
+  const Pot disc = pot_of(shapes::stack_of(10.0, {{1000, 0}}));
+  EXPECT_EQ(has(why(disc, of([](Goal& g) { g.diameter_mm = 25'000.0; })),
+                "goal: expected a diameter of at most 10000 mm, found 25000"),
+            "");
   const Pot tube = pot_of(shapes::stack_of(10.0, {{40, 30}, {40, 30}}));
   EXPECT_EQ(has(why(tube, of([](Goal& g) { g.holds_ml = 350.0; })), "no floor"), "");
   ExportOptions thick;

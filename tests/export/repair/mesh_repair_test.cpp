@@ -12,6 +12,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <new>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -161,7 +162,38 @@ TEST(Repair, JoinsSolidsThatShareAFace) {
     ASSERT_TRUE(repaired) << repaired.error().message;
     EXPECT_TRUE(check_mesh(repaired->mesh).sound());
     EXPECT_NEAR(signed_volume(repaired->mesh), 2000.0, 1e-3) << turned;
+    EXPECT_TRUE(repaired->holes.empty());
+    // Faces with the same diagonal cancel.
+    EXPECT_EQ(times(*repaired, "solids with common edges united"), turned ? 1U : 0U)
+        << names(*repaired);
   }
+}
+
+TEST(Repair, RefusesAHoleOfTooManyEdgesWithItsPlace) {
+  TriangleMesh cup = revolve({{{{0, 0}, {30, 0}, {30, 50}, {0, 50}}}}, kMaxHoleEdges + 2);
+  std::erase_if(cup.triangles, [&](const auto& t) {
+    return std::ranges::all_of(t, [&](std::uint32_t v) { return cup.points[v].z == 50.0; });
+  });
+  const auto refused = repair_mesh(cup, {.cap_openings = true});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::unsound);
+  for (const char* part :
+       {"at most 10000 edges", "found one of 10002 edges", "50) mm", "--wrap MM"})
+    EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
+}
+
+/// A cone whose tip and base have many triangles, beside two cubes that cross; a search of all
+/// pairs of those triangles would exceed the time limit of a test.
+TEST(Repair, FindsCrossingsBesideAFanOfManyTriangles) {
+  const TriangleMesh cone = revolve({{{{0, 0}, {30, 0}, {0, 40}}}}, 100'000);
+  const TriangleMesh crossing = moved(together(cube(2.0), moved(cube(2.0), {1, 1, 1})), {60, 0, 0});
+  TriangleMesh mesh = together(cone, crossing);
+  mesh.triangles.erase(mesh.triangles.begin());
+  const auto result = repair_mesh(mesh);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(times(*result, "hole filled"), 1U);
+  EXPECT_EQ(check_mesh(result->mesh).components, 2U);
+  EXPECT_NEAR(signed_volume(result->mesh), signed_volume(cone) + 15.0, rounding_mm3(result->mesh));
 }
 
 TEST(Repair, FillsAPatchOfEightTrianglesWithoutIntersections) {
@@ -533,6 +565,31 @@ TEST(Repair, CancelsAtEveryCheck) {
     ++stopped;
     EXPECT_EQ(result.error().kind, ErrorKind::io);
     EXPECT_EQ(result.error().message, "repair stopped: cancelled");
+  }
+  EXPECT_GT(stopped, 8U);
+}
+
+/// Not a fault of the mesh, and no reason for a wrap, which needs more.
+TEST(Repair, NamesMissingMemory) {
+  const TriangleMesh mesh = tangled_balls();
+  std::atomic<std::size_t> asked{0};
+  RepairOptions options;
+  options.wrap_mm = 1.0;
+  options.cancelled = [&] { return ++asked == 0; };
+  ASSERT_TRUE(repair_mesh(mesh, options));
+  const std::size_t all = asked;
+  std::size_t stopped = 0;
+  for (std::size_t until = 0; until < all; until += 1 + until / 4) {
+    asked = 0;
+    options.cancelled = [&]() -> bool {
+      if (++asked > until) throw std::bad_alloc();
+      return false;
+    };
+    const auto result = repair_mesh(mesh, options);
+    if (result) continue;  // near the end, threads share the questions differently
+    ++stopped;
+    EXPECT_EQ(result.error().kind, ErrorKind::io) << until << " of " << all;
+    EXPECT_EQ(result.error().message, "repair stopped: not enough memory");
   }
   EXPECT_GT(stopped, 8U);
 }

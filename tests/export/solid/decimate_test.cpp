@@ -10,6 +10,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -78,6 +79,14 @@ TEST(Decimate, FlatFacesHaveNoError) {
     EXPECT_TRUE(report.sound());
     EXPECT_DOUBLE_EQ(report.volume_mm3, 512.0);
   }
+}
+
+TEST(Decimate, NamesMissingMemory) {
+  const auto result =
+      decimate(grid_cube(8.0, 32), 12, {.cancelled = []() -> bool { throw std::bad_alloc(); }});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::io);
+  EXPECT_EQ(result.error().message, "decimation stopped: not enough memory");
 }
 
 TEST(Decimate, InclinedFlatFacesHaveNoError) {

@@ -1,6 +1,5 @@
 #pragma once
-// What a foreign mesh is good for: whether it prints without being sound, and how thin its walls
-// are.
+// The use of a foreign mesh: whether it prints without being sound, and how thin its walls are.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/proof.hpp"

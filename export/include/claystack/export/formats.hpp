@@ -100,7 +100,7 @@ std::string encode_ply(const TriangleMesh& mesh, std::string_view object_name,
 /// meshoptimizer, which viewers unpack faster.
 enum class GlbMesh { core, draco, meshopt };
 
-/// What a file holds beside the surface; each format takes what it has a place for.
+/// Contents of a file beside the surface; each format takes what it has a place for.
 struct FileContents {
   std::string_view name = "pot";        ///< of the solid or object
   std::span<const float> wall_mm = {};  ///< thickness at each point [mm]; empty: unknown
@@ -143,7 +143,7 @@ Result<std::string> pack_3mf(const ModelPart& model, const FileContents& content
 /// meshoptimizer also needs a triangle at every point. `bad_input` for an unknown material.
 Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& contents);
 
-/// What a reader accepts beyond its format.
+/// Input that a reader accepts beyond its format.
 struct ReadOptions {
   /// Binary STL whose size differs from what its count requires: the whole facets that are there.
   bool repair = false;
@@ -244,10 +244,10 @@ Result<TriangleMesh> decode_3mf_model(std::string_view xml, std::string_view nam
 /// Refused: other required extensions except those of materials and textures, sparse points, other
 /// buffers than the file's own, views that unpack to more than 1 GiB together, nodes in a cycle or
 /// nested more than 32 deep, JSON of more than 16 MiB or 32 levels, and a scene of more than 64
-/// times the triangles in the file (above a million).
+/// times the triangles in the file (above a million) or its points (above three million).
 Result<TriangleMesh> decode_glb(std::string_view bytes, std::string_view name);
 
-/// What Claystack put into a 3MF beside the mesh; empty: not there.
+/// Parts that Claystack put into a 3MF beside the mesh; empty: not there.
 struct PackedParts {
   std::string pot;          ///< a pot file; from the metadata or a note if a slicer kept only that
   std::string certificate;  ///< of the model part

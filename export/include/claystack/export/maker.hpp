@@ -1,5 +1,5 @@
 #pragma once
-// What a maker asks of a pot: size, weight, capacity, balance; computed from the section alone.
+// Figures of a pot for its maker: size, weight, capacity, balance; computed from the section alone.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/section.hpp"

@@ -142,8 +142,8 @@ Result<SmoothedProfile> smooth_profile_of(const ClayStack& stack,
                                           const SmoothingOptions& options = {});
 
 // ---- finish --------------------------------------------------------------------------
-// What a maker does to the leather-hard pot: cut a foot, round the corner of the floor, leave room
-// for the glaze. All lengths are those of the solid as written.
+// The work on the leather-hard pot: cut a foot, round the corner of the floor, leave room for the
+// glaze. All lengths are those of the solid as written.
 
 /// A ring on which the pot stands. Inside it the foot is cut away to the depth, and outside it too
 /// if it has a diameter of its own.

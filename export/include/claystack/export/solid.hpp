@@ -24,6 +24,18 @@ struct TriangleMesh {
   friend bool operator==(const TriangleMesh&, const TriangleMesh&) = default;
 };
 
+/// A box along the axes [mm].
+struct MeshExtent {
+  glm::dvec3 low{0.0}, high{0.0};
+
+  /// Width, depth and height.
+  [[nodiscard]] glm::dvec3 size() const noexcept { return high - low; }
+};
+
+/// The box around the corners of the triangles: points without a triangle do not count. At the
+/// origin if there is no triangle. Indices must be in range.
+[[nodiscard]] MeshExtent extent_of(const TriangleMesh& mesh) noexcept;
+
 /// Signed volume [mm^3] by the divergence theorem, summed in double about the first point
 /// with compensation; positive for a closed mesh oriented outward. Indices must be in range.
 [[nodiscard]] double signed_volume(const TriangleMesh& mesh) noexcept;

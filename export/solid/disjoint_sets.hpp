@@ -5,9 +5,9 @@
 #include <numeric>
 #include <vector>
 
-namespace clay::solid::inline repair {
+namespace clay::solid {
 
-/// Sets of numbers from 0 on, named by their smallest member.
+/// Sets of numbers from 0 on, named by their smallest member: union-find with path halving.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t size) : parent_(size) {
@@ -27,4 +27,4 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace clay::solid::inline repair
+}  // namespace clay::solid
