@@ -141,7 +141,9 @@ TEST(Repair, JoinsSolidsThatShareAFace) {
     EXPECT_NEAR(signed_volume(repaired->mesh), 2000.0, 1e-3) << turned;
     EXPECT_EQ(times(*repaired, "hole filled"), repaired->holes.size());
     // Where the faces have the same diagonal, they cancel without a hole.
-    if (turned) EXPECT_FALSE(repaired->holes.empty()) << names(*repaired);
+    if (turned) {
+      EXPECT_FALSE(repaired->holes.empty()) << names(*repaired);
+    }
     for (const FilledHole& hole : repaired->holes) {
       EXPECT_NEAR(hole.area_mm2, 100.0, 1e-3);
       EXPECT_NEAR(hole.place.x, 10.0, 1e-6);
