@@ -86,9 +86,11 @@ void expect_same(const TriangleMesh& mesh, std::size_t least) {
   const Fault fault = found(mesh);
   EXPECT_GE(expected.size(), least);
   EXPECT_EQ(fault.count, expected.size());
-  if (!expected.empty())
-    EXPECT_EQ(fault.triangles,
-              (std::vector<std::uint32_t>{expected.front().first, expected.front().second}));
+  const std::vector<std::uint32_t> first =
+      expected.empty()
+          ? std::vector<std::uint32_t>()
+          : std::vector<std::uint32_t>{expected.front().first, expected.front().second};
+  EXPECT_EQ(fault.triangles, first);
   EXPECT_EQ(intersecting_pairs(mesh, 1'000'000), expected);
 }
 
