@@ -166,13 +166,17 @@ class Reader {
         return failure(ErrorKind::bad_input,
                        fmt::format("{}:{}: expected {}, found the end of the drawing", name_,
                                    entity->line, end));
-      if (++entities_ > kMostEntities)
-        return failure(ErrorKind::bad_input,
-                       fmt::format("{}: expected at most {} entities with all insertions, found "
-                                   "more",
-                                   name_, kMostEntities));
+      if (auto counted = count_one(); !counted) return counted;
       if (auto done = draw(*entity, groups, within); !done) return done;
     }
+  }
+
+  /// Counts an entity or an insertion, which takes time even if its block is empty.
+  Result<void> count_one() {
+    if (++entities_ <= kMostEntities) return {};
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected at most {} entities and insertions, found more", name_,
+                               kMostEntities));
   }
 
   Result<void> draw(const DxfEntity& entity, DxfGroups& groups, const Insertion& within) {
@@ -206,6 +210,7 @@ class Reader {
     if (!plane) return tl::make_unexpected(plane.error());
     const Block& block = found->second;
     for (long i = 0; i < grid->columns * grid->rows; ++i) {
+      if (auto counted = count_one(); !counted) return counted;
       const glm::dvec2 beside{static_cast<double>(i % grid->columns) * grid->step.x,
                               static_cast<double>(i / grid->columns) * grid->step.y};
       const DxfPlacement own{grid->turn * glm::dmat2{grid->scale.x, 0.0, 0.0, grid->scale.y},

@@ -1,5 +1,5 @@
 #pragma once
-// What may be wrong with the outlines of a drawing, for messages that name the cause.
+// Faults of the outlines of a drawing, for messages that name the cause.
 
 #include "app/import/drawing.hpp"
 

@@ -51,7 +51,7 @@ bool of_svg(const xmlNode* node) {
   return node->type == XML_ELEMENT_NODE && (node->ns == nullptr || address_of(node) == kSvgSpace);
 }
 
-/// What children take over from their parents.
+/// Properties that children inherit from their parents.
 struct Inherited {
   bool visible = true;
   bool filled = true, stroked = false;
