@@ -12,12 +12,14 @@
 #include "claystack/export/job.hpp"
 #include "claystack/export/proof.hpp"
 #include "claystack/version.hpp"
+#include "engine/files/scene_json.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <filesystem>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
@@ -113,6 +115,9 @@ std::shared_ptr<Pot> stacked(double ring_height_mm, const std::vector<double>& o
                              const std::vector<double>& inner_mm, double density_g_cm3) {
   if (outer_mm.empty() || outer_mm.size() != inner_mm.size())
     throw Failed{{ErrorKind::bad_input, "inner_mm: expected one radius for each of outer_mm"}};
+  if (!files::kDensity.holds(density_g_cm3))
+    throw Failed{
+        {ErrorKind::bad_input, "density_g_cm3: expected a value " + files::kDensity.text()}};
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < outer_mm.size(); ++i) {
     for (const double radius : {outer_mm[i], inner_mm[i]})
@@ -191,7 +196,7 @@ py::dict export_pot(const Pot& pot, const std::vector<std::string>& paths,
   request.certificates = settings.certificates;
   for (const std::string& path : paths)
     request.files.push_back(value_of(solid::file_request(path)));
-  if (!paths.empty()) request.options.name = paths.front();
+  if (!paths.empty()) request.options.name = std::filesystem::path(paths.front()).stem().string();
   solid::ExportReport report;
   {
     py::gil_scoped_release others_run;
