@@ -188,7 +188,7 @@ void check_cavities(const CheckCommand& command, Verdict& verdict) {
                           one ? "it needs a drain hole" : "they need drain holes"));
 }
 
-/// What the mesh encloses, and what the file holds besides the mesh.
+/// The cavities of the mesh, and the other contents of the file.
 void check_contents(std::string_view bytes, const TriangleMesh& mesh, MeshFormat format,
                     const CheckCommand& command, Verdict& verdict) {
   check_cavities(command, verdict);
