@@ -1,5 +1,6 @@
 #include "app/import/dxf_shapes.hpp"
 #include "app/import/readers.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -97,7 +98,7 @@ class Reader {
         return failure(ErrorKind::bad_input,
                        fmt::format("{}:{}: expected the end of section {}, found the end of the "
                                    "drawing",
-                                   name_, entity->line, kind));
+                                   name_, entity->line, shown(kind)));
       if (entity->type == "ENDSEC") return {};
       auto done = kind == "TABLES" && entity->type == "LAYER"   ? layer(*entity)
                   : kind == "BLOCKS" && entity->type == "BLOCK" ? block(*entity, groups)
@@ -153,7 +154,7 @@ class Reader {
       if (inside->type == "EOF" || inside->type == "ENDSEC")
         return failure(ErrorKind::bad_input,
                        fmt::format("{}:{}: expected the end of block {}, found {}", name_,
-                                   inside->line, entity.text(2), inside->type));
+                                   inside->line, shown(entity.text(2)), shown(inside->type)));
     }
   }
 
@@ -184,13 +185,13 @@ class Reader {
     if (layer.empty() || layer == "0") layer = within.layer;
     const bool visible = entity.text(60) != "1" && entity.text(67) != "1" && layer != "defpoints" &&
                          !ignored_.contains(layer);
-    const bool shown = visible && (!for_construction(layer) || layer == layer_);
-    if (entity.type == "INSERT") return shown ? insert(entity, within, layer) : Result<void>();
+    const bool drawn = visible && (!for_construction(layer) || layer == layer_);
+    if (entity.type == "INSERT") return drawn ? insert(entity, within, layer) : Result<void>();
     auto line = dxf_line(entity, groups, within.placement, limits_, name_);
     if (!line) return tl::make_unexpected(line.error());
     if (!*line || (*line)->points_mm.size() < 2 || !visible) return {};
     seen_layers_.insert(layer);
-    if (!shown) return {};
+    if (!drawn) return {};
     if (layer_.empty() || layer == layer_) lines_.push_back(std::move(**line));
     return {};
   }
@@ -199,9 +200,9 @@ class Reader {
   Result<void> insert(const DxfEntity& entity, const Insertion& within, const Name& layer) {
     const auto found = blocks_.find(lower(entity.text(2)));
     if (found == blocks_.end())
-      return refusal(
-          entity,
-          fmt::format("expected the name of a block of the drawing, found \"{}\"", entity.text(2)));
+      return refusal(entity,
+                     fmt::format("expected the name of a block of the drawing, found \"{}\"",
+                                 shown(entity.text(2))));
     if (within.depth == kDeepest)
       return refusal(entity, fmt::format("expected blocks at most {} deep, found more", kDeepest));
     const auto grid = grid_of(entity);
