@@ -63,16 +63,6 @@ TEST(Import, BoundsTheTextThatItQuotes) {
   EXPECT_LT(run.err.size(), 1000u);
 }
 
-TEST(Import, RefusesAPotThatDoesNotFitBeforeItIsWritten) {
-  const ScratchFolder folder;
-  write_text(folder.file("tall.csv"), "radius_mm,height_mm\n30,0\n40,500\n");
-  const Ran run = claystack("import --memory 150MiB --ring-height 0.001 " +
-                            folder.file("tall.csv") + " -o " + folder.file("tall.pot.json"));
-  EXPECT_EQ(run.status, 3);
-  EXPECT_NE(run.err.find("tall.pot.json: writing the pot needs about 0.09 GB"), std::string::npos)
-      << run.err;
-}
-
 TEST(Import, AcceptsNamesInUpperCase) {
   const ScratchFolder folder;
   const std::string json = folder.file("JUG.POT.JSON"), cbor = folder.file("JUG.POT.CBOR");
