@@ -44,14 +44,16 @@ TEST(Import, RefusesAZigzagInLittleMemory) {
   const ScratchFolder folder;
   std::string points;
   for (int i = 0; i < 4000; ++i)
-    points += fmt::format("{},{} ", 10.0 + 0.01 * i, i % 2 == 0 ? 0 : 60);
+    points += fmt::format("{},{} ", 10.0 + 1e-5 * i * i, i % 2 == 0 ? 0 : 60);
   write_text(folder.file("zigzag.svg"),
-             R"(<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" )"
-             R"(viewBox="0 0 100 100"><polyline fill="none" stroke="black" points=")" +
+             R"(<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm" )"
+             R"(viewBox="0 0 200 200"><polyline fill="none" stroke="black" points=")" +
                  points + "\"/></svg>");
   const Ran run = claystack("import --memory 64MiB " + folder.file("zigzag.svg") + " -o " +
                             folder.file("a.pot.json"));
   EXPECT_EQ(run.status, 2) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("the drawing is nearly symmetric"));
+  EXPECT_LT(run.err.size(), 1000u);
 }
 
 TEST(Import, BoundsTheTextThatItQuotes) {
