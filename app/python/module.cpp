@@ -12,7 +12,6 @@
 #include "claystack/export/job.hpp"
 #include "claystack/export/proof.hpp"
 #include "claystack/version.hpp"
-#include "engine/files/scene_json.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -115,9 +114,6 @@ std::shared_ptr<Pot> stacked(double ring_height_mm, const std::vector<double>& o
                              const std::vector<double>& inner_mm, double density_g_cm3) {
   if (outer_mm.empty() || outer_mm.size() != inner_mm.size())
     throw Failed{{ErrorKind::bad_input, "inner_mm: expected one radius for each of outer_mm"}};
-  if (!files::kDensity.holds(density_g_cm3))
-    throw Failed{
-        {ErrorKind::bad_input, "density_g_cm3: expected a value " + files::kDensity.text()}};
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < outer_mm.size(); ++i) {
     for (const double radius : {outer_mm[i], inner_mm[i]})
@@ -129,8 +125,10 @@ std::shared_ptr<Pot> stacked(double ring_height_mm, const std::vector<double>& o
   const std::size_t count = rings.size();
   ClayStack stack = value_of(ClayStack::from_rings(ring_height_mm, std::move(rings), 0, count));
   const Ledger ledger{.initial = stack.recount()};
+  const Pot pot{std::move(stack), ledger, Model::conserving, density_g_cm3, {}, {}};
+  // The reader of pots has the ranges, such as that of the density.
   return std::make_shared<Pot>(
-      Pot{std::move(stack), ledger, Model::conserving, density_g_cm3, {}, {}});
+      value_of(parse_pot(clay::write_pot(pot, PotEncoding::cbor), "stack")));
 }
 
 struct ExportSettings {
