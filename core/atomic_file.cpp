@@ -19,13 +19,6 @@ namespace clay {
 namespace fs = std::filesystem;
 namespace {
 
-std::string cause() { return std::error_code(errno, std::system_category()).message(); }
-
-/// Uses `errno`, so call it before anything can change that.
-tl::unexpected<Error> io_failure(const fs::path& path, const std::string& what) {
-  return failure(ErrorKind::io, path.string() + ": " + what + ": " + cause());
-}
-
 tl::unexpected<Error> too_large(const fs::path& path, const std::string& found,
                                 std::size_t max_bytes) {
   return failure(ErrorKind::io, path.string() + ": expected at most " + std::to_string(max_bytes) +
@@ -228,13 +221,13 @@ std::string AtomicFile::put_back() {
   if (in_place_) return {};
   if (!old_) {
     if (::unlink(target_.c_str()) == 0) return {};
-    return "; " + target_.string() + ": new, and cannot be removed: " + cause();
+    return "; " + target_.string() + ": new, and cannot be removed: " + system_reason();
   }
   const bool back = ::rename(old_->path().c_str(), target_.c_str()) == 0;
   std::string trouble;
   if (!back)
     trouble = "; " + target_.string() + ": new, and the old file, " + old_->path().string() +
-              ", cannot be put back: " + cause();
+              ", cannot be put back: " + system_reason();
   old_->release();
   return trouble;
 }

@@ -32,7 +32,6 @@ void Histogram::add(std::int64_t ns) noexcept {
   const std::int64_t time = std::max<std::int64_t>(ns, 0);
   ++counts_[bucket_of(time)];
   ++count_;
-  least_ = std::min(least_, time);
   most_ = std::max(most_, time);
   sum_ += static_cast<double>(time);
 }
@@ -40,7 +39,6 @@ void Histogram::add(std::int64_t ns) noexcept {
 void Histogram::merge(const Histogram& other) noexcept {
   for (std::size_t i = 0; i < kBuckets; ++i) counts_[i] += other.counts_[i];
   count_ += other.count_;
-  least_ = std::min(least_, other.least_);
   most_ = std::max(most_, other.most_);
   sum_ += other.sum_;
 }

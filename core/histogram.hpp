@@ -21,7 +21,6 @@ class Histogram {
   void clear() noexcept { *this = {}; }
 
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
-  [[nodiscard]] std::int64_t least_ns() const noexcept { return count_ > 0 ? least_ : 0; }
   [[nodiscard]] std::int64_t most_ns() const noexcept { return most_; }
   /// Exact up to rounding; 0 when empty.
   [[nodiscard]] double mean_ns() const noexcept;
@@ -41,7 +40,7 @@ class Histogram {
 
   std::array<std::uint64_t, kBuckets> counts_{};
   std::uint64_t count_ = 0;
-  std::int64_t least_ = INT64_MAX, most_ = 0;
+  std::int64_t most_ = 0;
   double sum_ = 0.0;
 };
 

@@ -1,14 +1,17 @@
 #pragma once
-// std::from_chars where the standard library has it for floating point; otherwise fast_float, which
-// gives the same correctly rounded values.
+// Reads numbers. std::from_chars where the standard library has it for floating point; otherwise
+// fast_float, which gives the same correctly rounded values.
 
 #include <charconv>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
 #ifndef __cpp_lib_to_chars
 #include <fast_float/fast_float.h>
 
 #include <cmath>
 #include <concepts>
-#include <string_view>
 #endif
 
 namespace clay {
@@ -36,5 +39,26 @@ std::from_chars_result from_chars(const char* first, const char* last, Integer& 
   return std::from_chars(first, last, value);
 }
 #endif
+
+/// The whole text as a number, as from_chars reads it; empty if it is not one, or does not fit.
+template <class Number>
+std::optional<Number> number_in(std::string_view text) noexcept {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, problem] = from_chars(text.data(), end, value);
+  if (problem != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+/// "A between B": both as number_in reads them.
+template <class Number>
+std::optional<std::pair<Number, Number>> two_numbers(std::string_view text, char between) noexcept {
+  const std::size_t at = text.find(between);
+  if (at == std::string_view::npos) return std::nullopt;
+  const auto first = number_in<Number>(text.substr(0, at));
+  const auto second = number_in<Number>(text.substr(at + 1));
+  if (!first || !second) return std::nullopt;
+  return std::pair(*first, *second);
+}
 
 }  // namespace clay

@@ -20,7 +20,7 @@ class SvgWriter {
   using Attributes = std::initializer_list<std::pair<std::string_view, std::string_view>>;
 
   void element(std::string_view name, Attributes attributes, std::string_view text = {});
-  /// Everything from here to close() lies within the element.
+  /// Begins an element, which ends with close().
   void open(std::string_view name, Attributes attributes);
   void close(std::string_view name);
   /// As it is: elements of another writer, or a style sheet.

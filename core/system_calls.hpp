@@ -1,11 +1,16 @@
 #pragma once
 // Wrappers of system calls.
 
+#include "claystack/core/result.hpp"
+
 #include <fcntl.h>
 #include <unistd.h>
 #include <cerrno>
 #include <csignal>
 #include <filesystem>
+#include <string>
+#include <system_error>
+#include <utility>
 
 namespace clay {
 
@@ -21,12 +26,23 @@ inline int open_retrying(const std::filesystem::path& path, int flags, mode_t mo
   return uninterrupted([&] { return ::open(path.c_str(), flags | O_CLOEXEC, mode); });
 }
 
+/// The reason of the last failed system call, by `errno`.
+inline std::string system_reason() {
+  return std::error_code(errno, std::system_category()).message();
+}
+
+/// Uses `errno`, so call it before anything can change that.
+inline tl::unexpected<Error> io_failure(const std::filesystem::path& path,
+                                        const std::string& what) {
+  return failure(ErrorKind::io, path.string() + ": " + what + ": " + system_reason());
+}
+
 /// Closes its descriptor at the end of the scope.
 class Descriptor {
  public:
   explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor(Descriptor&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
   ~Descriptor() {
     if (descriptor_ != -1) ::close(descriptor_);
   }

@@ -150,6 +150,13 @@ Error kind_error(Error error, std::string_view bytes, std::string_view name,
           std::string(name).append(": expected ").append(expected).append(", found ").append(kind)};
 }
 
+std::string shown(std::string_view text, std::size_t most) {
+  std::string result(text.substr(0, most));
+  std::ranges::replace_if(
+      result, [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text.size() > most ? result + "..." : result;
+}
+
 std::string valid_text(std::string_view text) {
   std::string valid;
   while (!text.empty()) {

@@ -127,7 +127,7 @@ Contender without(std::string name, Omit omit) {
   return engine_at(std::move(name), "", scene);
 }
 
-/// What each clay rule costs. The stroke is the same, but not the clay: a wall that does not move
+/// The cost of each clay rule. The stroke is the same, but not the clay: a wall that does not move
 /// leaves more to heave.
 void measure_rules(Section& section, const Effort& effort) {
   effort.progress("clay rules");

@@ -5,8 +5,10 @@
 #include "app/cli/usage.hpp"
 
 #include "claystack/core/atomic_file.hpp"
+#include "core/file_reader.hpp"
 #include "core/json/object_reader.hpp"
 #include "core/line_reader.hpp"
+#include "core/number_text.hpp"
 #include "core/text.hpp"
 
 #include <fcntl.h>
@@ -82,11 +84,10 @@ Result<std::vector<BatchJob>> read_jobs(const std::string& path) {
 /// Job K, K + N, ... of "K/N": the part of one task of a job array.
 Result<std::vector<BatchJob>> part_of(std::vector<BatchJob> jobs, const std::string& part) {
   if (part.empty()) return jobs;
-  std::size_t number = 0, parts = 0;
-  char rest = 0;
-  if (std::sscanf(part.c_str(), "%zu/%zu%c", &number, &parts, &rest) != 2 || number < 1 ||
-      number > parts)
+  const auto numbers = two_numbers<std::uint32_t>(part, '/');
+  if (!numbers || numbers->first < 1 || numbers->first > numbers->second)
     return failure(ErrorKind::bad_input, "--part: expected K/N with K from 1 to N, found " + part);
+  const std::size_t number = numbers->first, parts = numbers->second;
   std::vector<BatchJob> mine;
   for (std::size_t i = number - 1; i < jobs.size(); i += parts) mine.push_back(std::move(jobs[i]));
   return mine;
@@ -143,11 +144,14 @@ class ResultFile {
   }
 
   Result<void> read_done() {
-    const auto text = read_file(path_, kMaxBatchBytes);
-    if (!text) return tl::make_unexpected(text.error());
-    LineReader lines(*text);
-    while (const auto line = lines.next()) {
-      const auto document = LocatedJson::from_json(*line, path_, SIZE_MAX, lines.number());
+    auto file = FileReader::open(path_);
+    if (!file) return tl::make_unexpected(file.error());
+    FileLines lines(std::move(*file), kMaxBatchBytes);
+    for (;;) {
+      const auto line = lines.next();
+      if (!line) return tl::make_unexpected(line.error());
+      if (!*line) break;
+      const auto document = LocatedJson::from_json(**line, path_, SIZE_MAX, lines.number());
       if (!document) return tl::make_unexpected(document.error());
       const Json& one = document->root();
       const bool is_result = one.is_object() && one.contains("id") && one.at("id").is_string() &&
@@ -160,11 +164,11 @@ class ResultFile {
       if (status == kDone || status == kUnsound)
         done_[one.at("run").dump() + one.at("id").get<std::string>()] = status;
     }
-    return remove_unfinished(lines.rest(), text->size());
+    return remove_unfinished(lines.rest(), lines.bytes());
   }
 
   /// The last line that a killed batch left. Any other file without a line feed at its end stays.
-  Result<void> remove_unfinished(std::string_view rest, std::size_t size) {
+  Result<void> remove_unfinished(std::string_view rest, std::uint64_t size) {
     if (rest.empty()) return {};
     const std::string begin = fmt::format(R"({{"schema":"{}",)", kSchema);
     if (!rest.starts_with(begin) && !begin.starts_with(rest))
@@ -182,7 +186,7 @@ class ResultFile {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// What the job printed with --json, else its text.
+/// The JSON that the job printed; of a failed job the first line of its errors.
 Json result_json(const BatchJob& job, const BatchOutcome& outcome) {
   Json json = {{"schema", kSchema},
                {"id", job.id},

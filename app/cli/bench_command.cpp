@@ -102,8 +102,6 @@ Result<int> run_bench(BenchOptions options, Console console) {
   if (options.extremes) options.only = {"extremes"};
   const auto chosen = bench::chosen_sections(options.only);
   if (!chosen) return tl::make_unexpected(chosen.error());
-  if (options.report == "-" && console.json)
-    return failure(ErrorKind::bad_input, "-: expected at most one output on standard output");
   if (options.report == "-") console.quiet = true;
   if (auto free = check_outputs({{options.report, {".html"}}}, {}, console); !free)
     return tl::make_unexpected(free.error());

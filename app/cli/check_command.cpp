@@ -23,9 +23,6 @@ bool is_pot(std::string_view path) {
 
 /// Checks combinations of options.
 Result<void> check_usage(const CheckCommand& command, const Console& console) {
-  if (command.out == "-" && console.json)
-    return failure(ErrorKind::bad_input,
-                   "-o -: expected no --json with it, because both write to standard output");
   if (command.wall_samples_asked && !command.walls.asked() && !is_pot(command.file))
     return tl::make_unexpected(no_effect_without("--wall-samples", "--min-wall or --process"));
   if (command.dry_run && !command.changes_mesh())
@@ -118,7 +115,7 @@ int check(CheckCommand& command, Console& console) {
   return verdict->passes(command.accept_prints()) ? kDone : kUnsound;
 }
 
-/// What is required of the file.
+/// Options for requirements on the file.
 void add_demands(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
   begin_group(*sub, "Demands");
   command->walls.add_to(*sub);

@@ -25,7 +25,7 @@ std::size_t check_segments(const solid::Profile& profile) {
   return std::clamp(kQuickTriangles / each, kFewestSegments, kMostSegments);
 }
 
-/// What the limits of the process were compared with.
+/// The figures that were compared with the limits of the process.
 std::string process_text(const solid::ExportReport& report) {
   std::string text = fmt::format("{}: {:.1f} mm wide, {:.1f} mm high", report.process.limits->name,
                                  report.size.diameter_mm, report.size.height_mm);

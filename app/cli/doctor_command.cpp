@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What was found, and for what it is needed. A finding without a fix is in order.
+/// A part of the system, and its use. A finding without a fix is in order.
 struct Finding {
   std::string name;  ///< "udev rule"
   bool good = false;

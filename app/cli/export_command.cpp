@@ -262,27 +262,16 @@ Result<void> check_tool_length(const Pot& pot, const ExportCommand& command) {
   return {};
 }
 
-/// Standard output holds the mesh alone. Returns true if it does.
-Result<bool> check_stream(const ExportCommand& command, const Console& console) {
-  const auto streams = std::ranges::count(command.outputs, "-");
-  if (streams == 0) return false;
-  const auto refuse = [](std::string_view what) {
-    return failure(ErrorKind::bad_input, fmt::format("-: expected {}", what));
-  };
-  if (streams > 1) return refuse("at most one output on standard output, found more");
-  if (console.json) return refuse("no --json with it, because both write to standard output");
-  if (command.request.certificates)
-    return refuse("no --certificate with it, because a certificate stands beside its file");
-  return true;
-}
-
-/// The exit status: done, or unsound if a wall is below the requested minimum.
+/// The exit status: done, or unsound if a problem fails: wall, size or cavity.
 Result<int> export_pot(ExportCommand& command, Console console) {
   if (command.outputs.empty())
     return failure(ErrorKind::bad_input, "expected a file to write, such as pot.3mf, found none");
-  const auto streams = check_stream(command, console);
-  if (!streams) return tl::make_unexpected(streams.error());
-  console.quiet = console.quiet || *streams;
+  const bool streams = std::ranges::count(command.outputs, "-") > 0;
+  if (streams && command.request.certificates)
+    return failure(ErrorKind::bad_input,
+                   "-: expected no --certificate with it, because a certificate stands beside its "
+                   "file");
+  console.quiet = console.quiet || streams;
   Progress progress(console, "exporting", 0);
   progress.stage("reading");
   const auto given = read_pot(command.pot, console);
@@ -420,7 +409,7 @@ void add_smoothing_options(CLI::App* sub, const SharedCommand& command) {
       });
 }
 
-/// What the solid is like.
+/// Options of the solid.
 void add_solid_options(CLI::App* sub, const SharedCommand& command) {
   begin_group(*sub, "Surface");
   add_length(*sub, "--tolerance", command->request.options.tolerance_mm,

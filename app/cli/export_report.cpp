@@ -125,7 +125,7 @@ void print_collapse(const Console& console, const solid::CollapsedSolid& collaps
       cm3(collapsed.union_mm3)));
 }
 
-/// What fairing moved, and where the walls made its length shorter.
+/// The walls that fairing moved, and where the walls made its length shorter.
 void print_fairing(const Console& console, const solid::FairingReport& fairing) {
   if (fairing.length_mm == 0.0) return;
   console.detail(fmt::format(

@@ -12,8 +12,8 @@
 
 namespace clay::cli {
 
-/// What finishing trimmed and added, with the weight as thrown: "foot ring", "trimmed 12 g (6.30
-/// cm3)".
+/// The clay that finishing trimmed and added, with the weight as thrown: "foot ring", "trimmed 12 g
+/// (6.30 cm3)".
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> finish_rows(
     const solid::ExportReport& report);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What `export` does to the pot after throwing: foot, fillets, room for the glaze.
+// Steps of `export` after throwing: foot, fillets, room for the glaze.
 
 #include "claystack/export/job.hpp"
 

@@ -146,6 +146,8 @@ Result<void> import_drawing(const ImportOptions& options, const Console& console
   const auto pot = drawn_pot(*section, options.pot_settings, options.drawing);
   if (!pot) return tl::make_unexpected(pot.error());
   const PotEncoding encoding = pot_encoding_of(options.pot).value_or(PotEncoding::json);
+  if (auto room = expect_room_to_write(pot->pot.stack.size(), encoding, options.pot); !room)
+    return room;
   if (auto done = publish(options.pot, write_pot(pot->pot, encoding)); !done) return done;
   const auto warnings = warnings_about(options, *section, *pot);
   for (std::size_t i = section->notes.size(); i < warnings.size(); ++i) console.warn(warnings[i]);
@@ -167,7 +169,7 @@ Result<void> import_file(ImportOptions options, Console console) {
   return import_drawing(options, console);
 }
 
-/// What the drawing shows, and at what size.
+/// Options about the content of the drawing, and its size.
 void add_drawing_options(CLI::App* command, ImportOptions& options) {
   command->add_option(
       "--axis", options.axis,

@@ -72,8 +72,7 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
   command.add_option("--force-limit", settings.guard.force_limit_n, "Force limit [N]")
       ->check(in_range(0.5, falcon::kMostForceN))
       ->capture_default_str();
-  add_length(command, "--gap", settings.gap_mm,
-             "Gap of a pinch [mm] (default: that of the scene); the keys + and - change it");
+  add_length(command, "--gap", settings.gap_mm, "Gap of a pinch [mm] (default: that of the scene)");
   command.add_option("--damping", settings.arm.damping_ns_per_mm, "Damping of the arm [N s/mm]")
       ->capture_default_str();
   command.add_flag("--soften,!--no-soften", options.soften,

@@ -39,7 +39,7 @@ Json events_json(const servo::GuardEvents& events) {
   return json;
 }
 
-/// "not_ready 12, safe after position_leaps 1", or "no events".
+/// "not_ready 12, safe after jumped 1", or "no events".
 std::string events_in_words(const Json& events) {
   std::string words;
   const auto add = [&](const std::string& what, const Json& count) {

@@ -186,12 +186,12 @@ bool comes_back(falcon::HapticDevice& device) {
 }
 
 /// Ends with zero force. Use within the scope of a servo::ForceSignals.
-Ending run(Stage& stage, const LiveOptions& options, const Console& console) {
+Result<Ending> run(Stage& stage, const LiveOptions& options, const Console& console) {
   LiveKeys keys;
   if (keys.on()) console.print(kKeysInWords);
   StatusLine line(console);
   for (;;) {
-    stage.live->start();
+    if (auto started = stage.live->start(); !started) return tl::make_unexpected(started.error());
     // An earlier signal found no servo to stop.
     if (servo::ForceSignals::asked_to_stop() != 0)
       stage.live->command({servo::CommandKind::stop, 0.0});
@@ -273,12 +273,13 @@ void print_result(const LiveJob& job, const LiveOptions& options, const Console&
 }  // namespace
 
 Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console) {
-  if (job.pot_path == "-") console.quiet = true;
+  if (job.pot_path == "-" || options.record == "-") console.quiet = true;
   Stage stage;
   if (auto built = build(job, options, console, stage); !built) return built;
   // Until pot and session are saved: a closing terminal may send its signal twice.
   std::optional<servo::ForceSignals> signals(std::in_place);
-  const Ending ending = run(stage, options, console);
+  const Result<Ending> ended = run(stage, options, console);
+  const Ending ending = ended.value_or(Ending::none);
   const Pot pot = stage.wheel->pot();
   const Kept kept = {keep_session(options, console, stage), keep_pot(job, stage, pot)};
   signals.reset();
@@ -294,7 +295,8 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
                {"recording", recording_json(options, stage)},
                {"servo", servo_json(live.timing(), live.events(), live.realtime())}};
   json.update(clay_json(*stage.wheel, pot));
-  const Result<void> outcome = outcome_of(stage, ending, kept, console);
+  const Result<void> outcome =
+      ended ? outcome_of(stage, ending, kept, console) : tl::make_unexpected(ended.error());
   if (!outcome) json.update(error_json(outcome.error()));
   if (console.json) print_json(json);
   print_result(job, options, console, json, kept);

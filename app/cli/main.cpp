@@ -80,7 +80,7 @@ void add_memory_option(CLI::App& command) {
       ->type_name("SIZE");
 }
 
-/// Help says what a length may look like, where there is one.
+/// The help shows the format of lengths.
 void explain_lengths(CLI::App& command) {
   const auto is_length = [](const CLI::Option* option) {
     return option->get_type_name().find(kLengthName) != std::string::npos;

@@ -59,7 +59,7 @@ std::string capacity_row(const Json& numbers) {
                                fired ? ", fired" : "");
 }
 
-/// What glaze may cover, of the pot in use.
+/// The surface that glaze may cover, of the pot in use.
 std::string surface_row(const Json& numbers) {
   const bool fired = !numbers["fired"].is_null();
   const Json& used = fired ? numbers["fired"] : numbers["thrown"];

@@ -22,7 +22,7 @@ std::uint64_t kernel_figure(const char* table, std::string_view label) {
   return 0;
 }
 
-/// What a limit leaves to a process that uses `used`.
+/// The memory that a limit leaves to a process that uses `used`.
 std::uint64_t rest_of(std::uint64_t limit, std::uint64_t used) {
   return limit - std::min(used, limit);
 }

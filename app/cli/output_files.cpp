@@ -79,10 +79,24 @@ Result<void> check_output(const OutputFile& file, const Place& place,
   return AtomicFile::create(file.path).map([](const AtomicFile&) {});
 }
 
+/// Standard output takes one document.
+Result<void> check_streams(const std::vector<OutputFile>& outputs, const Console& console) {
+  const auto streams = std::ranges::count(outputs, "-", &OutputFile::path);
+  if (streams > 1)
+    return failure(
+        ErrorKind::bad_input,
+        fmt::format("-: expected at most one output on standard output, found {}", streams));
+  if (streams == 1 && console.json)
+    return failure(ErrorKind::bad_input,
+                   "-: expected no --json with it, because both write to standard output");
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_outputs(const std::vector<OutputFile>& outputs,
                            const std::vector<std::string>& inputs, const Console& console) {
+  if (auto streams = check_streams(outputs, console); !streams) return streams;
   std::vector<Taken> taken;
   for (const std::string& input : inputs)
     if (on_disk(input)) taken.push_back({Place(input), "the input " + input});

@@ -1,5 +1,5 @@
 #pragma once
-// What a 3MF carries beside its mesh: the pot and a picture of it; and the picture for a report.
+// Parts of a 3MF beside its mesh: the pot and a picture of it; and the picture for a report.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/export/job.hpp"

@@ -15,7 +15,7 @@
 
 namespace clay::cli {
 
-/// What a pot may be read from, for help texts.
+/// The kinds of files that hold a pot, for help texts.
 inline constexpr std::string_view kPotInputs = ".pot.json, .pot.cbor, or a .3mf by Claystack";
 
 /// By the file name's extension, ignoring case.

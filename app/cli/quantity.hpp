@@ -37,7 +37,7 @@ Result<double> length_of(std::string_view text, double low_mm, double high_mm);
 
 /// Replaces a text by the length in mm, as a number.
 [[nodiscard]] CLI::Validator length_within(double low_mm, double high_mm);
-/// What help shows in place of the value of a length.
+/// The name of a value of a length in the help.
 inline constexpr const char* kLengthName = "LENGTH";
 
 /// Adds an option for a length. Every length of the command line is read by it or by `length_of`,

@@ -3,11 +3,11 @@
 #include "app/cli/pot_input.hpp"
 #include "app/cli/render_job.hpp"
 #include "app/cli/usage.hpp"
+#include "core/number_text.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -15,16 +15,10 @@ namespace clay::cli {
 namespace {
 
 std::optional<render::Viewport> size_of(std::string_view text) {
-  render::Viewport size;
-  const char* const end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.width_px);
-  if (width.ec != std::errc() || width.ptr == end || *width.ptr != 'x') return std::nullopt;
-  const auto height = std::from_chars(width.ptr + 1, end, size.height_px);
+  const auto size = two_numbers<int>(text, 'x');
   const auto fits = [](int side) { return side >= 1 && side <= render::kMaxSidePx; };
-  if (height.ec != std::errc() || height.ptr != end || !fits(size.width_px) ||
-      !fits(size.height_px))
-    return std::nullopt;
-  return size;
+  if (!size || !fits(size->first) || !fits(size->second)) return std::nullopt;
+  return render::Viewport{size->first, size->second};
 }
 
 void add_size(CLI::App& sub, RenderCommand& command) {

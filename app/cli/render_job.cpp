@@ -33,9 +33,6 @@ Result<void> check_usage(const RenderCommand& command, const Console& console) {
     return failure(ErrorKind::bad_input,
                    "--transparent: expected a picture (-o FILE.png), found --turntable: a GIF here "
                    "has a background");
-  const int streams = (command.out == "-") + (command.turntable == "-") + console.json;
-  if (streams > 1)
-    return failure(ErrorKind::bad_input, "-: expected at most one output on standard output");
   std::vector<std::string> inputs = {command.pot};
 #ifdef CLAYSTACK_EXPORT
   inputs.push_back(command.walls.process());

@@ -33,7 +33,8 @@ Result<std::vector<Pose>> poses_of(const StrokesOptions& options, const SceneSpe
       .and_then([&](const strokes::StrokeScript& script) { return strokes::play(script, scene); });
 }
 
-Result<void> make_session(const StrokesOptions& options, const Console& console) {
+Result<void> make_session(const StrokesOptions& options, Console console) {
+  if (options.session == "-") console.quiet = true;
   if (auto free = check_outputs({{options.session, {".session"}}}, {options.scene, options.script},
                                 console);
       !free)

@@ -4,24 +4,22 @@
 #include "app/cli/device_choice.hpp"
 #include "app/cli/usage.hpp"
 #include "app/render/offscreen.hpp"
+#include "core/number_text.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-
-#include <cstdio>
 
 namespace clay::cli {
 namespace {
 
 Result<glm::ivec2> size_of(const std::string& text) {
-  int width = 0, height = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 320 ||
-      height < 240 || width > render::kMaxSidePx || height > render::kMaxSidePx)
+  const auto size = two_numbers<int>(text, 'x');
+  if (!size || size->first < 320 || size->second < 240 || size->first > render::kMaxSidePx ||
+      size->second > render::kMaxSidePx)
     return failure(ErrorKind::bad_input,
                    fmt::format("--size: expected WIDTHxHEIGHT from 320x240 to {0}x{0}, found {1}",
                                render::kMaxSidePx, text));
-  return glm::ivec2(width, height);
+  return glm::ivec2(size->first, size->second);
 }
 
 void add_device_options(CLI::App& parser, StudioOptions& options) {

@@ -220,9 +220,6 @@ Result<void> check_names(const ThrowOptions& options, const Console& console) {
         (options.scene.empty() ? "a pot without a scene" : "a scene from standard input") +
             std::string(": expected --session with the poses to play"));
   if (auto named = check_pot_name(options.pot); !named) return named;
-  const std::vector<std::string> outputs = {options.pot, options.trace, options.error_plot};
-  if (std::count(outputs.begin(), outputs.end(), "-") > (console.json ? 0 : 1))
-    return failure(ErrorKind::bad_input, "-: expected at most one output on standard output");
   return check_outputs({{options.pot}, {options.trace, {".csv"}}, {options.error_plot, {".svg"}}},
                        {options.scene, options.session, options.from}, console);
 }
@@ -233,40 +230,32 @@ void warn_of(const ReplayStats& stats, const Console& console) {
   if (stats.ring_limit) console.warn("there is clay above the top ring: increase lump.max_rings");
 }
 
-Result<void> replay_pot(const ThrowOptions& options, Console console) {
-  if (auto names = check_names(options, console); !names) return names;
-  // Output to standard output must be the only one.
-  for (const std::string& output : {options.pot, options.trace, options.error_plot})
-    if (output == "-") console.quiet = true;
+/// The inputs of a replay.
+struct Inputs {
+  SceneSpec scene;
+  Session session;
+  Wheel wheel;
+};
+
+Result<Inputs> read_inputs(const ThrowOptions& options, const Console& console) {
   Progress progress(console, "throwing", 0);
   progress.stage("reading");
   auto start = load_start(options.scene, options.from, console);
   if (!start) return tl::make_unexpected(start.error());
   SceneSpec& scene = start->scene;
-  const auto session = load_session(options.session);
+  auto session = load_session(options.session);
   if (!session) return tl::make_unexpected(session.error());
-  if (auto gaps = check_gaps(*session, scene, options); !gaps) return gaps;
+  if (auto gaps = check_gaps(*session, scene, options); !gaps)
+    return tl::make_unexpected(gaps.error());
   warn_of_oddities(console, *session, scene, options);
   if (!options.model.empty())
     scene.model = options.model == "paper" ? Model::paper : Model::conserving;
   auto wheel = build_wheel(*start);
   if (!wheel) return tl::make_unexpected(wheel.error());
-  const PotEncoding encoding = pot_encoding_of(options.pot).value_or(PotEncoding::json);
-  if (auto room = expect_room_after_throw(*wheel, encoding, options.pot); !room) return room;
-  auto outputs = open_outputs(options);
-  if (!outputs) return tl::make_unexpected(outputs.error());
+  return Inputs{std::move(scene), std::move(*session), std::move(*wheel)};
+}
 
-  std::optional<TraceWriter> trace;
-  if (outputs->trace) trace.emplace(*outputs->trace);
-  const ReplayStats stats = play(*wheel, *session, trace ? &*trace : nullptr, console);
-  warn_of(stats, console);
-
-  const Pot pot = wheel->pot();
-  if (auto written = write_outputs(*outputs, pot, encoding, trace, scene, *session, console);
-      !written)
-    return written;
-
-  const Json json = summary(*wheel, stats, *session, pot);
+void print_replay(const ThrowOptions& options, const Json& json, const Console& console) {
   if (console.json) print_json(json);
   print_result(console, json);
   for (const auto& [kind, path] : {std::pair("pot", &options.pot),
@@ -274,7 +263,29 @@ Result<void> replay_pot(const ThrowOptions& options, Console console) {
                                    {"error plot", &options.error_plot}})
     if (!path->empty()) console.print(fmt::format("{}: {}", kind, *path));
   if (options.pot.empty()) console.print(kPotNotWritten);
-  return {};
+}
+
+Result<void> replay_pot(const ThrowOptions& options, Console console) {
+  if (auto names = check_names(options, console); !names) return names;
+  for (const std::string& output : {options.pot, options.trace, options.error_plot})
+    if (output == "-") console.quiet = true;
+  auto inputs = read_inputs(options, console);
+  if (!inputs) return tl::make_unexpected(inputs.error());
+  auto& [scene, session, wheel] = *inputs;
+  const PotEncoding encoding = pot_encoding_of(options.pot).value_or(PotEncoding::json);
+  if (auto room = expect_room_after_throw(wheel, encoding, options.pot); !room) return room;
+  auto outputs = open_outputs(options);
+  if (!outputs) return tl::make_unexpected(outputs.error());
+
+  std::optional<TraceWriter> trace;
+  if (outputs->trace) trace.emplace(*outputs->trace);
+  const ReplayStats stats = play(wheel, session, trace ? &*trace : nullptr, console);
+  warn_of(stats, console);
+
+  const Pot pot = wheel.pot();
+  auto written = write_outputs(*outputs, pot, encoding, trace, scene, session, console);
+  if (written) print_replay(options, summary(wheel, stats, session, pot), console);
+  return written;
 }
 
 Result<void> throw_work_file(const ThrowOptions& options, const Console& console) {

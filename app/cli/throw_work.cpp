@@ -103,6 +103,8 @@ Result<void> throw_work(const WorkJob& job, Console console) {
   json.update(pot_json(**pot));
   if (!job.pot_path.empty()) {
     const PotEncoding encoding = pot_encoding_of(job.pot_path).value_or(PotEncoding::json);
+    if (auto room = expect_room_to_write((*pot)->stack.size(), encoding, job.pot_path); !room)
+      return room;
     if (auto written = publish(job.pot_path, write_pot(**pot, encoding)); !written) return written;
   }
   if (console.json) print_json(json);

@@ -7,12 +7,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <concepts>
 #include <cstddef>
 #include <filesystem>
 #include <string_view>
-#include <system_error>
 
 namespace clay::cli {
 namespace {
@@ -23,7 +20,7 @@ const CLI::App& command_of(const CLI::App& app) {
   return parsed.empty() ? app : *parsed.front();
 }
 
-/// What follows the first `mark` in the text; empty if it is not there.
+/// The text after the first `mark`; empty if it is not there.
 std::string_view after(std::string_view text, std::string_view mark) {
   const std::size_t at = text.find(mark);
   return at == std::string_view::npos ? std::string_view() : text.substr(at + mark.size());
@@ -63,18 +60,6 @@ std::string not_a_number(std::string_view text) {
   return fmt::format("{}: expected a number, found {}", before(rest, " = "), after(rest, " = "));
 }
 
-/// False unless the whole text is a number of this type.
-template <class Number>
-bool parse_all(const std::string& text, Number& value) {
-  const char* const end = text.data() + text.size();
-  std::from_chars_result result{};
-  if constexpr (std::floating_point<Number>)
-    result = clay::from_chars(text.data(), end, value);
-  else
-    result = std::from_chars(text.data(), end, value);
-  return result.ec == std::errc() && result.ptr == end;
-}
-
 /// "fair, exact or none".
 std::string choice_of(const std::vector<std::string>& words) {
   std::string text;
@@ -87,17 +72,17 @@ std::string choice_of(const std::vector<std::string>& words) {
 
 ValueCheck in_range(double low, double high) {
   return [=](const std::string& text) -> std::string {
-    double value = 0.0;
+    const auto value = number_in<double>(text);
     // Not (value < low): NaN must fail.
-    if (parse_all(text, value) && value >= low && value <= high) return {};
+    if (value && *value >= low && *value <= high) return {};
     return fmt::format("expected a number from {:g} to {:g}, found {}", low, high, text);
   };
 }
 
 ValueCheck in_whole_range(std::uint64_t low, std::uint64_t high) {
   return [=](const std::string& text) -> std::string {
-    std::uint64_t value = 0;
-    if (parse_all(text, value) && value >= low && value <= high) return {};
+    const auto value = number_in<std::uint64_t>(text);
+    if (value && *value >= low && *value <= high) return {};
     return fmt::format("expected a whole number from {} to {}, found {}", low, high, text);
   };
 }

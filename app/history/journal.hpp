@@ -18,7 +18,7 @@
 
 namespace clay::history {
 
-/// The folder `recovery` in the user's state folder (cli::user_folder). Empty without one.
+/// The folder `recovery` in the user's state folder (clay::user_folder). Empty without one.
 [[nodiscard]] std::filesystem::path recovery_folder();
 
 /// Lines are written immediately, by the calling thread; a separate thread syncs them to disk at

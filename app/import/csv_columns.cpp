@@ -2,6 +2,8 @@
 
 #include "app/import/readers.hpp"
 
+#include "core/text.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -56,7 +58,7 @@ struct NamedColumn {
   bool unit_known = true;
 };
 
-/// What the name of the `index`-th column states.
+/// The kind and unit of the `index`-th column, by its name.
 NamedColumn column_of(std::string_view name, std::size_t index) {
   const std::vector<std::string> words = words_in(name);
   NamedColumn result{Kind::other, {index, 1.0}, true};
@@ -114,11 +116,13 @@ std::vector<std::string> csv_fields(std::string_view row) {
 
 Result<CsvColumns> csv_columns(const std::vector<std::string>& names) {
   std::optional<CsvColumn> radius, inner, height;
+  constexpr std::size_t kMostShown = 160;
   const auto refused = [&](std::string_view problem) {
-    return failure(ErrorKind::bad_input,
-                   fmt::format("expected columns named radius and height, with a unit mm, cm, m or "
-                               "in, such as radius_mm, found \"{}\"{}",
-                               fmt::join(names, ", "), problem));
+    return failure(
+        ErrorKind::bad_input,
+        fmt::format("expected columns named radius and height, with a unit mm, cm, m or "
+                    "in, such as radius_mm, found \"{}\"{}",
+                    shown(fmt::format("{}", fmt::join(names, ", ")), kMostShown), problem));
   };
   if (wall_table(names))
     return refused(

@@ -20,11 +20,7 @@ std::optional<double> number_of(std::string field) {
   std::replace(field.begin(), field.end(), ',', '.');
   std::string_view text = field;
   if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [stop, problem] = from_chars(text.data(), end, value);
-  if (problem != std::errc() || stop != end) return std::nullopt;
-  return value;
+  return number_in<double>(text);
 }
 
 /// Reads a table row by row.
@@ -51,11 +47,11 @@ class Table {
     if (fields.size() != columns_.count || !radius || !height)
       return refusal(number, fmt::format("expected a radius and a height in mm, or the columns of "
                                          "the first row, found \"{}\"",
-                                         text.substr(0, 40)));
+                                         shown(text)));
     const auto inner = columns_.inner ? value(fields, *columns_.inner) : std::nullopt;
     if (columns_.inner && !inner)
       return refusal(number, fmt::format("expected an inner radius, found \"{}\"",
-                                         fields[columns_.inner->index].substr(0, 40)));
+                                         shown(fields[columns_.inner->index])));
     const std::string problem = add(*radius, inner, *height);
     return problem.empty() ? Result<void>() : refusal(number, problem);
   }

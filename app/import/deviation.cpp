@@ -48,11 +48,17 @@ struct Nearest {
 class Levels {
  public:
   explicit Levels(const std::vector<Segment>& outline) {
+    double rise_mm = 0.0;
     for (const Segment& s : outline) {
       low_ = std::min({low_, s.from.y, s.to.y});
       high_ = std::max({high_, s.from.y, s.to.y});
+      rise_mm += std::abs(s.to.y - s.from.y);
     }
-    rows_.resize(std::clamp<std::size_t>(outline.size(), 1, 100'000));
+    // Each segment is in every row that it crosses: about 16 rows on average, at most.
+    constexpr double kCrossed = 16.0;
+    const double share = std::min(1.0, kCrossed * (high_ - low_) / std::max(rise_mm, 1e-9));
+    const double rows = share * static_cast<double>(outline.size());
+    rows_.resize(static_cast<std::size_t>(std::clamp(rows, 1.0, 100'000.0)));
     row_mm_ = std::max((high_ - low_) / static_cast<double>(rows_.size()), 1e-9);
     for (const Segment& s : outline)
       for (std::size_t row = row_at(std::min(s.from.y, s.to.y));

@@ -23,8 +23,8 @@ Result<void> place_axis(HalfSection& section, Drawing& drawing, const HalfSectio
 /// Mirrors lines that are wholly left of the axis: a half section may be drawn on either side.
 void turn_to_the_right(std::vector<Line>& lines, double axis_mm);
 
-/// What may help with a drawing of both halves that is not quite symmetric, if the axis was not
-/// chosen.
+/// A hint for an error about a drawing of both halves that is not quite symmetric, if the axis was
+/// not chosen.
 [[nodiscard]] std::string hint_about(const std::vector<Line>& lines, const HalfSection& section,
                                      bool chosen);
 

@@ -1,5 +1,6 @@
 #include "app/import/dxf_shapes.hpp"
 #include "app/import/readers.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -97,7 +98,7 @@ class Reader {
         return failure(ErrorKind::bad_input,
                        fmt::format("{}:{}: expected the end of section {}, found the end of the "
                                    "drawing",
-                                   name_, entity->line, kind));
+                                   name_, entity->line, shown(kind)));
       if (entity->type == "ENDSEC") return {};
       auto done = kind == "TABLES" && entity->type == "LAYER"   ? layer(*entity)
                   : kind == "BLOCKS" && entity->type == "BLOCK" ? block(*entity, groups)
@@ -153,7 +154,7 @@ class Reader {
       if (inside->type == "EOF" || inside->type == "ENDSEC")
         return failure(ErrorKind::bad_input,
                        fmt::format("{}:{}: expected the end of block {}, found {}", name_,
-                                   inside->line, entity.text(2), inside->type));
+                                   inside->line, shown(entity.text(2)), shown(inside->type)));
     }
   }
 
@@ -166,13 +167,17 @@ class Reader {
         return failure(ErrorKind::bad_input,
                        fmt::format("{}:{}: expected {}, found the end of the drawing", name_,
                                    entity->line, end));
-      if (++entities_ > kMostEntities)
-        return failure(ErrorKind::bad_input,
-                       fmt::format("{}: expected at most {} entities with all insertions, found "
-                                   "more",
-                                   name_, kMostEntities));
+      if (auto counted = count_one(); !counted) return counted;
       if (auto done = draw(*entity, groups, within); !done) return done;
     }
+  }
+
+  /// Counts an entity or an insertion, which takes time even if its block is empty.
+  Result<void> count_one() {
+    if (++entities_ <= kMostEntities) return {};
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected at most {} entities and insertions, found more", name_,
+                               kMostEntities));
   }
 
   Result<void> draw(const DxfEntity& entity, DxfGroups& groups, const Insertion& within) {
@@ -180,13 +185,13 @@ class Reader {
     if (layer.empty() || layer == "0") layer = within.layer;
     const bool visible = entity.text(60) != "1" && entity.text(67) != "1" && layer != "defpoints" &&
                          !ignored_.contains(layer);
-    const bool shown = visible && (!for_construction(layer) || layer == layer_);
-    if (entity.type == "INSERT") return shown ? insert(entity, within, layer) : Result<void>();
+    const bool drawn = visible && (!for_construction(layer) || layer == layer_);
+    if (entity.type == "INSERT") return drawn ? insert(entity, within, layer) : Result<void>();
     auto line = dxf_line(entity, groups, within.placement, limits_, name_);
     if (!line) return tl::make_unexpected(line.error());
     if (!*line || (*line)->points_mm.size() < 2 || !visible) return {};
     seen_layers_.insert(layer);
-    if (!shown) return {};
+    if (!drawn) return {};
     if (layer_.empty() || layer == layer_) lines_.push_back(std::move(**line));
     return {};
   }
@@ -195,9 +200,9 @@ class Reader {
   Result<void> insert(const DxfEntity& entity, const Insertion& within, const Name& layer) {
     const auto found = blocks_.find(lower(entity.text(2)));
     if (found == blocks_.end())
-      return refusal(
-          entity,
-          fmt::format("expected the name of a block of the drawing, found \"{}\"", entity.text(2)));
+      return refusal(entity,
+                     fmt::format("expected the name of a block of the drawing, found \"{}\"",
+                                 shown(entity.text(2))));
     if (within.depth == kDeepest)
       return refusal(entity, fmt::format("expected blocks at most {} deep, found more", kDeepest));
     const auto grid = grid_of(entity);
@@ -206,6 +211,7 @@ class Reader {
     if (!plane) return tl::make_unexpected(plane.error());
     const Block& block = found->second;
     for (long i = 0; i < grid->columns * grid->rows; ++i) {
+      if (auto counted = count_one(); !counted) return counted;
       const glm::dvec2 beside{static_cast<double>(i % grid->columns) * grid->step.x,
                               static_cast<double>(i / grid->columns) * grid->step.y};
       const DxfPlacement own{grid->turn * glm::dmat2{grid->scale.x, 0.0, 0.0, grid->scale.y},

@@ -14,30 +14,16 @@ namespace clay::importing {
 namespace {
 
 constexpr int kLowestCode = -5, kHighestCode = 1071, kComment = 999;
-constexpr std::size_t kQuoted = 40;
 
-/// The whole text as a number; empty if it is not one.
-template <class Number>
-std::optional<Number> number_in(std::string_view text) {
+std::string_view without_plus(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
-  Number value{};
-  const char* end = text.data() + text.size();
-  const auto [stop, problem] = from_chars(text.data(), end, value);
-  if (problem != std::errc() || stop != end) return std::nullopt;
-  return value;
-}
-
-std::string quoted(std::string_view text) {
-  std::string shown(text.substr(0, kQuoted));
-  std::replace_if(
-      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return fmt::format("\"{}\"{}", shown, text.size() > kQuoted ? "..." : "");
+  return text;
 }
 
 tl::unexpected<Error> wrong(const std::string_view name, std::size_t line, std::string_view wanted,
                             std::string_view found) {
   return failure(ErrorKind::bad_input,
-                 fmt::format("{}:{}: expected {}, found {}", name, line, wanted, quoted(found)));
+                 fmt::format("{}:{}: expected {}, found \"{}\"", name, line, wanted, shown(found)));
 }
 
 }  // namespace
@@ -70,7 +56,7 @@ Result<DxfGroup> DxfGroups::next() {
   while (true) {
     const auto code_text = next_line();
     const std::size_t line = line_;
-    const auto code = code_text ? number_in<int>(*code_text) : std::nullopt;
+    const auto code = code_text ? number_in<int>(without_plus(*code_text)) : std::nullopt;
     if (code_text && !(code && *code >= kLowestCode && *code <= kHighestCode))
       return wrong(name_, line, "a DXF group code", *code_text);
     const auto value = code_text ? next_line() : std::nullopt;
@@ -112,13 +98,13 @@ Result<DxfEntity> take_dxf_entity(DxfGroups& groups, const std::string& name) {
 }
 
 Result<double> dxf_number(const DxfGroup& group, const std::string& name) {
-  const auto value = number_in<double>(group.value);
+  const auto value = number_in<double>(without_plus(group.value));
   if (!value || !std::isfinite(*value)) return wrong(name, group.line + 1, "a number", group.value);
   return *value;
 }
 
 Result<long> dxf_integer(const DxfGroup& group, const std::string& name) {
-  const auto value = number_in<long>(group.value);
+  const auto value = number_in<long>(without_plus(group.value));
   if (!value) return wrong(name, group.line + 1, "an integer", group.value);
   return *value;
 }

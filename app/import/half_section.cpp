@@ -254,11 +254,6 @@ Result<std::vector<Slab>> slabs_within_tolerance(const std::vector<Line>& lines,
   return again ? again : slabs;
 }
 
-Error with_hint(Error error, const std::string& hint) {
-  error.message += hint;
-  return error;
-}
-
 }  // namespace
 
 double HalfSection::volume_mm3() const noexcept {
@@ -277,7 +272,10 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
   if (auto placed = place_axis(section, drawing, settings, name); !placed)
     return tl::make_unexpected(placed.error());
   turn_to_the_right(drawing.lines, section.axis_mm);
-  const std::string hint = hint_about(drawing.lines, section, settings.axis != AxisRule::by_itself);
+  const auto with_hint = [&, drawn = drawing.lines](Error error) {
+    error.message += hint_about(drawn, section, settings.axis != AxisRule::by_itself);
+    return tl::make_unexpected(std::move(error));
+  };
   const Bounds bounds = bounds_of(drawing.lines);
   const double drawn_mm = bounds.high.y - bounds.low.y;
   if (!(drawn_mm > 0.0) || !(bounds.high.x > section.axis_mm))
@@ -291,11 +289,11 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
       p = scale * (p - glm::dvec2{section.axis_mm, bounds.low.y});
   straighten(drawing.lines);
   if (auto closed = close(drawing.lines, name); !closed)
-    return tl::make_unexpected(with_hint(std::move(closed.error()), hint));
+    return with_hint(std::move(closed.error()));
   section.notes.insert(section.notes.begin(), drawing.notes.begin(), drawing.notes.end());
   note_left_side(drawing.lines, name, section.notes);
   auto slabs = slabs_within_tolerance(drawing.lines, name);
-  if (!slabs) return tl::make_unexpected(with_hint(std::move(slabs.error()), hint));
+  if (!slabs) return with_hint(std::move(slabs.error()));
   section.slabs = std::move(*slabs);
   section.height_mm = section.slabs.back().to_mm;
   return section;

@@ -54,7 +54,7 @@ struct CommonWall {
   double scatter_mm = 0.0;  ///< of the radii
 };
 
-/// What most cuts have at one height; empty if most have nothing.
+/// The wall that most cuts have at one height; empty if most have none.
 std::optional<CommonWall> common_wall(const std::vector<std::vector<Wall>>& walls,
                                       std::size_t height) {
   std::vector<double> inner, outer, all;

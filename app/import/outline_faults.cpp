@@ -68,11 +68,13 @@ std::optional<Gap> narrowest_gap(const std::vector<Line>& lines) {
 }
 
 std::string clay_between(std::span<const double> radii_mm) {
+  constexpr std::size_t kMostBounds = 8;
   std::string text;
   const std::size_t count = radii_mm.size();
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = count - 1 - k;  // from the axis outward
     const bool ends = i % 2 == 0;
+    if (k >= kMostBounds && !ends) return text + " and more";
     if (k == 0 && ends) text += "from the axis";
     text += fmt::format("{}{:.3f}{}",
                         ends    ? " to "

@@ -1,5 +1,5 @@
 #pragma once
-// What may be wrong with the outlines of a drawing, for messages that name the cause.
+// Faults of the outlines of a drawing, for messages that name the cause.
 
 #include "app/import/drawing.hpp"
 
@@ -28,7 +28,7 @@ struct Gap {
 [[nodiscard]] std::optional<Gap> narrowest_gap(const std::vector<Line>& lines);
 
 /// The clay at one height: "from the axis to 12 mm and from 27 to 30 mm". `radii_mm`: where it
-/// begins and ends, descending.
+/// begins and ends, descending. After four places "and more".
 [[nodiscard]] std::string clay_between(std::span<const double> radii_mm);
 
 }  // namespace clay::importing

@@ -1,6 +1,7 @@
 #include "app/import/curves.hpp"
 #include "app/import/readers.hpp"
 #include "app/import/svg_shapes.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <libxml/parser.h>
@@ -214,13 +215,7 @@ using Traversal = svgpp::document_traversal<
         svgpp::policy::length::forward_to_method<Collector, const Collector::Lengths>>>;
 
 /// Shortens the library's messages, which quote whole attributes, to one line.
-std::string shortened(std::string text) {
-  constexpr std::size_t kLongest = 160;
-  if (text.size() > kLongest) text.replace(kLongest, std::string::npos, "...");
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text;
-}
+std::string shortened(std::string_view text) { return shown(text, 160); }
 
 std::string libxml_problem(const std::string& name) {
   const auto* error = xmlGetLastError();

@@ -51,7 +51,7 @@ bool of_svg(const xmlNode* node) {
   return node->type == XML_ELEMENT_NODE && (node->ns == nullptr || address_of(node) == kSvgSpace);
 }
 
-/// What children take over from their parents.
+/// Properties that children inherit from their parents.
 struct Inherited {
   bool visible = true;
   bool filled = true, stroked = false;
@@ -209,12 +209,12 @@ class Copier {
     if (target == ids_.end())
       return refusal(node, fmt::format("use: expected the id of an element of the drawing, found "
                                        "\"{}\"",
-                                       href.substr(0, 40)));
+                                       shown(href)));
     const auto again = std::find(used_.begin(), used_.end(), href);
     if (again != used_.end())
       return refusal(node, fmt::format("use: expected an element that does not use itself, found "
                                        "{} -> {}",
-                                       shortened(again, used_.end()), href.substr(0, 40)));
+                                       shortened(again, used_.end()), shown(href)));
     xmlNode* place = add(node, parent, "svg");
     for (const char* attribute : {"x", "y"}) copy_attribute(node, place, attribute);
     const std::string_view kind = name_of(target->second);
@@ -231,7 +231,7 @@ class Copier {
     constexpr std::ptrdiff_t kMost = 8;
     std::string text;
     for (auto it = begin; it != end && it - begin < kMost; ++it)
-      text += (it == begin ? "" : " -> ") + it->substr(0, 40);
+      text += (it == begin ? std::string() : " -> ") + shown(*it);
     return end - begin > kMost ? text + " -> ..." : text;
   }
 
@@ -319,7 +319,7 @@ Result<SvgShapes> svg_shapes(xmlDoc& drawing, const std::string& layer, const st
   if (!of_svg(root) || name_of(root) != "svg")
     return failure(ErrorKind::bad_input,
                    fmt::format("{}:{}: expected an SVG drawing, found the element \"{}\"", name,
-                               xmlGetLineNo(root), name_of(root).substr(0, 40)));
+                               xmlGetLineNo(root), shown(name_of(root))));
   return Copier(drawing, layer, name).copy(root);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// What an SVG drawing shows, as a plain drawing: groups and shapes with their geometry alone.
+// The visible parts of an SVG drawing, as a plain drawing: groups and shapes with their geometry
+// alone.
 
 #include "claystack/core/result.hpp"
 

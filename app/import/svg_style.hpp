@@ -48,8 +48,8 @@ class SvgStyles {
   /// Adds the rules of a style element.
   void add(std::string_view css);
 
-  /// What presentation attributes, rules and the style attribute of `node` set, each before the
-  /// next. Refuses drawings that need too many comparisons.
+  /// The values that presentation attributes, rules and the style attribute of `node` set, each
+  /// before the next. Refuses drawings that need too many comparisons.
   Result<SvgValues> of(xmlNode* node);
 
  private:

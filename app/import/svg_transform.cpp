@@ -178,8 +178,7 @@ Result<std::string> svg_transform(std::string_view transform,
                                   const std::optional<std::string>& origin) {
   constexpr std::string_view kExpected =
       "matrix, translate, scale, rotate or skew, with lengths in px, mm, cm, in or pt and angles "
-      "in "
-      "degrees";
+      "in deg, grad, rad or turn";
   std::string text;
   for (std::string_view rest = transform; !rest.empty();) {
     skip(rest, std::string(kSvgBlank) + ",");

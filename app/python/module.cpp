@@ -18,6 +18,7 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <filesystem>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
@@ -124,8 +125,10 @@ std::shared_ptr<Pot> stacked(double ring_height_mm, const std::vector<double>& o
   const std::size_t count = rings.size();
   ClayStack stack = value_of(ClayStack::from_rings(ring_height_mm, std::move(rings), 0, count));
   const Ledger ledger{.initial = stack.recount()};
+  const Pot pot{std::move(stack), ledger, Model::conserving, density_g_cm3, {}, {}};
+  // The reader of pots has the ranges, such as that of the density.
   return std::make_shared<Pot>(
-      Pot{std::move(stack), ledger, Model::conserving, density_g_cm3, {}, {}});
+      value_of(parse_pot(clay::write_pot(pot, PotEncoding::cbor), "stack")));
 }
 
 struct ExportSettings {
@@ -191,7 +194,7 @@ py::dict export_pot(const Pot& pot, const std::vector<std::string>& paths,
   request.certificates = settings.certificates;
   for (const std::string& path : paths)
     request.files.push_back(value_of(solid::file_request(path)));
-  if (!paths.empty()) request.options.name = paths.front();
+  if (!paths.empty()) request.options.name = std::filesystem::path(paths.front()).stem().string();
   solid::ExportReport report;
   {
     py::gil_scoped_release others_run;

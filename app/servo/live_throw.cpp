@@ -103,9 +103,9 @@ LiveThrow::LiveThrow(LiveThrow&&) noexcept = default;
 LiveThrow& LiveThrow::operator=(LiveThrow&&) noexcept = default;
 LiveThrow::~LiveThrow() = default;
 
-void LiveThrow::start(Pace pace) {
+Result<void> LiveThrow::start(Pace pace) {
   state_->servo.reset();
-  state_->servo.emplace(state_->bench(), *state_->loop, pace).start();
+  return state_->servo.emplace(state_->bench(), *state_->loop, pace).start();
 }
 
 void LiveThrow::advance(std::int64_t until_ns) noexcept {

@@ -2,6 +2,8 @@
 
 #include "claystack/falcon/guard.hpp"
 
+#include <system_error>
+
 namespace clay::servo {
 namespace {
 
@@ -23,12 +25,22 @@ Ending Servo::stop() {
   return join();
 }
 
-void Servo::start() {
+Result<void> Servo::start() {
   running_.store(true);
   emergency_stop().arm(gate_, &stop_device, &bench_.device);
-  if (pace_ == Pace::stepped) return loop_.start();
-  watchdog_ = std::thread([this] { watch(); });
-  servo_ = std::thread([this] { run(); });
+  if (pace_ == Pace::stepped) {
+    loop_.start();
+    return {};
+  }
+  try {
+    watchdog_ = std::thread([this] { watch(); });
+    servo_ = std::thread([this] { run(); });
+  } catch (const std::system_error& error) {
+    end();
+    join();
+    return failure(ErrorKind::io, "could not start the servo's threads: " + error.code().message());
+  }
+  return {};
 }
 
 void Servo::advance(std::int64_t until_ns) noexcept {

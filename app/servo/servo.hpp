@@ -3,6 +3,7 @@
 // Signal handlers end the force through `emergency_stop()`.
 
 #include "app/servo/servo_loop.hpp"
+#include "claystack/core/result.hpp"
 #include "claystack/falcon/guard.hpp"
 #include "claystack/servo/servo.hpp"
 
@@ -30,8 +31,9 @@ class Servo {
   Servo(const Servo&) = delete;
   Servo& operator=(const Servo&) = delete;
 
-  /// Ticks until the loop ends. The device is open. Call once.
-  void start();
+  /// Ticks until the loop ends. The device is open. Call once. An error of kind `io` if the system
+  /// starts no thread; the force of the device has ended then.
+  Result<void> start();
 
   /// Pace::stepped: ticks until the clock reaches `until_ns`, or to the end.
   void advance(std::int64_t until_ns) noexcept;

@@ -1,6 +1,7 @@
 #include "app/studio/importing.hpp"
 
 #include "app/render/pot_view.hpp"
+#include "core/text.hpp"
 
 #ifdef CLAYSTACK_DRAWINGS
 #include "app/import/drawn_pot.hpp"
@@ -16,7 +17,9 @@ namespace clay::studio {
 
 bool is_drawing(const std::filesystem::path& path) {
   constexpr std::array kEndings = {".svg", ".dxf", ".csv"};
-  return std::ranges::find(kEndings, path.extension().string()) != kEndings.end();
+  return std::ranges::any_of(kEndings, [name = path.filename().string()](const char* ending) {
+    return ends_ignoring_case(name, ending);
+  });
 }
 
 Result<Imported> import_drawing(const std::string& bytes, const std::string& name,

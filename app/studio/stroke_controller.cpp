@@ -81,10 +81,14 @@ Result<void> StrokeController::start_servo(const SceneSpec& scene, falcon::Hapti
   if (&device == &mouse_ && resisting_rpm_ > 0.0)
     mouse_.meet({&wheel_->stack(), &wheel_->plan().tool, resisting_rpm_});
   live_.emplace(std::move(*live));
-  live_->start(!threads_                ? servo::Pace::stepped
-               : device.info().can_push ? servo::Pace::real_time
-                                        : servo::Pace::thread);
-  return {};
+  auto started = live_->start(!threads_                ? servo::Pace::stepped
+                              : device.info().can_push ? servo::Pace::real_time
+                                                       : servo::Pace::thread);
+  if (!started) {
+    live_.reset();
+    (void)document_.end_stroke(std::nullopt, history::Recording::one_stroke);  // adds none
+  }
+  return started;
 }
 
 void StrokeController::command(const servo::Command& command) noexcept {

@@ -25,7 +25,7 @@ namespace {
 EM_JS(void, page_log, (const char* text, int size),
       { Module["page"].log(UTF8ToString(text, size)); });
 EM_JS(void, page_fail, (const char* text), { Module["page"].fail(UTF8ToString(text)); });
-EM_JS(void, page_tell, (const char* text), { Module["page"].tell(UTF8ToString(text)); });
+EM_JS(void, page_announce, (const char* text), { Module["page"].announce(UTF8ToString(text)); });
 
 constexpr const char* kCanvas = "#canvas";
 constexpr int kFramesAfterEvent = 3;
@@ -34,8 +34,8 @@ std::unique_ptr<WebHost> host;
 std::unique_ptr<studio::Studio> window;
 int frames_wanted = kFramesAfterEvent;
 bool damaged = true;
-std::string told;    // by page_tell
-std::string report;  // of claystack_report
+std::string announced;  // by page_announce
+std::string report;     // of claystack_report
 
 void take(studio::Input input) {
   if (!window) return;
@@ -43,12 +43,12 @@ void take(studio::Input input) {
   frames_wanted = kFramesAfterEvent;
 }
 
-/// Tells people who do not see the picture.
-void tell() {
+/// Announces the figures to screen readers.
+void announce() {
   auto summary = summary_of(window->state());
-  if (!summary || *summary == told) return;
-  told = std::move(*summary);
-  page_tell(told.c_str());
+  if (!summary || *summary == announced) return;
+  announced = std::move(*summary);
+  page_announce(announced.c_str());
 }
 
 /// The studio draws into canvases of its own, so the page needs neither samples nor depth.
@@ -140,7 +140,7 @@ EMSCRIPTEN_KEEPALIVE void claystack_paste(const char* text) {
   if (host) host->paste(text);
 }
 EMSCRIPTEN_KEEPALIVE void claystack_open(const char* path) { take(studio::FilesDropped{{path}}); }
-/// What a gesture or the key Tab is for: the pot, or a dialog or menu that is open.
+/// Whether gestures and the key Tab are for an open dialog or menu, not for the pot.
 EMSCRIPTEN_KEEPALIVE bool claystack_dialog_open() {
   return window && (!window->state().ui.shows<studio::NoDialog>() ||
                     ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup));

@@ -44,7 +44,8 @@ std::string answer_to(std::string_view message) {
   Question question = question_in(message);
   if (question.check) return message_of(check_pot(*question.check));
   if (question.lesson) return message_of(plan_step(*question.lesson));
-  return message_of(run(std::move(*question.exporting)));
+  if (question.exporting) return message_of(run(std::move(*question.exporting)));
+  return {};  // another version of the page asked
 }
 
 }  // namespace

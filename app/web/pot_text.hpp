@@ -12,7 +12,7 @@ namespace clay::web {
 /// optional: during a stroke, a demonstration or a check; the text would change at once.
 [[nodiscard]] std::optional<std::string> summary_of(const studio::AppState& state);
 
-/// What the panels show, one figure a line: pot, walls, proof, clay.
+/// The figures of the panels, one a line: pot, walls, proof, clay.
 [[nodiscard]] std::string report_of(const studio::AppState& state);
 
 }  // namespace clay::web

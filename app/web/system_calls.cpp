@@ -1,4 +1,5 @@
-// What Emscripten's library lacks, or computes otherwise than the C library of the native program.
+// Functions that Emscripten's library lacks, or computes otherwise than the C library of the native
+// program.
 
 #include <fcntl.h>
 

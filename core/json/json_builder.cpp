@@ -1,6 +1,7 @@
 #include "core/json/json_builder.hpp"
 
-#include <algorithm>
+#include "core/text.hpp"
+
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -14,7 +15,7 @@ std::string bare_message(std::string_view what) {
   if (what.starts_with("parse error"))
     if (const auto position = what.find(": "); position != std::string_view::npos)
       what.remove_prefix(position + 2);
-  return printable(std::string(what));
+  return printable(what);
 }
 
 }  // namespace
@@ -72,12 +73,9 @@ bool JsonBuilder::close() {
   return true;
 }
 
-std::string printable(std::string text) {
+std::string printable(std::string_view text) {
   constexpr std::size_t kLongest = 160;
-  if (text.size() > kLongest) text.replace(kLongest, std::string::npos, "...");
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text;
+  return shown(text, kLongest);
 }
 
 }  // namespace clay::inline json

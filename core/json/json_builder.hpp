@@ -52,6 +52,6 @@ class JsonBuilder {
 };
 
 /// `text` for one line of a message: ASCII, and just long enough to recognise it.
-std::string printable(std::string text);
+std::string printable(std::string_view text);
 
 }  // namespace clay::inline json

@@ -24,7 +24,7 @@ bool is_near(std::string_view a, std::string_view b) {
 }
 
 std::string in_quotes(std::string_view name) {
-  return std::string("\"").append(printable(std::string(name))).append("\"");
+  return std::string("\"").append(printable(name)).append("\"");
 }
 
 /// "; is "mode" meant?", or empty if no candidate is near.

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 
 namespace clay {
@@ -36,21 +35,8 @@ inline constexpr std::uint64_t kLowExponent = std::bit_cast<std::uint64_t>(0x1p5
 inline constexpr std::uint64_t kHighExponent = std::bit_cast<std::uint64_t>(0x1p84);
 inline constexpr double kBothExponents = 0x1p84 + 0x1p52;
 
-/// Quanta >= 0 as a double, rounded to nearest like a conversion; unlike one it is done in lanes.
-CLAYSTACK_INLINE inline double lane_double(Quanta q) noexcept {
-  const auto bits = static_cast<std::uint64_t>(q);
-  const double low = std::bit_cast<double>((bits & 0xffffffffu) | kLowExponent);
-  const double high = std::bit_cast<double>((bits >> 32) | kHighExponent);
-  return (high - kBothExponents) + low;
-}
-
 /// The largest size of a number that packs.hpp rounds to quanta.
 inline constexpr double kMostLaneQuanta = 0x1p50;
-
-/// A root to single precision: of a length that decides how far clay moves, not how much there is.
-CLAYSTACK_INLINE inline double rough_root(double x) noexcept {
-  return std::sqrt(static_cast<float>(x));
-}
 
 #if defined(__x86_64__)
 /// Only a test or a benchmark that compares the two writes this.

@@ -1,13 +1,13 @@
 #pragma once
-// Some rows at once, for the loops of the clay rules: of a loop with several conditions GCC does
-// all branches, or does it row by row. A pack has two rows or four, as many as a register of the
-// machine holds: of a wider one GCC compares row by row. No multiplication is fused with an
-// addition, and every operation is one of IEEE 754: the same bits as row by row.
+// Processes 2 or 4 rows per instruction. GCC does not vectorise loops with several conditions, so
+// they are written with vector types. Results equal those of scalar code to the bit.
 
 #include "claystack/engine/clay.hpp"
 #include "engine/clay/lanes.hpp"
 
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -215,13 +215,13 @@ template <std::size_t n>
 CLAYSTACK_INLINE inline std::array<Doubles<n>, 2> halves(TwiceFloats<n> x) noexcept {
   return {doubles<n>(low_half<n>(x)), doubles<n>(high_half<n>(x))};
 }
-/// As the `rough_root` of one.
+/// Roots to single precision: of a length that decides how far clay moves, not how much there is.
 template <std::size_t n>
 CLAYSTACK_INLINE inline Doubles<n> rough_roots(Doubles<n> x) noexcept {
   return doubles<n>(root(floats(x)));
 }
 
-/// As `lane_double`; the nearest whole number, as a double and as quanta; and without the fraction.
+/// Quanta >= 0 as doubles, rounded to nearest like a conversion; unlike one it is done in lanes.
 template <class Vector>
 CLAYSTACK_INLINE inline Doubles<kRowsOf<Vector>> doubles_of(Vector q) noexcept {
   constexpr std::size_t n = kRowsOf<Vector>;
@@ -237,6 +237,7 @@ CLAYSTACK_INLINE inline Doubles<kRowsOf<Vector>> small_doubles(Vector q) noexcep
   constexpr std::size_t n = kRowsOf<Vector>;
   return reinterpret_cast<Doubles<n>>(reinterpret_cast<Bits<n>>(q) | kLowExponent) - 0x1p52;
 }
+/// The nearest whole number, as a double and as quanta; and without the fraction.
 template <class Vector>
 CLAYSTACK_INLINE inline Vector nearest(Vector x) noexcept {
   return (x + 0x1.8p52) - 0x1.8p52;

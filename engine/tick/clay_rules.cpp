@@ -201,9 +201,9 @@ WideQuanta upward_part(WideQuanta amount, const Motion& motion, const ToolState&
   return (amount * static_cast<std::int64_t>(part * 0x1p30)) >> 30;
 }
 
-/// What of the clay that one tool squeezes aside goes inside: the scene's share. Of what a tool
-/// squeezes from outside into a wall that is thicker than the contact is high, less: the flow of a
-/// punch does not reach through.
+/// The part of the clay that one tool squeezes aside that goes inside: the scene's share. It is
+/// less if a tool squeezes from outside a wall that is thicker than the contact is high: the flow
+/// of a punch does not reach through.
 std::int64_t inside_share(const StepPlan& plan, const ClayStack& stack, const Contact& contact,
                           const Band& band) noexcept {
   if (contact.side == Side::expansive) return plan.inside_share;

@@ -73,7 +73,7 @@ void add_edge(const RingContact& part, int end, Contact& contact) noexcept {
   contact.edges[contact.edge_count++] = part;
 }
 
-/// What `meet` does, of rings that the tool covers whole, and whose surface is known.
+/// As `meet`, for rings that the tool covers whole, and whose surface is known.
 template <class Profile>
 CLAYSTACK_INLINE inline void meet_rows(const Profile& profile, const Tool& tool, double hip_y,
                                        double h, const Contact& contact,

@@ -11,8 +11,8 @@ namespace clay {
 
 enum class Side { compressive, expansive };
 
-/// What the tool touches (section 4). `rings` are some of bottom..top; none when there is no
-/// contact. Storage is reserved once, so that a tick allocates nothing.
+/// The rings that the tool touches (section 4). `rings` are some of bottom..top; none when there is
+/// no contact. Storage is reserved once, so that a tick allocates nothing.
 ///
 /// `conserving` feels the tool's ends to a fraction of a ring: `edges` are parts of rings whose
 /// middles lie beyond an end, and the crown. They push back, but yield only as whole rings do; see

@@ -10,7 +10,7 @@
 namespace clay {
 namespace {
 
-/// What of a ring the front may change; nothing where the tool does not touch it.
+/// The values of a ring that the front may change; none where the tool does not touch it.
 struct Felt {
   double* depth_mm = nullptr;
   double* coverage = nullptr;
@@ -125,7 +125,7 @@ void measure_lead(const Profile& profile, const StepPlan& plan, const ClayStack&
     part.facing = surface.facing;
   }
   contact.has_front = true;
-  // What the pieces have taken over.
+  // The coverage that the pieces have taken over.
   if (rings[0].depth_mm != nullptr) *rings[0].coverage = std::max(lead.covered_mm - reach, 0.0) / h;
   if (rings[1].depth_mm != nullptr) *rings[1].coverage = std::min(all - reach, h) / h;
 }

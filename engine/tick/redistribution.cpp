@@ -216,8 +216,8 @@ Ring as_thick(const Ring& ring, const Ring& other) noexcept {
   return reshaped.inner2 > 0 && reshaped.volume() > 0 ? reshaped : ring;
 }
 
-/// What of a ring above the rim the tools leave room for: no wall where there is not half of it, or
-/// less than the minimum wall.
+/// The part of a ring above the rim that fits beside the tools: no wall where less than half of it
+/// fits, or less than the minimum wall.
 Ring beside_tools(const Ring& next, const ClayStack& stack, const StepPlan& plan, double hip_y,
                   std::span<const ToolRemoval> removals) noexcept {
   const Tool& tool = plan.tool;

@@ -1,5 +1,5 @@
 #pragma once
-// Section 5.1: where displaced clay goes. The only stage that writes the stack.
+// Moves displaced clay along the wall (section 5.1).
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tick.hpp"
@@ -12,7 +12,7 @@
 
 namespace clay {
 
-/// What a tick's flow did to the stack.
+/// The effect of a tick's flow on the stack.
 struct Flow {
   std::size_t lowest = 0;  ///< rings lowest..highest may have changed
   std::size_t highest = 0;
@@ -28,11 +28,11 @@ struct Flow {
   return kernel.effective_length() + 1;
 }
 
-/// Takes what the tools removal off and spreads it, all of it at once, by the Rayleigh kernel:
-/// upward from above the candidate range by (5), (6) when the tool moves up, downward from below it
-/// by (7), (8) when it moves down. One tool, or the two of a pinch, which have one candidate range.
-/// alpha goes inside as far as each bore has room (r_j^2 >= share), the rest outside. What finds no
-/// ring below goes up; what finds none above becomes height.
+/// Takes off the clay that the tools remove and spreads it, all of it at once, by the Rayleigh
+/// kernel: upward from above the candidate range by (5), (6) when the tool moves up, downward from
+/// below it by (7), (8) when it moves down. One tool, or the two of a pinch, which have one
+/// candidate range. alpha goes inside as far as each bore has room (r_j^2 >= share), the rest
+/// outside. Clay that finds no ring below goes up; clay that finds none above becomes height.
 ///
 /// `conserving` lays the kernel to the tool's ends, not to the ends of their rings (Contact's
 /// offsets), and gives new rings what `rim` has counted; without a rim they are copies.
@@ -47,7 +47,7 @@ Flow trim_clay(std::span<const ToolRemoval> removals, ClayStack& stack, Ledger& 
 
 // Parts of these, for the clay rules.
 
-/// Takes what the tools removal off.
+/// Takes off the clay that the tools remove.
 WideQuanta remove_clay(std::span<const ToolRemoval> removals, ClayStack& stack, Rim* rim) noexcept;
 /// alpha of an amount, as long as some ring has a bore.
 [[nodiscard]] WideQuanta inside_part(WideQuanta amount, std::int64_t inside_share,

@@ -40,8 +40,9 @@ double excess(const Cone& cone, const Ring& ring, double middle_mm) noexcept {
   return cone.excess(middle_mm, cone.outside ? ring.outer_mm() : ring.inner_mm());
 }
 
-/// What leaves a ring whose surface stands out by `out`: d out / dt = -kappa (R - r) min(1, out /
-/// yield depth), by a step that cannot go too far. Moves `out` to how far the surface goes.
+/// The clay that leaves a ring whose surface stands out by `out`: d out / dt = -kappa (R - r)
+/// min(1, out / yield depth), by a step that cannot go too far. Moves `out` to how far the surface
+/// goes.
 Quanta yielded(const RemovalPlan& plan, double dt_s, const Ring& ring, bool outside,
                double& out) noexcept {
   static const Quanta smallest = quanta_from_radius(kMinRadiusMm);

@@ -1,6 +1,5 @@
 #pragma once
-// What overhangs the end of a contact yields: a finger leaves no undercut that is steeper than 2
-// : 1.
+// Clay that overhangs the end of a contact yields: a finger leaves no undercut steeper than 2 : 1.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tick.hpp"

@@ -17,8 +17,9 @@ struct ToolRemoval {
   std::vector<Quanta> removed;
 };
 
-/// What leaves each touched ring this tick, in quanta, parallel to `contact.rings`; equations (3)
-/// and (4) with Delta v = eps (2R - eps) outside, eps (2r + eps) inside. Writes nothing else.
+/// The clay that leaves each touched ring this tick, in quanta, parallel to `contact.rings`;
+/// equations (3) and (4) with Delta v = eps (2R - eps) outside, eps (2r + eps) inside. Writes
+/// nothing else.
 ///
 /// `paper`: eps = k (R - r).
 /// `conserving`: as yielding.hpp says, never past the tool's surface and never through the minimum
@@ -56,8 +57,8 @@ void give_way(const RemovalPlan& plan, const ClayStack& stack, double dt_s,
 void squeeze_out(const Squeeze& rules, const ClayStack& stack, Contact& contact,
                  std::vector<Quanta>& removed) noexcept;
 
-/// What two tools take from one wall, each from its own side, that it is nowhere thinner for them
-/// than the gap. Equations (3) and (4) at once:
+/// Clay that two tools remove from one wall, each from its own side, until the wall is as thick as
+/// the gap. Equations (3) and (4) at once:
 ///
 /// `paper`: k (R - r) each.
 /// `conserving`: dR/dt = -kappa (R - r) and dr/dt = kappa (R - r), each until its tool's surface is

@@ -81,7 +81,7 @@ bool all_pliant(const float* outer, const float* inner, std::size_t count) noexc
   return pliant;
 }
 
-/// What each of these rings, at most `kRows`, adds to a stop: nothing where it is pliant.
+/// The contribution of each of these rings, at most `kRows`, to a stop: nothing where it is pliant.
 void stops_of(const Ring* rings, std::size_t count, double per_stop, double* stops) noexcept {
   in_packs([=](auto n) CLAYSTACK_INLINE {
     for (std::size_t k = 0; k < count; k += n) {
@@ -209,7 +209,7 @@ Shell shell_at(const ClayStack& stack, WallRadii& walls, const Band& band, doubl
   const double shift_load = thinness * hoop + 0.25 * w * w * hinge, punch_load = kPunch * c;
   const double ratio = shift_load / punch_load, ratio2 = ratio * ratio;
   const double thinned = band.give_mm * (ratio2 * ratio2 / (1.0 + ratio2 * ratio2));
-  // What the minimum wall does not allow to be squeezed out, bends.
+  // Clay that the minimum wall keeps from being squeezed out bends.
   shell.share = pliant * (1.0 - std::min(thinned, std::max(w - min_wall_mm, 0.0)) / band.give_mm);
   return shell;
 }

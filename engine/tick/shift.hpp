@@ -11,8 +11,8 @@
 
 namespace clay {
 
-/// What a shift does to the rings from() .. to()-1. Nothing is written: `after` says what a ring
-/// will be, and redistribution makes it so. Storage is reserved once.
+/// The effect of a shift on the rings from() .. to()-1. Nothing is written: `after` is the later
+/// shape of a ring, and redistribution applies it. Storage is reserved once.
 class Shift {
  public:
   /// Room for this number of rings.

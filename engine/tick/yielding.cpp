@@ -17,7 +17,7 @@ struct Approach {
   Row at_most;  ///< that gives way [mm]
 };
 
-/// What all rings have in common.
+/// Factors that all rings have in common.
 struct Pace {
   double knee, turn;
   double per_knee = 1.0 / knee, fraction = 1.0 - exp_neg(turn);

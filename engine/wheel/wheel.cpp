@@ -57,7 +57,7 @@ constexpr int kMostParts = 32;
 template <unsigned stages>
 constexpr Model kModel = (stages & kPaperModel) ? Model::paper : Model::conserving;
 
-/// What the tool touches; of a pinch the outer tool first, then the inner one.
+/// The rings that the tool touches; of a pinch the outer tool first, then the inner one.
 template <unsigned stages, class State>
 std::span<ToolRemoval> touch(State& s, const ToolState& tool) noexcept {
   if constexpr (stages & kPinch) {

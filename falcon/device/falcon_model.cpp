@@ -8,7 +8,6 @@ namespace {
 
 constexpr std::string_view kGreeting = "\x0A\x43\x0D";
 constexpr std::string_view kGreetingAnswer = "\x0A\x44\x2C\x0D";
-constexpr int kGreetingBaud = 9600, kLoadingBaud = 142'857, kRunningBaud = 1'500'000;
 constexpr std::size_t kHeaderBytes = std::size_t{2} * (1 + 8 + 2);
 constexpr std::size_t kBlockHeadBytes = std::size_t{2} * 2;  // the address; the size precedes it
 constexpr std::size_t kMiddle = kFrameBytes / 2;
@@ -107,16 +106,17 @@ void FalconModel::receive_last(std::span<const std::uint8_t> frame) noexcept {
 }
 
 void FalconModel::boot(std::uint8_t byte, Answer& answer) {
-  if (stage_ == Stage::waiting && baud_ == kGreetingBaud) {
+  if (stage_ == Stage::waiting && baud_ == baud_of(LineMode::greeting)) {
     heard_[heard_size_++ % kFrameBytes] = byte;
     const std::span<const std::uint8_t> said(heard_.data(), kGreeting.size());
     if (heard_size_ != kGreeting.size() || !std::ranges::equal(said, bytes_of(kGreeting))) return;
     answer.add(bytes_of(kGreetingAnswer));
     stage_ = Stage::greeted;
-  } else if (stage_ == Stage::greeted && baud_ == kLoadingBaud && !dtr_ && byte == 'A') {
+  } else if (stage_ == Stage::greeted && baud_ == baud_of(LineMode::loading) && !dtr_ &&
+             byte == 'A') {
     answer.add({&byte, 1});
     stage_ = Stage::loading;
-  } else if (stage_ == Stage::loading && baud_ == kLoadingBaud) {
+  } else if (stage_ == Stage::loading && baud_ == baud_of(LineMode::loading)) {
     load(byte, answer);
   }
 }
@@ -139,7 +139,7 @@ bool FalconModel::take(std::uint8_t byte) noexcept {
 }
 
 void FalconModel::run(std::uint8_t byte, double dt_s, Answer& answer) {
-  if (baud_ != kRunningBaud || !take(byte)) return;
+  if (baud_ != baud_of(LineMode::running) || !take(byte)) return;
   heard_size_ = 0;
   motors_ = motors_in(heard_);
   home(((heard_[13] - 'A') & 1) != 0);

@@ -105,8 +105,10 @@ DeviceResult<void> tried(int attempts, const std::function<DeviceResult<void>()>
     done = action();
     if (done || done.error().fault == DeviceFault::unplugged) return done;
   }
-  if (!done && attempts > 1) done.error().what += " (tried " + std::to_string(attempts) + " times)";
-  return done;
+  if (done || attempts <= 1) return done;
+  const DeviceError& error = done.error();
+  return device_failure(error.fault, error.what + " (tried " + std::to_string(attempts) + " times)",
+                        error.remedy);
 }
 
 }  // namespace

@@ -31,32 +31,6 @@ enum GuardRule : std::uint32_t {
   kRuleStop = 1u << 17,
 };
 
-struct NamedGuardRule {
-  GuardRule rule;
-  const char* name;
-};
-
-inline constexpr NamedGuardRule kGuardRules[] = {
-    {kRuleFinite, "finite force"},
-    {kRuleNotFiniteLatch, "SAFE after three invalid values"},
-    {kRuleLimit, "limit of the norm"},
-    {kRuleSlew, "slew"},
-    {kRuleSmallForce, "small force first"},
-    {kRuleRamp, "ramp"},
-    {kRuleReady, "ready or zero"},
-    {kRuleStaleFrames, "stale frames fade"},
-    {kRulePause, "re-engagement after a pause"},
-    {kRuleJump, "jumps"},
-    {kRuleStep, "step within bounds"},
-    {kRuleLate, "late tick is zero"},
-    {kRuleOverrun, "SAFE after an overrun"},
-    {kRuleOldClay, "old clay fades"},
-    {kRulePassive, "SAFE if not passive"},
-    {kRuleHeat, "heat"},
-    {kRuleLatch, "SAFE holds"},
-    {kRuleStop, "stop is permanent"},
-};
-
 [[nodiscard]] constexpr bool clears_itself(SafeCause cause) noexcept {
   return cause == SafeCause::jumped || cause == SafeCause::overrun;
 }

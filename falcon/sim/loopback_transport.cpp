@@ -46,9 +46,7 @@ void LoopbackTransport::close() noexcept {
 
 DeviceResult<void> LoopbackTransport::set_mode(LineMode mode) {
   size_ = 0;
-  model_->set_baud(mode == LineMode::greeting  ? 9600
-                   : mode == LineMode::loading ? 142'857
-                                               : 1'500'000);
+  model_->set_baud(baud_of(mode));
   if (mode != LineMode::running) model_->set_dtr(false);
   if (mode == LineMode::greeting) model_->set_dtr(true);
   return {};

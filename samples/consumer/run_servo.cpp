@@ -19,7 +19,7 @@ int main() {
   auto live = clay::servo::LiveThrow::build(
       {.wheel = *wheel, .device = *simulated->device, .scene = scene}, settings);
   if (!live) return std::fprintf(stderr, "%s\n", live.error().message.c_str()), 2;
-  live->start();
+  if (!live->start()) return 2;
   const bool whole = live->join() == clay::servo::Ending::time_up;
   const double clay_n = glm::length(live->status().clay_n);
   std::printf("%.1f s on the clay, which pushes back with %.2f N\n", live->status().time_s, clay_n);

@@ -188,7 +188,7 @@ function save(name, bytes) {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
-/// What the program calls (Module.page).
+/// Functions that the program calls (Module.page).
 const page = {
   log(line) {
     const text = document.createElement('p');
@@ -198,7 +198,7 @@ const page = {
   },
   fail(text) { say(text); },
   /// For people who do not see the picture.
-  tell(text) { by('pot').textContent = text; },
+  announce(text) { by('pot').textContent = text; },
   copy(text) { navigator.clipboard?.writeText(text).catch(() => {}); },
   /// Works stay in the storage of the browser too; exports do not.
   download(path) {

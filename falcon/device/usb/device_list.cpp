@@ -25,7 +25,7 @@ DeviceResult<void> list_falcons(std::vector<ListedDevice>& found) {
   if (const int code = libusb_init(&context); code != 0) return usb_is_out(code);
   libusb_device** devices = nullptr;
   const auto count = libusb_get_device_list(context, &devices);
-  for (auto i = count - count; i < count; ++i) {
+  for (ssize_t i = 0; i < count; ++i) {
     libusb_device_descriptor descriptor{};
     if (libusb_get_device_descriptor(devices[i], &descriptor) != 0) continue;
     if (descriptor.idVendor != kFalconVendor || descriptor.idProduct != kFalconProduct) continue;

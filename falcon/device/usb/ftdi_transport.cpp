@@ -17,8 +17,6 @@
 namespace clay::falcon::inline device {
 namespace {
 
-// Integer divisors of the chip's 3 MHz, so that every driver sets the same.
-constexpr int kGreetingBaud = 9'600, kLoadingBaud = 142'857, kRunningBaud = 1'500'000;
 // With 1 ms the greeting often fails on real devices.
 constexpr unsigned char kLoadingLatencyMs = 16, kRunningLatencyMs = 1;
 constexpr unsigned kOut = 0x02;
@@ -63,13 +61,12 @@ class FtdiTransport final : public Transport {
 
   DeviceResult<void> set_mode(LineMode mode) override {
     const bool running = mode == LineMode::running, greeting = mode == LineMode::greeting;
-    const int baud = greeting ? kGreetingBaud : running ? kRunningBaud : kLoadingBaud;
     const auto set = [this](int done, const char* action) -> DeviceResult<void> {
       return done < 0 ? tl::make_unexpected(usb_error(place_, action, done)) : DeviceResult<void>();
     };
     auto done = set(ftdi_set_latency_timer(ftdi_, running ? kRunningLatencyMs : kLoadingLatencyMs),
                     "set the latency timer");
-    if (done) done = set(ftdi_set_baudrate(ftdi_, baud), "set the baud rate");
+    if (done) done = set(ftdi_set_baudrate(ftdi_, baud_of(mode)), "set the baud rate");
     if (done) done = set(ftdi_set_line_property(ftdi_, BITS_8, STOP_BIT_1, NONE), "set the line");
     if (done) done = set(ftdi_setflowctrl(ftdi_, SIO_DISABLE_FLOW_CTRL), "set the flow control");
     if (done && greeting) done = set(ftdi_setrts(ftdi_, 0), "set RTS");

@@ -56,10 +56,11 @@ bool HidNode::write(std::span<const std::uint8_t> report) noexcept {
 
 void HidNode::write_last(std::span<const std::uint8_t> report) noexcept {
   const int before = errno;
-  if (const int descriptor = descriptor_.load(); descriptor >= 0) [[maybe_unused]]
-    const auto sent = ::write(descriptor, report.data(), report.size());
-  else if (in_hidapi == 0)
+  if (const int descriptor = descriptor_.load(); descriptor >= 0) {
+    [[maybe_unused]] const auto sent = ::write(descriptor, report.data(), report.size());
+  } else if (in_hidapi == 0) {
     write(report);
+  }
   errno = before;
 }
 

@@ -107,6 +107,28 @@ TEST_F(Batch, SplitsIntoPartsThatTogetherAreAll) {
   EXPECT_EQ(run("--part 3/2").status, 2);
 }
 
+TEST_F(Batch, RefusesInvalidParts) {
+  write_jobs({thrown("a.pot.json")});
+  for (const char* part : {"2/1", "0/1", "1/0", "2/-1", "+1/1", "1/ 1", "1/1x", "1", "/"})
+    EXPECT_EQ(run("--part '" + std::string(part) + "'").status, 2) << part;
+}
+
+TEST_F(Batch, ResumesFromResultsThatDoNotFitInMemory) {
+  write_jobs({thrown("a.pot.json")});
+  const std::string results = folder.file("results.jsonl");
+  ASSERT_EQ(run("-o " + results).status, 0);
+  std::string one = read_text(results);
+  const std::string output(1'000'000, 'x');
+  std::string many;
+  for (int i = 0; i < 100; ++i)
+    many += R"({"schema":"claystack-batch-1","id":"old","run":["check"],"status":0,"output":")" +
+            output + "\"}\n";
+  write_text(results, many + one);
+  const Ran resumed = run("--memory 64MiB -o " + results);
+  EXPECT_EQ(resumed.status, 0) << resumed.err;
+  EXPECT_NE(resumed.out.find("1 of them were in"), std::string::npos) << resumed.out;
+}
+
 TEST_F(Batch, RefusesAWrongLineBeforeTheFirstJob) {
   const std::string good = thrown("a.pot.json").dump() + "\n";
   for (const auto& [line, message] :

@@ -194,7 +194,7 @@ TEST(CheckPot, MeasuresTheWall) {
   EXPECT_NE(shown.out.find(": sound; walls: fail\n"), std::string::npos) << shown.out;
 }
 
-TEST(CheckPot, APassContainsNoWordOfFailure) {
+TEST(CheckPot, PassPrintsNoFailure) {
   const ScratchFolder folder;
   const std::string pot = folder.file("p.pot.json");
   ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);

@@ -100,7 +100,7 @@ TEST_F(Examples, NameFilesThatAreInstalledOrMade) {
     }
 }
 
-TEST_F(Examples, OfTheManualAreThoseOfTheHelp) {
+TEST_F(Examples, MatchInManualAndHelp) {
   for (const std::string& page : commands()) {
     std::string manual = claystack("manual " + page).out;
     for (std::size_t at = 0; (at = manual.find("\\-", at)) != std::string::npos;)

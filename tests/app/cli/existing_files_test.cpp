@@ -190,6 +190,32 @@ TEST(ExistingFilesOfACommand, TwoOutputsNeedTwoNames) {
 }
 
 /// The results of a batch are the exception: they grow.
+TEST(ExistingFilesOfACommand, StandardOutputTakesOneDocument) {
+  const ScratchFolder folder;
+  const std::string scene = sample("bowl.scene.json"), pot = folder.file("a.pot.json");
+  ASSERT_EQ(claystack("throw -q " + scene + " -o " + pot).status, 0);
+  std::vector<std::string> commands = {
+      "throw " + scene + " -o - --json",
+      "throw " + scene + " -o - --trace -",
+      "throw " + sample("mouse.work") + " -o - --json",
+      "export " + pot + " - --json",
+      "export " + pot + " - -",
+      "check " + pot + " --repair -o - --json",
+  };
+#ifdef CLAYSTACK_FALCON
+  commands.push_back("throw " + scene + " --device simulated --seconds 0.1 -o - --json");
+  commands.push_back("throw " + scene + " --device simulated --seconds 0.1 -o - --record -");
+#endif
+#ifdef CLAYSTACK_DRAWINGS
+  commands.push_back("import " + sample("drawings/jug.svg") + " -o - --json");
+#endif
+  for (const std::string& command : commands) {
+    const Ran ran = claystack(command);
+    EXPECT_EQ(ran.status, 2) << command;
+    EXPECT_NE(ran.err.find("standard output"), std::string::npos) << ran.err;
+  }
+}
+
 TEST(ExistingFilesOfACommand, BatchAppendsToItsOwnResultsOnly) {
   const ScratchFolder folder;
   const std::string jobs = folder.file("jobs.jsonl"), results = folder.file("results.jsonl");

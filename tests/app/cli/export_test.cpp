@@ -130,7 +130,7 @@ TEST_P(ExportedSample, PassesItsOwnCheckInEveryFormat) {
   }
 }
 
-TEST(ExportCylinder, IsCertifiedAndNowhereMuchThinnerThanItsGap) {
+TEST(ExportCylinder, CertifiesWallOfAboutTheGap) {
   const ScratchFolder folder;
   const std::string pot = folder.file("c.pot.json"), stl = folder.file("c.stl");
   const std::string thinnest = " --min-wall 3.6 ";  // the gap of 4 mm less 10 %

@@ -6,6 +6,7 @@
 //   CLAYSTACK_FAULT_ERRNO    the error it gives
 //   CLAYSTACK_FAULT_SIGNAL   raise this signal before the call instead
 //   CLAYSTACK_FAULT_LOG      the name of the call that failed is written to this file
+//   CLAYSTACK_FAULT_THREAD   the start of a thread that fails instead, counted from 1
 //   CLAYSTACK_FAULT_WITHOUT  what the system does not have: a list of
 //                            tmpfile (unnamed files), links (hard links), proc (/proc/self/fd)
 //
@@ -14,6 +15,7 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -140,6 +142,13 @@ int access(const char* path, int mode) noexcept {
 ssize_t write(int file, const void* bytes, size_t count) {
   if (is_watched(file) && fails("write")) return -1;
   return syscall(SYS_write, file, bytes, count);
+}
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*),
+                   void* data) noexcept {
+  static std::atomic<long> threads = 0;
+  if (++threads == number("CLAYSTACK_FAULT_THREAD")) return EAGAIN;
+  return next<decltype(pthread_create)>("pthread_create")(thread, attributes, run, data);
 }
 
 int fsync(int file) {

@@ -1,5 +1,6 @@
 #include "tests/support/run_program.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,6 +36,33 @@ TEST(Import, MakesAPrintablePot) {
   ASSERT_EQ(shell("openscad -q -o " + peer + " " + script).status, 0);
   const double revolved = claystack("check --json " + peer).json().at("volume_mm3");
   EXPECT_NEAR(revolved / drawn, 1.0, 1e-3);
+}
+
+// 4000 lines over the full height: the hint of the error must not need memory for the square of
+// their number, 128 MB.
+TEST(Import, RefusesAZigzagInLittleMemory) {
+  const ScratchFolder folder;
+  std::string points;
+  for (int i = 0; i < 4000; ++i)
+    points += fmt::format("{},{} ", 10.0 + 1e-5 * i * i, i % 2 == 0 ? 0 : 60);
+  write_text(folder.file("zigzag.svg"),
+             R"(<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm" )"
+             R"(viewBox="0 0 200 200"><polyline fill="none" stroke="black" points=")" +
+                 points + "\"/></svg>");
+  const Ran run = claystack("import --memory 64MiB " + folder.file("zigzag.svg") + " -o " +
+                            folder.file("a.pot.json"));
+  EXPECT_EQ(run.status, 2) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("the drawing is nearly symmetric"));
+  EXPECT_LT(run.err.size(), 1000u);
+}
+
+TEST(Import, BoundsTheTextThatItQuotes) {
+  const ScratchFolder folder;
+  write_text(folder.file("wide.csv"), std::string(1'000'000, 'x') + ",y\n1,2\n");
+  const Ran run =
+      claystack("import " + folder.file("wide.csv") + " -o " + folder.file("a.pot.json"));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_LT(run.err.size(), 1000u);
 }
 
 TEST(Import, AcceptsNamesInUpperCase) {

@@ -187,6 +187,18 @@ TEST(LiveThrow, SoftensAStiffSceneOrRefusesIt) {
   EXPECT_EQ(claystack(live + " --no-soften --scale 2 --force-gain 1").status, 2);
 }
 
+TEST(LiveThrow, ReportsAThreadThatDoesNotStart) {
+  const std::string live = CLAYSTACK_PROGRAM " " + kBowl + " --device simulated --seconds 0.2";
+  for (int thread = 1; thread <= 2; ++thread) {
+    const Ran run = shell("env ASAN_OPTIONS=verify_asan_link_order=0 CLAYSTACK_FAULT_THREAD=" +
+                          std::to_string(thread) + " LD_PRELOAD=" CLAYSTACK_FAULT_SHIM " " + live);
+    EXPECT_EQ(run.status, 3) << thread << run.err;
+    EXPECT_NE(run.err.find("could not start the servo's threads: Resource temporarily unavailable"),
+              std::string::npos)
+        << run.err;
+  }
+}
+
 TEST(LiveThrow, ReportsUnsupportedRequests) {
   const std::string live = "throw " + sample("paper/bowl.scene.json") + " --device ";
   EXPECT_EQ(claystack(live + "hand").status, 2);

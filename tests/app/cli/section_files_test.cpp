@@ -115,7 +115,7 @@ TEST_F(SectionFiles, TheReportIsOnePage) {
         << element;
 }
 
-TEST_F(SectionFiles, TheReportSaysWhatItsNumbersAreOf) {
+TEST_F(SectionFiles, ReportLabelsItsFigures) {
   const std::string page = folder.file("r.html");
   const auto html = [&](const std::string& options) {
     EXPECT_LE(run(folder.file("a.stl") + " " + options + " --report " + page).status, 1);

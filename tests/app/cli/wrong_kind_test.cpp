@@ -44,7 +44,7 @@ TEST(WrongKind, IsNamedInTheMessage) {
   }
 }
 
-TEST(WrongKind, OfAMeshOrDrawingIsNamedWhateverItsNameEndsIn) {
+TEST(WrongKind, NamesKindFromContents) {
   const ScratchFolder folder;
   const std::string pot = folder.file("v.pot.json"), stl = folder.file("v.stl"),
                     obj = folder.file("v.obj");

@@ -97,6 +97,16 @@ TEST(DxfFaults, LimitsTurnsAndCounts) {
               HasSubstr("blocks at most 16 deep"));
 }
 
+// 400 x 500 places, each with a block of 400 x 500 places of an empty block: 4e10 insertions.
+TEST(DxfFaults, CountsInsertionsOfEmptyBlocks) {
+  const std::string grid = " 70 400 71 500 44 1 45 1";
+  EXPECT_THAT(
+      problem(drawing_of("0 INSERT 2 b" + grid,
+                         "0 SECTION 2 BLOCKS 0 BLOCK 2 a 0 ENDBLK 0 BLOCK 2 b 0 INSERT 2 a" + grid +
+                             " 0 ENDBLK 0 ENDSEC ")),
+      HasSubstr("expected at most 1000000 entities and insertions, found more"));
+}
+
 TEST(DxfFaults, JoinsFiftyThousandLines) {
   std::string entities = "0 LINE 10 0 20 0 11 30 21 0";
   constexpr int kCount = 50'000;

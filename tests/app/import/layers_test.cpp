@@ -40,7 +40,7 @@ TEST(Layers, OneOrAll) {
   EXPECT_EQ(lines_of(kDxf, "a.dxf", "LID"), 2u);
 }
 
-TEST(Layers, OfConstructionByTheirNameAreReadOnlyIfAskedFor) {
+TEST(Layers, IgnoresConstructionLayersByDefault) {
   for (const char* layer : {"Construction", "construction_2", "CONSTRUCTION LINES"}) {
     const std::string name = layer;
     const std::string svg = "<svg xmlns='http://www.w3.org/2000/svg'><path d='M 0 0 H 9'/><g id='" +

@@ -137,7 +137,7 @@ TEST(SvgDrawing, TransformsOfStylesAreHonouredOrRefusedByName) {
       HasSubstr("transform-origin: expected two lengths, such as 10px 20px, found center"));
 }
 
-TEST(SvgDrawing, AUseOfItselfIsNamed) {
+TEST(SvgDrawing, RefusesRecursiveUse) {
   EXPECT_THAT(refusal_of(read_drawing(page("<g id='a'><use href='#b'/></g><g id='b'><use "
                                            "href='#a'/></g>"),
                                       "pot.svg")),

@@ -50,6 +50,20 @@ class Package(unittest.TestCase):
         self.assertEqual(self.bytes_of("straight.stl"), self.bytes_of("cli_straight.stl"))
         self.assertNotEqual(self.bytes_of("straight.stl"), self.bytes_of("py.stl"))
 
+    def test_names_the_solid_as_the_command_line_does(self):
+        claystack.throw(sample("vase.scene.json")).write(self.file("vase.pot.json"))
+        os.mkdir(self.file("py"))
+        for end in [".stl", ".obj", ".glb", ".step"]:
+            claystack.export(claystack.read_pot(self.file("vase.pot.json")),
+                             [self.file("py/vase" + end)])
+            self.run_program("export", self.file("vase.pot.json"), self.file("vase" + end))
+            self.assertEqual(self.bytes_of("py/vase" + end), self.bytes_of("vase" + end), end)
+
+    def test_refuses_an_impossible_density(self):
+        for density in [float("nan"), -1.0, 0.0, 26.0]:
+            with self.assertRaises(claystack.Error):
+                claystack.stack(1.0, [40.0], [20.0], density_g_cm3=density)
+
     def test_a_length_spreads_a_step_of_the_wall(self):
         step_mm, length_mm = 1.0, 9.0
         pot = claystack.stack(1.0, [40.0] * 50 + [40.0 + step_mm] * 50, [20.0] * 100)

@@ -62,7 +62,8 @@ TEST(Importing, ShowsWhatOfTheDrawingIsNotUsed) {
 }
 
 TEST(Importing, RecognisesDrawingsByExtension) {
-  for (const char* name : {"a.svg", "b.dxf", "c.csv"}) EXPECT_TRUE(is_drawing(name)) << name;
+  for (const char* name : {"a.svg", "b.dxf", "c.csv", "Jug.SVG", "JUG.Dxf"})
+    EXPECT_TRUE(is_drawing(name)) << name;
   for (const char* name : {"a.work", "a.pot.json", "svg", "a.svg.gz"})
     EXPECT_FALSE(is_drawing(name)) << name;
 }

@@ -137,7 +137,8 @@ TEST(LoadFirmware, RestartsOnAWrongEchoThenReportsIt) {
     EXPECT_EQ(loaded.has_value(), attempts == 3);
     if (loaded) continue;
     EXPECT_EQ(loaded.error().fault, DeviceFault::echo_error);
-    EXPECT_NE(loaded.error().what.find("tried 2 times"), std::string::npos);
+    EXPECT_NE(loaded.error().message.find("(tried 2 times); plug"), std::string::npos)
+        << loaded.error().message;
   }
 }
 

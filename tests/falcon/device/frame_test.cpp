@@ -154,8 +154,8 @@ RC_GTEST_PROP(FrameReader, ReadsFramesInChunksOfAnySize, ()) {
     rest = rest.subspan(size);
   }
   RC_ASSERT(read == sent);
+  read_all(reader, Bytes{'<'});  // it would discard an incomplete frame
   RC_ASSERT(reader.discarded() == 0u);
-  RC_ASSERT(reader.pending() == 0u);
 }
 
 RC_GTEST_PROP(FrameReader, CountsEveryByteOfNoise, ()) {
@@ -167,8 +167,9 @@ RC_GTEST_PROP(FrameReader, CountsEveryByteOfNoise, ()) {
   const auto noise = *rc::gen::container<Bytes>(byte);
   FrameReader reader;
   const std::size_t frames = read_all(reader, noise).size();
-  RC_ASSERT(reader.pending() < kFrameBytes);
-  RC_ASSERT(frames * kFrameBytes + reader.discarded() + reader.pending() == noise.size());
+  RC_ASSERT(frames * kFrameBytes + reader.discarded() + kFrameBytes > noise.size());
+  read_all(reader, Bytes{'<'});  // it discards an incomplete frame
+  RC_ASSERT(frames * kFrameBytes + reader.discarded() == noise.size());
 }
 
 /// A fault in a sequence of four frames, and the frames that stay whole.

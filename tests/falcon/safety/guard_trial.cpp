@@ -1,7 +1,5 @@
 #include "tests/falcon/safety/guard_trial.hpp"
 
-#include "falcon/safety/force_guard.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -4,6 +4,7 @@
 // computed from the faults alone, independently of the guard.
 
 #include "claystack/falcon/guard.hpp"
+#include "falcon/safety/force_guard.hpp"
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -27,6 +28,32 @@ struct Tick {
   bool clay_new = true;
   bool passive = true;
   enum class Command { none, pause, stop, rearm } command = Command::none;
+};
+
+struct NamedGuardRule {
+  GuardRule rule;
+  const char* name;
+};
+
+inline constexpr NamedGuardRule kGuardRules[] = {
+    {kRuleFinite, "finite force"},
+    {kRuleNotFiniteLatch, "SAFE after three invalid values"},
+    {kRuleLimit, "limit of the norm"},
+    {kRuleSlew, "slew"},
+    {kRuleSmallForce, "small force first"},
+    {kRuleRamp, "ramp"},
+    {kRuleReady, "ready or zero"},
+    {kRuleStaleFrames, "stale frames fade"},
+    {kRulePause, "re-engagement after a pause"},
+    {kRuleJump, "jumps"},
+    {kRuleStep, "step within bounds"},
+    {kRuleLate, "late tick is zero"},
+    {kRuleOverrun, "SAFE after an overrun"},
+    {kRuleOldClay, "old clay fades"},
+    {kRulePassive, "SAFE if not passive"},
+    {kRuleHeat, "heat"},
+    {kRuleLatch, "SAFE holds"},
+    {kRuleStop, "stop is permanent"},
 };
 
 /// A guard from which one rule can be removed.

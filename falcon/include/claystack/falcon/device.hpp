@@ -79,6 +79,11 @@ enum class LineMode {
   running,   ///< 1.5 Mbaud, latency 1 ms: frames
 };
 
+/// Integer divisors of the 3 MHz of the Falcon's USB chip, so that every driver sets the same.
+[[nodiscard]] constexpr int baud_of(LineMode mode) noexcept {
+  return mode == LineMode::greeting ? 9'600 : mode == LineMode::loading ? 142'857 : 1'500'000;
+}
+
 enum class WireStatus : std::uint8_t {
   ok,
   busy,  ///< nothing accepted: earlier bytes are still being sent

@@ -138,8 +138,6 @@ class FrameReader {
 
   /// Number of bytes so far that belonged to no whole frame.
   [[nodiscard]] std::uint64_t discarded() const noexcept { return discarded_; }
-  /// Number of bytes of an incomplete frame, below kFrameBytes.
-  [[nodiscard]] std::size_t pending() const noexcept { return size_; }
 
  private:
   void take(std::uint8_t byte) noexcept;
@@ -332,7 +330,7 @@ class FalconModel {
   Thumb thumb_;  // empty: `press`
   Kinematics kinematics_;
   Stage stage_ = Stage::waiting;
-  int baud_ = 9600;
+  int baud_ = baud_of(LineMode::greeting);
   bool dtr_ = true;
   bool unplugged_ = false;
   std::array<std::uint8_t, kFrameBytes> heard_{};  // of a greeting or a frame

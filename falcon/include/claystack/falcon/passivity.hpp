@@ -110,10 +110,9 @@ class EnergyObserver {
   /// Work displayed [mJ] minus the guaranteed dissipation by the arm's damping in contact. Negative
   /// while a contact has credit. Credit ends with its contact; a debt remains.
   [[nodiscard]] double injected_mj() const noexcept { return injected_; }
-  /// The same for oscillations within a contact, which a long press would hide by its credit: the
-  /// sum over the loops from one deepest point to the next, closed by any spring whose force grows
-  /// with depth. It never falls below zero.
-  [[nodiscard]] double looped_mj() const noexcept { return looped_; }
+  /// The larger of injected_mj() and the same for oscillations within a contact, which a long press
+  /// would hide by its credit: the sum over the loops from one deepest point to the next, closed by
+  /// any spring whose force grows with depth. It never falls below zero.
   [[nodiscard]] double debt_mj() const noexcept { return std::max(injected_, looped_); }
   /// Error bound of these values due to encoder steps: half a step times the total variation of the
   /// force in this contact or the last.

@@ -6,7 +6,7 @@
 //
 //   auto live = clay::servo::LiveThrow::build({.wheel = *wheel, .device = *device, .scene = scene},
 //                                             {.seconds = 2.0});
-//   live->start();
+//   if (!live->start()) return 1;
 //   const clay::servo::Ending ending = live->join();
 
 #include "claystack/core/result.hpp"
@@ -145,7 +145,7 @@ struct LiveProfile {
   double time_s = 0.0;     ///< time of its tick
 };
 
-/// What the system granted when real-time scheduling was requested.
+/// The response of the system to the request for real-time scheduling.
 struct Realtime {
   bool asked = false;  ///< requested
   bool fifo = false;   ///< SCHED_FIFO
@@ -228,8 +228,9 @@ class LiveThrow {
   ~LiveThrow();
 
   /// Starts the servo. After join() returned device_lost and the device was opened again,
-  /// continues, with the force ramped up from zero.
-  void start(Pace pace = Pace::real_time);
+  /// continues, with the force ramped up from zero. An error of kind `io` if the system starts no
+  /// thread: nothing runs then.
+  Result<void> start(Pace pace = Pace::real_time);
 
   /// Pace::stepped: ticks until the clock reaches `until_ns`, or to the end. Otherwise nothing.
   void advance(std::int64_t until_ns) noexcept;

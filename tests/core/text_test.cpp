@@ -1,0 +1,88 @@
+// Reading numbers and lines, and showing text of unknown origin.
+#include "core/text.hpp"
+
+#include "core/file_reader.hpp"
+#include "core/number_text.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clay {
+namespace {
+
+TEST(Shown, BoundsTextAndReplacesUnprintableCharacters) {
+  EXPECT_EQ(shown("abc", 3), "abc");
+  EXPECT_EQ(shown("abcd", 3), "abc...");
+  EXPECT_EQ(shown("a\x1b[2J\n\xc3\xa9~ "), "a?[2J???~ ");
+  EXPECT_EQ(shown(std::string(1000, 'x')), std::string(40, 'x') + "...");
+}
+
+TEST(NumberIn, ReadsTheWholeTextOrNothing) {
+  EXPECT_EQ(number_in<int>("-12"), -12);
+  EXPECT_EQ(number_in<double>("2.5e3"), 2500.0);
+  for (const char* text : {"", "+5", " 5", "5 ", "5x", "2147483648", "0x5"})
+    EXPECT_EQ(number_in<int>(text), std::nullopt) << text;
+  EXPECT_EQ(number_in<std::uint32_t>("-1"), std::nullopt);
+}
+
+TEST(TwoNumbers, ReadsBothOrNothing) {
+  EXPECT_EQ(two_numbers<int>("1280x720", 'x'), std::pair(1280, 720));
+  EXPECT_EQ(two_numbers<int>("-3/4", '/'), std::pair(-3, 4));
+  for (const char* text :
+       {"", "x", "5", "5x", "x5", "+5x7", "5x 7", "5x7x", "5x7 ", "5x4294967297"})
+    EXPECT_EQ(two_numbers<int>(text, 'x'), std::nullopt) << text;
+}
+
+/// The lines of a file of these bytes.
+struct Read {
+  std::vector<std::string> lines;
+  std::string rest;
+  std::uint64_t bytes = 0;
+  bool failed = false;
+};
+
+Read read_lines(const std::string& bytes, std::size_t most_bytes) {
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("lines." + std::to_string(::getpid()))).string();
+  std::ofstream(path, std::ios::binary) << bytes;
+  FileLines lines(FileReader::open(path).value(), most_bytes);
+  Read read;
+  for (;;) {
+    const auto line = lines.next();
+    read.failed = !line;
+    if (!line || !*line) break;
+    read.lines.emplace_back(**line);
+    EXPECT_EQ(lines.number(), read.lines.size());
+  }
+  read.rest = lines.rest();
+  read.bytes = lines.bytes();
+  std::filesystem::remove(path);
+  return read;
+}
+
+TEST(FileLines, JoinsLinesAcrossBlocks) {
+  for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{65534},
+                                   std::size_t{65535}, std::size_t{65536}, std::size_t{200'000}}) {
+    const std::string line(length, 'a');
+    const Read read = read_lines(line + "\nb\n\n" + line, 1u << 20);
+    EXPECT_EQ(read.lines, (std::vector<std::string>{line, "b", ""})) << length;
+    EXPECT_EQ(read.rest, line);
+    EXPECT_EQ(read.bytes, 2 * length + 4);
+    EXPECT_FALSE(read.failed);
+  }
+}
+
+TEST(FileLines, RefusesALineAboveTheLimit) {
+  EXPECT_TRUE(read_lines(std::string(500'000, 'a'), 100'000).failed);
+  EXPECT_FALSE(read_lines(std::string(90'000, 'a') + "\n", 100'000).failed);
+}
+
+}  // namespace
+}  // namespace clay
