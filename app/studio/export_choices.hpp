@@ -58,11 +58,15 @@ struct ExportFigures {
   double diameter_mm = 0.0, height_mm = 0.0, shrinkage = 0.0;
   bool fallen = false;  ///< walls are not measured
   double thinnest_mm = 0.0, thinnest_at_mm = 0.0;
+  bool thinnest_in_floor = false;  ///< then the height is that of no wall
   double faired_mm = 0.0, moved_mm = 0.0, moved_at_mm = 0.0;  ///< of the fairing, if there is one
   std::vector<std::string> problems;
+  std::size_t failed = 0;   ///< problems that fail a limit; they come first
   std::vector<Mark> marks;  ///< problems with a place
 };
-[[nodiscard]] ExportFigures figures_of(const solid::ExportReport& report);
+[[nodiscard]] ExportFigures figures_of(const solid::ExportReport& report, const ClayStack& stack);
+/// "1 limit failed", as the command says.
+[[nodiscard]] std::string failed_text(std::size_t count);
 
 /// The request for this pot. Errors: an unknown or unreadable process.
 [[nodiscard]] Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot& pot);

@@ -84,6 +84,8 @@ class SceneView {
   [[nodiscard]] render::Viewport viewport() const noexcept;
   /// Pixel of the window for a point (rho, y) [mm] of the section plane.
   [[nodiscard]] std::optional<glm::vec2> pixel_of(glm::dvec2 place_mm) const noexcept;
+  /// Pixels per mm at the axis, across the view.
+  [[nodiscard]] float px_per_mm() const noexcept;
   /// A place on the wheel, turned into the section plane.
   [[nodiscard]] glm::dvec2 in_section(const glm::dvec3& place_mm) const noexcept;
   /// Call once a frame.
