@@ -6,6 +6,7 @@
 #include "app/studio/new_scene.hpp"
 #include "app/studio/output_dialogs.hpp"
 #include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/widgets.hpp"
 #include "app/studio/samples.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/export/walls.hpp"
@@ -349,7 +350,11 @@ struct Performer {
   void operator()(const CloseNotice&) const { state.ui.notices.close(); }
 
   // --- Tool and wheel. ---------------------------------------------------------------------------
-  void operator()(const SetToolMode& set) const { state.settings.tool.mode = set.mode; }
+  void operator()(const SetToolMode& set) const {
+    state.settings.tool.mode = set.mode;
+    if (set.mode == ToolMode::pinch && state.document.has_work() && !state.stroke.throwing())
+      state.scene.keep_rim_in_view(state.stroke.view(), set.mode);
+  }
   void operator()(const StepTool& step) const {
     const ViewModel view = view_model(state);
     std::vector<const Command*> tools;
@@ -521,7 +526,10 @@ struct Performer {
     state.log("drawing: " + path.string());
   }
   void ask_for_name(std::optional<Action> next) const {
-    const std::filesystem::path path = unused_name(start_folder(state), state.document.name());
+    // The name is shown with its folder, as for an export; a page has no folders.
+    std::filesystem::path folder = start_folder(state);
+    if (folder.empty() && !kInPage) folder = std::filesystem::current_path();
+    const std::filesystem::path path = unused_name(folder, state.document.name());
     if (!open_desktop_dialog(state, FileDialog::Kind::save, path))
       state.ui.dialog = SaveDialog{path.string(), std::move(next)};
   }

@@ -103,8 +103,8 @@ std::string failed_text(std::size_t count) { return counted(count, "limit") + " 
 ExportFigures figures_of(const solid::ExportReport& report, const ClayStack& stack) {
   const double shrinkage = report.prepared.shrinkage;
   const solid::Wall& thinnest = report.walls.thinnest;
-  // The width in the numbers for the maker is that of the section; a mesh is narrower by its
-  // facets.
+  // The width is that of the section, as in the table of the command; a mesh has its corners
+  // farther out.
   ExportFigures figures{
       .has_solid = report.has_solid(),
       .triangles = report.size.triangles,

@@ -1,5 +1,5 @@
 #pragma once
-// What the export dialog asks for and what it shows: values that the window, its export thread and
+// Choices and figures of the export dialog: values that the window, its export thread and
 // the worker of a web page exchange.
 
 #include "app/cli/packed_pot.hpp"

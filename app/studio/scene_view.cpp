@@ -91,10 +91,11 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
   camera_.distance_mm *= kRoomForTool;
 }
 
-void SceneView::keep_rim_in_view(const render::PotView& pot) {
-  constexpr double kAboveMm = 40.0, kBack = 1.03;
+void SceneView::keep_rim_in_view(const render::PotView& pot, ToolMode mode) {
+  constexpr double kAboveMm = 40.0, kPulledPart = 0.5, kBack = 1.03;
   constexpr int kMostSteps = 60;
-  const double top_mm = pot.height_mm + kAboveMm;
+  const double pulled_mm = mode == ToolMode::pinch ? kPulledPart * pot.height_mm : 0.0;
+  const double top_mm = pot.height_mm + std::max(kAboveMm, pulled_mm);
   const auto hidden = [&] {
     const auto rim = pixel_of({0.0, top_mm}), foot = pixel_of({0.0, 0.0});
     return !rim || !foot || rim->y < rect_.corner_px.y ||

@@ -69,8 +69,10 @@ class SceneView {
 
   // --- Camera. -----------------------------------------------------------------------------------
   void look(const render::PotView& pot, ViewFrom from);
-  /// Moves back if the rim and 40 mm above it are not in sight.
-  void keep_rim_in_view(const render::PotView& pot);
+  /// Moves back if the rim and the room above it are not in sight: 40 mm, and for a pinch, which
+  /// pulls the wall up, at least half of the pot's height. Not during a stroke, because the pointer
+  /// would lead the tool elsewhere.
+  void keep_rim_in_view(const render::PotView& pot, ToolMode mode);
   void zoom(double notches) { camera_ = render::zoomed(camera_, notches); }
   /// To the right and up.
   void turn(glm::dvec2 by_rad);

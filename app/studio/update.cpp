@@ -85,7 +85,7 @@ void update_strokes(AppState& state) {
     report(state, *news.error);
   if (!news.stroke_ended) return;
   if (state.document.has_work() && !state.stroke.throwing())
-    state.scene.keep_rim_in_view(state.stroke.view());
+    state.scene.keep_rim_in_view(state.stroke.view(), state.settings.tool.mode);
   state.log(fmt::format("stroke ended: {} poses, {} ticks", news.poses, news.ticks));
   if (news.ending == servo::Ending::collapsed) {
     state.fall.begin(state.document.shared_pot(), state.now_s());

@@ -73,7 +73,7 @@ std::vector<std::string> figures_at_foot(const ViewModel& model, const render::T
   return lines;
 }
 
-std::vector<std::string> figures_at(const ViewModel& model, const render::ToolView& tool) {
+std::vector<std::string> figures_upright(const ViewModel& model, const render::ToolView& tool) {
   const LengthUnit unit = model.settings.unit;
   const render::PotView& pot = model.stroke.view();
   const double rho = std::hypot(tool.place_mm.x, tool.place_mm.z);
@@ -194,6 +194,11 @@ void draw_cut_level(const ViewModel& model, ImDrawList* draw, double y_mm, doubl
 
 }  // namespace
 
+std::vector<std::string> figures_at(const ViewModel& model, const render::ToolView& tool) {
+  return model.settings.tool.mode == ToolMode::trim_foot ? figures_at_foot(model, tool)
+                                                         : figures_upright(model, tool);
+}
+
 void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
   if (!model.document.has_work() || !model.ui.shows<NoDialog>()) return;
   if (model.readings.fallen()) return;
@@ -216,9 +221,7 @@ void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
     draw_floor(model, draw, rect.corner_px.x);
   if (cuts_level(model.settings.tool.mode)) draw_cut_level(model, draw, tool->place_mm.y, widest);
   draw_pull(model, draw, at);
-  if (near)
-    draw_lines(model, draw, turned ? figures_at_foot(model, *tool) : figures_at(model, *tool),
-               *tool, at, rect);
+  if (near) draw_lines(model, draw, figures_at(model, *tool), *tool, at, rect);
   draw->PopClipRect();
 }
 

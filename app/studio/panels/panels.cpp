@@ -94,7 +94,7 @@ constexpr std::array<std::string_view, 16> kGroups = {
     "tool.next",     "tool.sphere",     "tool.smaller",     "view.nearer",
     "view.cut_half", "view.goal",       "view.certificate", "view.theme"};
 
-/// What is needed most, at the right end of the menu.
+/// The commands that are needed most, at the right end of the menu.
 void draw_main_buttons(const ViewModel& model, Actions& actions) {
   struct Shown {
     std::string_view id;

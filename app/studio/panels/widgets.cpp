@@ -197,11 +197,14 @@ void faint_text(const Palette& colours, const std::string& text) {
 void problem_text(const std::string& problem, const ImVec4& colour) {
   constexpr float kTipEm = 24.0f;
   const std::string whole = sentence(problem);
-  const std::size_t source = whole.rfind(" (");
-  const bool has_source =
-      source != std::string::npos && whole.find(')', source) + 1 == whole.size();
-  wrapped_text(has_source ? whole.substr(0, source) : whole, colour);
-  if (has_source && ImGui::IsItemHovered())
+  std::string shown = whole;
+  for (std::size_t from = shown.find(" ("); from != std::string::npos; from = shown.find(" (")) {
+    const std::size_t to = shown.find(')', from);
+    if (to == std::string::npos) break;
+    shown.erase(from, to + 1 - from);
+  }
+  wrapped_text(shown, colour);
+  if (shown != whole && ImGui::IsItemHovered())
     ImGui::SetTooltip("%s", wrapped(whole, kTipEm * ImGui::GetFontSize()).c_str());
 }
 

@@ -67,7 +67,8 @@ void form_place(std::string& name, std::string& folder, Actions& actions);
 void draw_half_section(const render::PotView& pot, ImVec2 corner, float side,
                        const Palette& colours);
 
-/// A problem that the export found, without the source of the limit, which is in its tooltip.
+/// A problem that the export found. Its tooltip has the parts in brackets, such as the source of a
+/// limit.
 void problem_text(const std::string& problem, const ImVec4& colour);
 
 /// Lines of at most `width_px`, broken at blanks, but not between a number and its unit. A longer

@@ -214,7 +214,7 @@ std::string thin_text(double thickness_mm, double y_mm, const PotCheck& check, L
                      length_text(y_mm, unit));
 }
 
-/// What a vessel lacks, which is no fault of a print; empty: nothing.
+/// A lack of the vessel, which is no fault of a print; empty: none.
 std::string lack_text(const PotForm& form, LengthUnit unit) {
   if (form.floorless) return "no floor";
   if (form.throttle_mm)
