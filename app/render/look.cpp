@@ -8,13 +8,13 @@ namespace clay::render {
 namespace {
 
 Look light_look() noexcept {
-  return {{1.75f, 1.62f, 1.46f},    {0.58f, 0.62f, 0.70f},  {0.34f, 0.29f, 0.26f},
+  return {{1.75f, 1.62f, 1.46f},    {0.58f, 0.62f, 0.70f},  {0.44f, 0.36f, 0.30f},
           {0.90f, 0.92f, 1.00f},    linear_of(0xCFCBC5),    linear_of(0xF6F4F0),
           {0.330f, 0.335f, 0.345f}, {0.46f, 0.30f, 0.145f}, {0.86f, 0.12f, 0.03f}};
 }
 
 Look dark_look() noexcept {
-  return {{1.70f, 1.52f, 1.32f},    {0.34f, 0.38f, 0.46f},  {0.16f, 0.13f, 0.12f},
+  return {{1.70f, 1.52f, 1.32f},    {0.34f, 0.38f, 0.46f},  {0.30f, 0.23f, 0.18f},
           {0.85f, 0.95f, 1.15f},    linear_of(0x15171B),    linear_of(0x3A3F47),
           {0.200f, 0.205f, 0.215f}, {0.46f, 0.30f, 0.145f}, {1.00f, 0.22f, 0.05f}};
 }

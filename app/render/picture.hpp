@@ -60,8 +60,8 @@ inline constexpr double kArrowMmPerN = 12.0, kArrowLimitN = 5.0;
 
 enum class Theme { light, dark };
 
-/// Details that a picture adds to the geometry. `clay`: grooves and bands as hands leave them, and
-/// a rim that looks rounded; none of it is in the pot. `geometry`: nothing.
+/// Additions of a picture to the geometry. `clay`: grooves and bands as hands leave them, and a rim
+/// that looks rounded; none of it is in the pot. `geometry`: nothing.
 enum class Style { clay, geometry };
 
 /// The part of the pot removed to show its section.

@@ -61,7 +61,7 @@ void ScenePainter::paint(const Picture& picture, Viewport viewport, PixelRows ro
   const SceneFrame frame(picture, viewport);
   FrameBlock block = frame.block;
   if (!picture.alone && frame.from_above()) {
-    const ShadowMap shadow = shadow_of(frame.bodies, glm::vec3(frame.block.to_lamp));
+    const ShadowMap shadow = shadow_of(frame.bodies, glm::vec3(frame.block.to_lamp), frame.sweep);
     block.viewport.z = shadow.half_side_mm;
     send(shadow);
   }

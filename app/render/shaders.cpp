@@ -181,7 +181,9 @@ void main() {
   float upright = length(n - axis * dot(n, axis));  // grooves run along walls, not along rims
   float size = frame.wheel.w;
   float groove = grooves(own.y, azimuth, size, fwidth(own.y)) * upright * hands;
-  n = normalize(n + axis * groove);
+  // Where the light grazes the wall, a groove would be black beside a lit one.
+  float grazed = smoothstep(0.0, 0.35, abs(dot(n, frame.to_lamp.xyz)));
+  n = normalize(n + axis * groove * grazed);
   float lit = neck.x > 0.0 ? min(passes(neck, l), passes(rim, l)) : 1.0;
   lit = mix(lit, 1.0, 0.6 * cut * step(1e-6, neck.x));
   float open = mix(shade.x, 1.0, 0.35 * cut * step(1e-6, neck.x));

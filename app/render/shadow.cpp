@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
 
 namespace clay::render {
 namespace {
@@ -40,6 +41,27 @@ Caster caster_of(const Body& body) {
   return caster;
 }
 
+/// The wedge of a body that is cut away, by the inward normals of both faces of the cut.
+struct Wedge {
+  glm::vec2 first{0.0f}, last{0.0f};  ///< (x, z)
+  bool empty = true;
+};
+
+Wedge wedge_beside(glm::vec2 sweep) {
+  constexpr float kTurn = 6.2831853f, kRight = 0.25f * kTurn, kLeast = 1e-3f;
+  const auto towards = [](float azimuth) {
+    return glm::vec2(std::sin(azimuth), std::cos(azimuth));
+  };
+  if (sweep.y - sweep.x > kTurn - kLeast) return {};
+  return {towards(sweep.x - kRight), towards(sweep.y + kRight), false};
+}
+
+/// How far a place is within the wedge; negative: outside.
+float depth_in(const Wedge& wedge, float x, float z) {
+  const glm::vec2 at(x, z);
+  return std::min(glm::dot(at, wedge.first), glm::dot(at, wedge.last));
+}
+
 float smooth(float t) {
   t = std::clamp(t, 0.0f, 1.0f);
   return t * t * (3.0f - 2.0f * t);
@@ -47,7 +69,7 @@ float smooth(float t) {
 
 /// The fraction of the lamp that is hidden from a point of the ground.
 float lamp_hidden(const Caster& caster, const glm::vec3& point, const glm::vec3& to_lamp,
-                  float texel) {
+                  const Wedge& wedge, float texel) {
   const glm::vec3 from(caster.back * glm::vec4(point, 1.0f));
   const glm::vec3 way(caster.back * glm::vec4(to_lamp, 0.0f));
   if (std::abs(way.y) < 1e-4f) return 0.0f;
@@ -60,17 +82,21 @@ float lamp_hidden(const Caster& caster, const glm::vec3& point, const glm::vec3&
     const float reach = disc.radius + width, squared = x * x + z * z;
     if (squared >= reach * reach) continue;
     const float off = std::sqrt(squared) - disc.radius;
-    hidden = std::max(hidden, smooth(0.5f - 0.5f * off / width));
+    float covered = smooth(0.5f - 0.5f * off / width);
+    if (!wedge.empty) covered *= smooth(0.5f - 0.5f * depth_in(wedge, x, z) / width);
+    hidden = std::max(hidden, covered);
     if (hidden >= 1.0f) break;
   }
   return hidden;
 }
 
-float sky_hidden(const Caster& caster, const glm::vec3& point) {
+float sky_hidden(const Caster& caster, const glm::vec3& point, const Wedge& wedge) {
+  const glm::vec3 own(caster.back * glm::vec4(point, 1.0f));
+  const float cut = wedge.empty ? 0.0f : std::max(0.0f, depth_in(wedge, own.x, own.z));
   float hidden = 0.0f;
   for (const Disc& disc : caster.discs) {
     const float x = point.x - disc.centre.x, z = point.z - disc.centre.z;
-    const float off = std::max(0.0f, std::sqrt(x * x + z * z) - disc.radius);
+    const float off = std::max(cut, std::sqrt(x * x + z * z) - disc.radius);
     // exp(-t) is below 1 / (1 + t): most discs need no exponential.
     if (disc.strength * disc.reach <= hidden * (disc.reach + off)) continue;
     hidden = std::max(hidden, disc.strength * std::exp(-off / disc.reach));
@@ -84,8 +110,9 @@ std::uint8_t byte_of(float part) {
 
 }  // namespace
 
-ShadowMap shadow_of(std::span<const Body> bodies, const glm::vec3& to_lamp) {
+ShadowMap shadow_of(std::span<const Body> bodies, const glm::vec3& to_lamp, glm::vec2 sweep) {
   ShadowMap map;
+  const Wedge wedge = wedge_beside(sweep);
   std::vector<Caster> casters;
   float reach = 1e-3f;
   for (const Body& body : bodies) {
@@ -101,8 +128,8 @@ ShadowMap shadow_of(std::span<const Body> bodies, const glm::vec3& to_lamp) {
         (static_cast<float>(i / ShadowMap::kSide) + 0.5f) * texel - map.half_side_mm};
     float lamp = 1.0f, sky = 1.0f;
     for (const Caster& caster : casters) {
-      lamp = std::min(lamp, 1.0f - lamp_hidden(caster, point, to_lamp, texel));
-      sky *= 1.0f - sky_hidden(caster, point);
+      lamp = std::min(lamp, 1.0f - lamp_hidden(caster, point, to_lamp, wedge, texel));
+      sky *= 1.0f - sky_hidden(caster, point, wedge);
     }
     map.light[i] = {byte_of(lamp), byte_of(sky)};
   }

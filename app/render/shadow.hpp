@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -26,7 +27,8 @@ struct ShadowMap {
   float half_side_mm = 1.0f;  ///< covers the square of twice this side about the axis
 };
 
-/// `to_lamp`: unit, upwards.
-[[nodiscard]] ShadowMap shadow_of(std::span<const Body> bodies, const glm::vec3& to_lamp);
+/// `to_lamp`: unit, upwards. `sweep`: azimuths between which the bodies are not cut away [rad].
+[[nodiscard]] ShadowMap shadow_of(std::span<const Body> bodies, const glm::vec3& to_lamp,
+                                  glm::vec2 sweep);
 
 }  // namespace clay::render

@@ -6,6 +6,7 @@
 #include "app/studio/new_scene.hpp"
 #include "app/studio/output_dialogs.hpp"
 #include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/widgets.hpp"
 #include "app/studio/samples.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/export/walls.hpp"
@@ -280,7 +281,10 @@ struct Performer {
     // If the next work could not be opened, the current one remains.
     if (!state.done) state.document.keep_changes();
   }
-  void operator()(const EditExport& edit) const { state.ui.exporting.choices = edit.choices; }
+  void operator()(const EditExport& edit) const {
+    state.ui.exporting.choices = edit.choices;
+    (*this)(SetProcess{edit.choices.process});
+  }
   void operator()(const EditPicture& edit) const {
     if (edit.file == state.ui.pictures.file) return;
     state.ui.pictures.file = edit.file;
@@ -311,12 +315,12 @@ struct Performer {
            "window, or open it by name (Ctrl+O)",
            kNoteS);
   }
-  /// Sets the process for the walls, and for the export if its dialog is open.
+  /// Sets the process of a file.
   void operator()(const UseProcess& use) const {
     if (auto process = solid::read_process(use.path.string()); !process)
       return report(state, process.error());
     remember_process(state.settings, use.path);
-    if (state.ui.shows<ExportDialog>()) state.ui.exporting.choices.process = state.settings.process;
+    (*this)(SetProcess{state.settings.process});
     state.log("process: " + use.path.string());
   }
   void operator()(const EditImport& edit) const {
@@ -346,7 +350,11 @@ struct Performer {
   void operator()(const CloseNotice&) const { state.ui.notices.close(); }
 
   // --- Tool and wheel. ---------------------------------------------------------------------------
-  void operator()(const SetToolMode& set) const { state.settings.tool.mode = set.mode; }
+  void operator()(const SetToolMode& set) const {
+    state.settings.tool.mode = set.mode;
+    if (set.mode == ToolMode::pinch && state.document.has_work() && !state.stroke.throwing())
+      state.scene.keep_rim_in_view(state.stroke.view(), set.mode);
+  }
   void operator()(const StepTool& step) const {
     const ViewModel view = view_model(state);
     std::vector<const Command*> tools;
@@ -421,6 +429,7 @@ struct Performer {
   }
   void operator()(const FoldPanel& fold) const {
     state.settings.open[std::string(fold.id)] = fold.open;
+    state.ui.reveal = fold.open ? fold.id : std::string_view();
   }
   void operator()(const ToggleTheme&) const {
     (*this)(SetTheme{state.settings.theme == Theme::dark ? Theme::light : Theme::dark});
@@ -432,6 +441,10 @@ struct Performer {
   template <auto Field>
   void operator()(const Set<Field>& set) const {
     state.settings.*Field = set.value;
+  }
+  /// The walls and the export have the same process.
+  void operator()(const SetProcess& set) const {
+    state.settings.process = state.ui.exporting.choices.process = set.value;
   }
   void operator()(const SetTheme& set) const {
     state.settings.theme = set.value;
@@ -473,7 +486,7 @@ struct Performer {
     const auto begun = state.guide.begin(samples().at(sample), demonstration);
     if (!succeeded(state, begun)) return;
     // The verdict of a first pot is that for the usual printer.
-    if (state.settings.process.empty()) state.settings.process = "fdm";
+    if (state.settings.process.empty()) (*this)(SetProcess{"fdm"});
     state.scene.cut = render::Cut::half;  // the path in the bore is in sight
     state.scene.look(state.stroke.view(), ViewFrom::lesson);
   }
@@ -513,7 +526,10 @@ struct Performer {
     state.log("drawing: " + path.string());
   }
   void ask_for_name(std::optional<Action> next) const {
-    const std::filesystem::path path = unused_name(start_folder(state), state.document.name());
+    // The name is shown with its folder, as for an export; a page has no folders.
+    std::filesystem::path folder = start_folder(state);
+    if (folder.empty() && !kInPage) folder = std::filesystem::current_path();
+    const std::filesystem::path path = unused_name(folder, state.document.name());
     if (!open_desktop_dialog(state, FileDialog::Kind::save, path))
       state.ui.dialog = SaveDialog{path.string(), std::move(next)};
   }

@@ -25,7 +25,9 @@ constexpr std::string_view kGoal = "goal", kSection = "section", kWalls = "walls
 
 bool always(View) { return true; }
 bool in_lesson(View view) { return view.guide.active(); }
-bool in_step(View view) { return view.guide.active() && !view.guide.finished(); }
+bool in_step(View view) {
+  return view.guide.active() && !view.guide.finished() && !view.readings.fallen();
+}
 bool has_work(View view) { return view.document.has_work(); }
 bool at_rest(View view) { return view.at_rest(); }
 bool between(View view) { return view.between_strokes(); }
@@ -43,17 +45,22 @@ bool scrubbing(View view) { return view.document.scrubbing(); }
 bool asks(View view) { return view.ui.shows<UnsavedDialog>(); }
 bool asks_to_replace(View view) { return view.ui.shows<ReplaceDialog>(); }
 bool recoverable(View view) { return !view.recoverable.empty(); }
-bool can_export(View view) {
+const char* why_no_file_name(const std::string& name) {
+  return name.empty()                          ? "the files need a name"
+         : name.find('/') != std::string::npos ? "a name has no \"/\": choose the folder below it"
+                                               : nullptr;
+}
+const char* why_no_write(View view) {
+  if (view.ui.shows<PictureDialog>())
+    return view.picture_running ? "a picture is being written"
+                                : why_no_file_name(view.ui.pictures.file.name);
+  if (!view.ui.shows<ExportDialog>()) return "no dialog of an export is open";
+  if (view.writing()) return "an export is in progress";
   const ExportChoices& choices = view.ui.exporting.choices;
-  return view.ui.shows<ExportDialog>() && !view.writing() && !choices.name.empty() &&
-         choices.name.find('/') == std::string::npos && !paths_of(choices).empty();
+  if (const char* why = why_no_file_name(choices.name)) return why;
+  return paths_of(choices).empty() ? "no file is chosen" : nullptr;
 }
-bool can_write_picture(View view) {
-  const std::string& name = view.ui.pictures.file.name;
-  return view.ui.shows<PictureDialog>() && !view.picture_running && !name.empty() &&
-         name.find('/') == std::string::npos;
-}
-bool can_write(View view) { return can_export(view) || can_write_picture(view); }
+bool can_write(View view) { return why_no_write(view) == nullptr; }
 bool writing(View view) { return view.writing() || view.picture_running; }
 bool has_written(View view) {
   return view.ui.shows<PictureDialog>() ? !view.ui.pictures.written.empty()
@@ -162,7 +169,7 @@ const std::array kCommands = {
     C{"replace.cancel", "Cancel", kNone, kNone, KeepFiles{}, asks_to_replace},
     C{"recover.take", "Recover the unsaved work", key(GLFW_KEY_R, kCtrl), kNone, RecoverWork{0}, recoverable},
     C{"recover.discard", "Discard the unsaved work", kNone, kNone, DiscardRecoverable{0}, recoverable},
-    C{"export.write", "Export the files", key(GLFW_KEY_ENTER, kCtrl), kNone, WriteExport{}, can_write},
+    C{"export.write", "Export the files", key(GLFW_KEY_ENTER, kCtrl), kNone, WriteExport{}, can_write, nullptr, why_no_write},
     C{"export.cancel", "Cancel the export", kNone, kNone, CancelExport{}, writing},
     C{"export.folder", "Open the folder", kNone, kNone, ShowExportFolder{}, has_written},
     C{"import.take", "Place on the wheel", key(GLFW_KEY_ENTER, kCtrlShift), kNone, TakeImport{}, can_import},

@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace clay::studio {
@@ -20,6 +21,23 @@ namespace {
 bool is_pot(const std::string& name) { return cli::pot_encoding_of(name).has_value(); }
 
 bool is_work(const std::string& name) { return ends_ignoring_case(name, ".work"); }
+
+/// A scene, where no file of another kind was recognised.
+Result<SceneSpec> scene_in(const std::string& text, const std::string& name) {
+  constexpr const char* kOpened =
+      "a scene (.scene.json), a pot (.pot.json, .pot.cbor), a work (.work), a 3MF with its pot, or "
+      "a drawing (.svg, .dxf, .csv)";
+  constexpr std::array kMeshes = {".stl", ".obj", ".drc", ".ply", ".off", ".glb"};
+  if (std::ranges::any_of(kMeshes,
+                          [&](const char* ending) { return ends_ignoring_case(name, ending); }))
+    return failure(
+        ErrorKind::bad_input,
+        fmt::format("{}: expected {}, found a mesh; `claystack import` makes a pot of it", name,
+                    kOpened));
+  return parse_scene(text, name).map_error([&](Error error) {
+    return kind_error(std::move(error), text, name, kOpened);
+  });
+}
 
 SceneSpec current_scene(const WorkRecord& record) {
   return record.scenes.at(record.nodes.at(record.at).scene);
@@ -107,7 +125,7 @@ Result<Document::Remark> Document::open(const std::filesystem::path& path) {
           ? cli::pot_from(*text, name).and_then([&](Pot&& pot) {
               return begin(history::scene_for(pot, path.stem().stem().string()), pot);
             })
-          : parse_scene(*text, name).and_then([&](SceneSpec&& scene) { return begin(scene); });
+          : scene_in(*text, name).and_then([&](SceneSpec&& scene) { return begin(scene); });
   if (!begun) return tl::make_unexpected(begun.error());
   return Remark();
 }

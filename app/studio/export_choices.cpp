@@ -3,6 +3,8 @@
 #include "app/cli/memory_room.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/report_file.hpp"
+#include "app/studio/readings/pot_form.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -96,26 +98,39 @@ std::vector<std::string> standing_files(const ExportChoices& choices) {
   return paths;
 }
 
-ExportFigures figures_of(const solid::ExportReport& report) {
-  ExportFigures figures{.has_solid = report.has_solid(),
-                        .triangles = report.size.triangles,
-                        .meshes = {},
-                        .diameter_mm = report.size.diameter_mm,
-                        .height_mm = report.size.height_mm,
-                        .shrinkage = report.prepared.shrinkage,
-                        .fallen = report.collapsed.has_value(),
-                        .thinnest_mm = report.thinnest_mm(),
-                        .thinnest_at_mm = report.walls.thinnest.from.y,
-                        .faired_mm = report.section.smoothed.fairing.length_mm,
-                        .moved_mm = report.section.smoothed.fairing.moved_mm,
-                        .moved_at_mm = report.section.smoothed.fairing.moved_at_mm,
-                        .problems = {},
-                        .marks = {}};
+std::string failed_text(std::size_t count) { return counted(count, "limit") + " failed"; }
+
+ExportFigures figures_of(const solid::ExportReport& report, const ClayStack& stack) {
+  const double shrinkage = report.prepared.shrinkage;
+  const solid::Wall& thinnest = report.walls.thinnest;
+  // The width is that of the section, as in the table of the command; a mesh has its corners
+  // farther out.
+  ExportFigures figures{
+      .has_solid = report.has_solid(),
+      .triangles = report.size.triangles,
+      .meshes = {},
+      .diameter_mm = report.maker ? report.maker->thrown.size.diameter_mm : report.size.diameter_mm,
+      .height_mm = report.size.height_mm,
+      .shrinkage = shrinkage,
+      .fallen = report.collapsed.has_value(),
+      .thinnest_mm = report.thinnest_mm(),
+      .thinnest_at_mm = thinnest.from.y,
+      .thinnest_in_floor = in_floor(form_of(stack), on_pot(thinnest.from, shrinkage),
+                                    on_pot(thinnest.to, shrinkage)),
+      .faired_mm = report.section.smoothed.fairing.length_mm,
+      .moved_mm = report.section.smoothed.fairing.moved_mm,
+      .moved_at_mm = report.section.smoothed.fairing.moved_at_mm,
+      .problems = {},
+      .failed = 0,
+      .marks = {}};
   for (const solid::FileReport& file : report.files)
     if (file.kind == solid::FileKind::mesh) figures.meshes.push_back({file.format, file.bytes});
-  for (const solid::Problem& problem : solid::problems_of(report)) {
+  std::vector<solid::Problem> problems = solid::problems_of(report);
+  const auto warnings = std::ranges::stable_partition(problems, &solid::Problem::fails);
+  figures.failed = static_cast<std::size_t>(warnings.begin() - problems.begin());
+  for (const solid::Problem& problem : problems) {
     figures.problems.push_back(problem.text);
-    if (problem.at) figures.marks.push_back({on_pot(*problem.at, figures.shrinkage), problem.text});
+    if (problem.at) figures.marks.push_back({on_pot(*problem.at, shrinkage), problem.text});
   }
   return figures;
 }
@@ -134,7 +149,7 @@ Result<ExportFigures> run_export(const Pot& pot, const ExportChoices& choices, E
         return kind == ExportKind::files ? solid::export_files(pot, request, show_stage)
                                          : solid::preview_export(pot, request, show_stage);
       })
-      .map(&figures_of);
+      .map([&](const solid::ExportReport& report) { return figures_of(report, pot.stack); });
 }
 
 }  // namespace clay::studio

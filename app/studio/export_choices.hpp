@@ -1,5 +1,5 @@
 #pragma once
-// What the export dialog asks for and what it shows: values that the window, its export thread and
+// Choices and figures of the export dialog: values that the window, its export thread and
 // the worker of a web page exchange.
 
 #include "app/cli/packed_pot.hpp"
@@ -58,11 +58,15 @@ struct ExportFigures {
   double diameter_mm = 0.0, height_mm = 0.0, shrinkage = 0.0;
   bool fallen = false;  ///< walls are not measured
   double thinnest_mm = 0.0, thinnest_at_mm = 0.0;
+  bool thinnest_in_floor = false;  ///< then the height is that of no wall
   double faired_mm = 0.0, moved_mm = 0.0, moved_at_mm = 0.0;  ///< of the fairing, if there is one
   std::vector<std::string> problems;
+  std::size_t failed = 0;   ///< problems that fail a limit; they come first
   std::vector<Mark> marks;  ///< problems with a place
 };
-[[nodiscard]] ExportFigures figures_of(const solid::ExportReport& report);
+[[nodiscard]] ExportFigures figures_of(const solid::ExportReport& report, const ClayStack& stack);
+/// "1 limit failed", as the command says.
+[[nodiscard]] std::string failed_text(std::size_t count);
 
 /// The request for this pot. Errors: an unknown or unreadable process.
 [[nodiscard]] Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot& pot);

@@ -43,7 +43,7 @@ struct Sides {
                                                                ///< negative: nowhere in the bore
 };
 
-Sides sides_at(const render::PotView& pot, const Tool& tool, double y_mm) {
+Sides sides_at(const render::PotView& pot, const Tool& tool, double y_mm, Bore bore = Bore::open) {
   Sides sides;
   const Reach reach(pot, tool, y_mm);
   for (std::size_t row = reach.first(); row < reach.last(); ++row) {
@@ -52,6 +52,7 @@ Sides sides_at(const render::PotView& pot, const Tool& tool, double y_mm) {
     sides.outside_mm = std::max(sides.outside_mm, pot.rows[row].outer_mm + width + kClearanceMm);
     sides.inside_mm = std::min(sides.inside_mm, pot.rows[row].inner_mm - width - kClearanceMm);
   }
+  if (bore == Bore::covered) sides.inside_mm = -1.0;
   return sides;
 }
 
@@ -60,20 +61,22 @@ bool is_free(const Sides& sides, double rho) {
 }
 
 /// Moves straight up in steps of one row until the tool is clear.
-double free_height(const render::PotView& pot, const Tool& tool, double rho, double y_mm) {
+double free_height(const render::PotView& pot, const Tool& tool, double rho, double y_mm,
+                   Bore bore) {
   const double step =
       pot.rows.empty() ? 1.0 : std::max(0.1, pot.height_mm / static_cast<double>(pot.rows.size()));
   const double top = pot.height_mm - tool.low() + kClearanceMm;
-  while (y_mm < top && !is_free(sides_at(pot, tool, y_mm), rho)) y_mm += step;
+  while (y_mm < top && !is_free(sides_at(pot, tool, y_mm, bore), rho)) y_mm += step;
   return std::min(y_mm, top);
 }
 
 }  // namespace
 
-glm::dvec2 free_place(const render::PotView& pot, const Tool& tool, glm::dvec2 place_mm) {
+glm::dvec2 free_place(const render::PotView& pot, const Tool& tool, glm::dvec2 place_mm,
+                      Bore bore) {
   place_mm.y = std::max(place_mm.y, 0.0);
   const double side = place_mm.x < 0.0 ? -1.0 : 1.0, rho = std::abs(place_mm.x);
-  const Sides sides = sides_at(pot, tool, place_mm.y);
+  const Sides sides = sides_at(pot, tool, place_mm.y, bore);
   if (is_free(sides, rho)) return place_mm;
   glm::dvec2 nearest(side * sides.outside_mm, place_mm.y);
   double least = sides.outside_mm - rho;
@@ -81,7 +84,7 @@ glm::dvec2 free_place(const render::PotView& pot, const Tool& tool, glm::dvec2 p
     nearest.x = side * sides.inside_mm;
     least = rho - sides.inside_mm;
   }
-  const double above = free_height(pot, tool, rho, place_mm.y);
+  const double above = free_height(pot, tool, rho, place_mm.y, bore);
   if (above - place_mm.y < least) nearest = {place_mm.x, above};
   return nearest;
 }

@@ -13,11 +13,14 @@ namespace clay::studio {
 /// Minimum distance between tool and clay [mm].
 inline constexpr double kClearanceMm = 0.25;
 
+/// Whether the tool can be in the bore: not in that of a pot that stands upside down.
+enum class Bore { open, covered };
+
 /// The nearest place to `place_mm` (rho, y) at which `tool` is clear of the clay: the place itself,
-/// beside it at the same height (outside or in the bore), or straight above it. rho keeps its sign,
-/// and y is at least 0.
+/// beside it at the same height (outside or in an open bore), or straight above it. rho keeps its
+/// sign, and y is at least 0.
 [[nodiscard]] glm::dvec2 free_place(const render::PotView& pot, const Tool& tool,
-                                    glm::dvec2 place_mm);
+                                    glm::dvec2 place_mm, Bore bore = Bore::open);
 
 /// A wall that is led out over the foot stays this far within it [mm].
 inline constexpr double kFootSpareMm = 3.0;

@@ -41,7 +41,7 @@ struct GamepadState {
   friend bool operator==(const GamepadState&, const GamepadState&) = default;
 };
 
-/// What a button does.
+/// The effect of a button.
 struct PadBinding {
   PadButton button;
   std::string_view name;     ///< "LB"

@@ -43,7 +43,8 @@ class MouseDevice final : public falcon::HapticDevice {
 
   /// Start position of the tool for the next servo. Not while a servo runs.
   void begin_at(const glm::dvec3& place_mm) noexcept;
-  /// What the tool meets. Not while a servo runs; its clay and tool must outlive that servo.
+  /// The clay that the tool meets. Not while a servo runs; its clay and tool must outlive that
+  /// servo.
   void meet(const Resistance& resistance) noexcept { resistance_ = resistance; }
   /// How far the spring is stretched: from the tool to its target [mm]. For any thread.
   [[nodiscard]] double stretch_mm() const noexcept {

@@ -52,8 +52,9 @@ void write_export(AppState& state, bool replace) {
   exporting.written.clear();
   exporting.problem.clear();
   exporting.result.clear();
+  exporting.grade = Grade::note;
   state.log("export started");
-  state.exporter.write(std::make_shared<const Pot>(state.document.pot()), exporting.choices);
+  state.exporter.write(state.document.shared_pot(), exporting.choices);
 }
 
 void show_written_folder(AppState& state) {
@@ -124,11 +125,11 @@ void show_export(AppState& state) {
   state.stroke.release();
   ExportState& exporting = state.ui.exporting;
   ExportChoices& choices = exporting.choices;
-  if (choices.name.empty()) choices.process = state.settings.process;
+  choices.process = state.settings.process;
   choices.name = export_name(state);
   choices.folder = export_folder(state);
   choices.material = state.settings.material.id;
-  exporting = {.choices = choices, .preview = {}, .problem = {}, .written = {}, .result = {}};
+  exporting = ExportState{.choices = choices};
   state.ui.dialog = ExportDialog{};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the dialogs for exports, pictures and turntables do with the state.
+// Actions of the dialogs for exports, pictures and turntables.
 
 namespace clay::studio {
 

@@ -31,6 +31,12 @@ render::PotView shown_pot(const ViewModel& view) {
   return view.settings.tool.mode == ToolMode::trim_foot ? render::turned(pot) : pot;
 }
 
+/// Where a press near this place begins.
+glm::dvec2 free_in(const ViewModel& view, const Tool& tool, glm::dvec2 place_mm) {
+  const bool turned = view.settings.tool.mode == ToolMode::trim_foot;
+  return free_place(shown_pot(view), tool, place_mm, turned ? Bore::covered : Bore::open);
+}
+
 ToolSpec pinching(ToolChoice choice) {
   choice.mode = ToolMode::pinch;
   return tool_of(choice);
@@ -85,10 +91,11 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
   camera_.distance_mm *= kRoomForTool;
 }
 
-void SceneView::keep_rim_in_view(const render::PotView& pot) {
-  constexpr double kAboveMm = 40.0, kBack = 1.03;
+void SceneView::keep_rim_in_view(const render::PotView& pot, ToolMode mode) {
+  constexpr double kAboveMm = 40.0, kPulledPart = 0.5, kBack = 1.03;
   constexpr int kMostSteps = 60;
-  const double top_mm = pot.height_mm + kAboveMm;
+  const double pulled_mm = mode == ToolMode::pinch ? kPulledPart * pot.height_mm : 0.0;
+  const double top_mm = pot.height_mm + std::max(kAboveMm, pulled_mm);
   const auto hidden = [&] {
     const auto rim = pixel_of({0.0, top_mm}), foot = pixel_of({0.0, 0.0});
     return !rim || !foot || rim->y < rect_.corner_px.y ||
@@ -125,7 +132,7 @@ glm::vec2 SceneView::pointer_px() const noexcept {
 
 glm::dvec2 SceneView::free_at(const ViewModel& view, glm::dvec2 place_mm) const {
   const auto tool = chosen_tool(view);
-  return tool ? free_place(shown_pot(view), *tool, place_mm) : place_mm;
+  return tool ? free_in(view, *tool, place_mm) : place_mm;
 }
 
 void SceneView::turn(glm::dvec2 by_rad) {
@@ -137,6 +144,11 @@ std::optional<glm::vec2> SceneView::pixel_of(glm::dvec2 place_mm) const noexcept
   const auto pixel = render::pixel_of(camera_, viewport(), on_wheel(place_mm));
   if (!pixel) return std::nullopt;
   return glm::vec2(*pixel) + rect_.corner_px;
+}
+
+float SceneView::px_per_mm() const noexcept {
+  const auto foot = pixel_of({0.0, 0.0}), above = pixel_of({10.0, 0.0});
+  return foot && above ? 0.1f * glm::distance(*foot, *above) : 1.0f;
 }
 
 bool SceneView::pointer_moved(const ViewModel& view, const PointerMoved& moved, Actions& actions) {
@@ -214,7 +226,7 @@ void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, const G
   glm::dvec2 start = pointed_mm;
   pinched_.reset();
   if (spec.mode != ToolMode::pinch)
-    start = free_place(shown_pot(view), *tool, pointed_mm);
+    start = free_in(view, *tool, pointed_mm);
   else if (!pinch_from(view, *tool, start, spec, actions))
     return;
   offset_mm_ = start - pointed_mm;
@@ -343,7 +355,7 @@ std::optional<render::ToolView> SceneView::hovering_tool(const ViewModel& view,
   const render::PotView pot = shown_pot(view);
   render::ToolView shown;
   shown.half_profile_mm = render::half_profile_of(tool);
-  glm::dvec2 place = free_place(pot, tool, *pointed);
+  glm::dvec2 place = free_in(view, tool, *pointed);
   if (view.settings.tool.mode == ToolMode::pinch) {
     shown.gap_mm = view.settings.tool.gap_mm;
     if (const auto wall = wall_above(pot, tool, pointed->y)) {
@@ -351,6 +363,9 @@ std::optional<render::ToolView> SceneView::hovering_tool(const ViewModel& view,
       shown.gap_mm = std::max(*shown.gap_mm, wall->thickness_mm);
     }
   }
+  // A hand may go lower, but the wheel is seen to carry the tool. Needle and wire are shown where
+  // they cut.
+  if (!cuts_level(view.settings.tool.mode)) place.y = std::max(place.y, -tool.low());
   shown.place_mm = on_wheel(place);
   shown.inside = inside(pot, shown.place_mm);
   return shown;

@@ -69,8 +69,10 @@ class SceneView {
 
   // --- Camera. -----------------------------------------------------------------------------------
   void look(const render::PotView& pot, ViewFrom from);
-  /// Moves back if the rim and 40 mm above it are not in sight.
-  void keep_rim_in_view(const render::PotView& pot);
+  /// Moves back if the rim and the room above it are not in sight: 40 mm, and for a pinch, which
+  /// pulls the wall up, at least half of the pot's height. Not during a stroke, because the pointer
+  /// would lead the tool elsewhere.
+  void keep_rim_in_view(const render::PotView& pot, ToolMode mode);
   void zoom(double notches) { camera_ = render::zoomed(camera_, notches); }
   /// To the right and up.
   void turn(glm::dvec2 by_rad);
@@ -84,6 +86,8 @@ class SceneView {
   [[nodiscard]] render::Viewport viewport() const noexcept;
   /// Pixel of the window for a point (rho, y) [mm] of the section plane.
   [[nodiscard]] std::optional<glm::vec2> pixel_of(glm::dvec2 place_mm) const noexcept;
+  /// Pixels per mm at the axis, across the view.
+  [[nodiscard]] float px_per_mm() const noexcept;
   /// A place on the wheel, turned into the section plane.
   [[nodiscard]] glm::dvec2 in_section(const glm::dvec3& place_mm) const noexcept;
   /// Call once a frame.

@@ -139,7 +139,7 @@ std::string fault_of_hand(const std::vector<std::string>& words) {
   return {};
 }
 
-/// What is wrong with the arguments of a command; empty: nothing. Their number is right.
+/// The fault of the arguments of a command; empty: none. Their number is right.
 std::string fault_of(const std::vector<std::string>& words) {
   const std::string_view command = words[0];
   const auto expected = [&](std::string_view what, std::size_t word = 1) {

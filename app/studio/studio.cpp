@@ -173,38 +173,65 @@ void Studio::turn_wheel(double elapsed_s) {
   state_.scene.turn_wheel(state_.stroke.view(), spin_ * elapsed_s * rad_per_s);
 }
 
-void Studio::lay_out(const ViewModel& model, Actions& actions) {
-  const float em = ImGui::GetFontSize();
-  const glm::vec2 size(state_.host.size_px());
-  const float top = draw_menu(model, actions);
-  const float status = status_height();
-  const float height = std::max(1.0f, size.y - top - status);
-  // In a narrow window the view has priority, then the tools, then the context.
-  const float column = std::round(kColumnEm * em), strip = strip_width();
-  const float left = size.x - strip >= kNarrowestViewEm * em ? strip : 0.0f;
-  float right = size.x - left - column >= kNarrowestViewEm * em ? column : 0.0f;
-  const float below =
-      right > 0.0f || !below_open(model.settings) ? 0.0f : std::round(kBelowPart * height);
-  if (left > 0.0f) draw_strip(model, actions, {0.0f, top}, {left, height}, right == 0.0f);
-  if (below > 0.0f)
-    draw_column(model, actions, Column::context, {left, top + height - below},
-                {size.x - left, below});
-  if (right > 0.0f)
-    draw_column(model, actions, Column::context, {size.x - right, top}, {right, height});
-  if (diagnostics_open(model.settings) && size.x - left - right - column > 0.0f) {
-    right += column;
-    draw_column(model, actions, Column::diagnostics, {size.x - right, top}, {column, height});
+namespace {
+
+/// The parts of the window. A part without size has no room, or is closed.
+struct Layout {
+  ViewRect strip, context, diagnostics, status, timeline, view;
+  bool beside = false;  ///< the context is beside the view, not below it
+};
+
+/// In a narrow window the view has priority, then the tools, then the context. `top`: the height of
+/// the menu.
+Layout layout_of(const ViewModel& model, glm::vec2 size, float top) {
+  const float em = ImGui::GetFontSize(), status = status_height();
+  const float foot = std::max(top + 1.0f, size.y - status), height = foot - top;
+  const float column = std::round(kColumnEm * em);
+  const auto has_room = [&](float beside) { return size.x - beside >= kNarrowestViewEm * em; };
+  Layout parts;
+  const float left = has_room(strip_width()) ? strip_width() : 0.0f;
+  float right = size.x;
+  parts.beside = has_room(left + column);
+  parts.strip = {{0.0f, top}, {left, height}};
+  parts.status = {{0.0f, size.y - status}, {size.x, status}};
+  float below = 0.0f;
+  if (parts.beside) {
+    right -= column;
+    parts.context = {{right, top}, {column, height}};
+  } else if (below_open(model.settings)) {
+    below = std::round(kBelowPart * height);
+    parts.context = {{left, foot - below}, {size.x - left, below}};
   }
-  draw_status_bar(model, {0.0f, size.y - status}, {size.x, status});
-  const float wide = std::max(1.0f, size.x - left - right);
-  const float tall = height - below, timeline = timeline_height(model, {wide, tall});
-  const ViewRect view{{left, top}, {wide, tall}};
-  const ViewRect free{{left, top}, {wide, tall - timeline}};  // of the timeline
-  if (timeline > 0.0f)
-    draw_timeline(model, actions, {left, top + tall - timeline}, {wide, timeline});
-  const bool first = state_.scene.rect().size_px.x <= 1.0f;
-  place_view(model, view, timeline, below == 0.0f);
-  if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
+  if (diagnostics_open(model.settings) && right - left - column > 0.0f) {
+    right -= column;
+    parts.diagnostics = {{right, top}, {column, height}};
+  }
+  const glm::vec2 view(std::max(1.0f, right - left), height - below);
+  const float timeline = timeline_height(model, view);
+  parts.view = {{left, top}, view};
+  parts.timeline = {{left, top + view.y - timeline}, {view.x, timeline}};
+  return parts;
+}
+
+bool has_size(const ViewRect& part) { return part.size_px.x > 0.0f && part.size_px.y > 0.0f; }
+
+void draw_columns(const ViewModel& model, Actions& actions, const Layout& parts) {
+  if (has_size(parts.strip))
+    draw_strip(model, actions, parts.strip.corner_px, parts.strip.size_px, !parts.beside);
+  if (has_size(parts.context))
+    draw_column(model, actions, Column::context, parts.context.corner_px, parts.context.size_px);
+  if (has_size(parts.diagnostics))
+    draw_column(model, actions, Column::diagnostics, parts.diagnostics.corner_px,
+                parts.diagnostics.size_px);
+  draw_status_bar(model, parts.status.corner_px, parts.status.size_px);
+  if (has_size(parts.timeline))
+    draw_timeline(model, actions, parts.timeline.corner_px, parts.timeline.size_px);
+}
+
+/// Over the view, from the pot up to the dialogs. `card`: the guide's card has room.
+void draw_overlays(const ViewModel& model, Actions& actions, const Layout& parts, bool card) {
+  const ViewRect& view = parts.view;
+  const ViewRect free{view.corner_px, {view.size_px.x, view.size_px.y - parts.timeline.size_px.y}};
   draw_target(model, view);
   const float verdict = draw_verdict(model, view);
   draw_marks(model, view, verdict);
@@ -213,9 +240,23 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   draw_pause(model, view);
   draw_export_marks(model, view, verdict);
   draw_hint(model, actions, free);
-  if (below == 0.0f) draw_guide(model, actions, free);  // else it would cover the pot
+  if (card) draw_guide(model, actions, free);
   draw_dialog(model, actions, view);
   draw_banner(model, actions, view, verdict);
+}
+
+}  // namespace
+
+void Studio::lay_out(const ViewModel& model, Actions& actions) {
+  const float top = draw_menu(model, actions);
+  const Layout parts = layout_of(model, glm::vec2(state_.host.size_px()), top);
+  draw_columns(model, actions, parts);
+  const bool first = state_.scene.rect().size_px.x <= 1.0f;
+  // Above the context the card would cover the pot.
+  const bool card = parts.beside || !has_size(parts.context);
+  place_view(model, parts.view, parts.timeline.size_px.y, card);
+  if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
+  draw_overlays(model, actions, parts, card);
 }
 
 /// The pot stands above the card of the guide. The room for the card grows between strokes only,

@@ -30,7 +30,7 @@ struct FrameTimes {
   }
 };
 
-/// What a frame does with the screen. Frames that differ from the last painted one are painted
+/// Whether a frame paints the screen. Frames that differ from the last painted one are painted
 /// anyway, except with `none`.
 enum class Painting { none, if_changed, always };
 

@@ -88,10 +88,11 @@ using Dialog =
 /// is closed.
 struct ExportState {
   ExportChoices choices;
-  std::optional<ExportFigures> preview;
-  std::string problem;               ///< why there is no preview, or no file
-  std::vector<std::string> written;  ///< files of the last export
-  std::string result;                ///< outcome as text
+  std::optional<ExportFigures> preview{};
+  std::string problem{};               ///< why there is no preview, or no file
+  std::vector<std::string> written{};  ///< files of the last export
+  std::string result{};                ///< outcome as text
+  Grade grade = Grade::note;           ///< of the outcome; a warning: a limit failed
 };
 
 /// The same of a picture.

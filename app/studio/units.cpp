@@ -23,6 +23,14 @@ std::string length_text(double mm, LengthUnit unit, int more_digits) {
   return fmt::format("{:.{}f} {}", mm / text.mm, text.digits + more_digits, text.name);
 }
 
+int thickness_digits(LengthUnit unit) {
+  return unit_text(unit).digits + (unit == LengthUnit::in ? 1 : 0);
+}
+
+std::string thickness_text(double mm, LengthUnit unit) {
+  return length_text(mm, unit, thickness_digits(unit) - unit_text(unit).digits);
+}
+
 std::string mass_text(double grams) {
   if (std::abs(grams) >= 1000.0) return fmt::format("{:.3f} kg", 1e-3 * grams);
   return fmt::format("{:.1f} g", grams);

@@ -85,7 +85,7 @@ void update_strokes(AppState& state) {
     report(state, *news.error);
   if (!news.stroke_ended) return;
   if (state.document.has_work() && !state.stroke.throwing())
-    state.scene.keep_rim_in_view(state.stroke.view());
+    state.scene.keep_rim_in_view(state.stroke.view(), state.settings.tool.mode);
   state.log(fmt::format("stroke ended: {} poses, {} ticks", news.poses, news.ticks));
   if (news.ending == servo::Ending::collapsed) {
     state.fall.begin(state.document.shared_pot(), state.now_s());
@@ -221,7 +221,7 @@ std::string result_text(const ExportFigures& figures, std::size_t count) {
   if (figures.has_solid)
     text += fmt::format("; {} triangles, {:.2f} MB of meshes, each proved and read back",
                         figures.triangles, 1e-6 * static_cast<double>(bytes));
-  return text;
+  return figures.failed > 0 ? fmt::format("{}; {}", text, failed_text(figures.failed)) : text;
 }
 
 void take_files(AppState& state, Exporter::Outcome outcome) {
@@ -237,6 +237,7 @@ void take_files(AppState& state, Exporter::Outcome outcome) {
   }
   exporting.written = outcome.paths;
   exporting.result = result_text(*outcome.done, outcome.paths.size());
+  exporting.grade = outcome.done->failed > 0 ? Grade::warning : Grade::note;
   if (outcome.done->has_solid) {
     mark_problems(state, outcome);
     exporting.preview = std::move(*outcome.done);
@@ -245,9 +246,8 @@ void take_files(AppState& state, Exporter::Outcome outcome) {
     state.host.file_written(path);
     state.log("exported: " + path);
   }
-  if (!state.ui.shows<ExportDialog>()) note(state, Grade::note, exporting.result, kExportNoteS);
+  if (!state.ui.shows<ExportDialog>()) note(state, exporting.grade, exporting.result, kExportNoteS);
   state.settings.folder = outcome.choices.folder;
-  state.settings.process = outcome.choices.process;
 }
 
 void take_preview(AppState& state, Exporter::Outcome outcome) {

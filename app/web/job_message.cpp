@@ -92,14 +92,19 @@ auto members(Like<studio::PotRemark> auto& of) {
   auto& [from_mm, to_mm, text] = of;
   return std::tie(from_mm, to_mm, text);
 }
+auto members(Like<studio::PotForm> auto& of) {
+  auto& [hollow, floorless, parts, parting_mm, floor_mm, throttle_mm] = of;
+  return std::tie(hollow, floorless, parts, parting_mm, floor_mm, throttle_mm);
+}
 auto members(Like<studio::PotCheck> auto& of) {
   auto& [live, stopped, proved, why_not, fault_mm, remarks, fallen, triangles, tolerance_mm,
-         counted_mm3, proved_mm3, volume_error_relative, least_wall_mm, hollow, thinnest_mm,
-         thinnest_from, thinnest_to, limit, problems, walls, height_mm, maker, off, seconds] = of;
+         counted_mm3, proved_mm3, volume_error_relative, least_wall_mm, form, thinnest_mm,
+         thinnest_from, thinnest_to, thinnest_in_floor, limit, problems, walls, height_mm, maker,
+         off, seconds] = of;
   return std::tie(live, stopped, proved, why_not, fault_mm, remarks, fallen, triangles,
-                  tolerance_mm, counted_mm3, proved_mm3, volume_error_relative, least_wall_mm,
-                  hollow, thinnest_mm, thinnest_from, thinnest_to, limit, problems, walls,
-                  height_mm, maker, off, seconds);
+                  tolerance_mm, counted_mm3, proved_mm3, volume_error_relative, least_wall_mm, form,
+                  thinnest_mm, thinnest_from, thinnest_to, thinnest_in_floor, limit, problems,
+                  walls, height_mm, maker, off, seconds);
 }
 auto members(Like<studio::ExportChoices> auto& of) {
   auto& [meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm, smoothing,
@@ -121,9 +126,11 @@ auto members(Like<studio::ExportFigures::Mesh> auto& of) {
 }
 auto members(Like<studio::ExportFigures> auto& of) {
   auto& [has_solid, triangles, meshes, diameter_mm, height_mm, shrinkage, fallen, thinnest_mm,
-         thinnest_at_mm, faired_mm, moved_mm, moved_at_mm, problems, marks] = of;
+         thinnest_at_mm, thinnest_in_floor, faired_mm, moved_mm, moved_at_mm, problems, failed,
+         marks] = of;
   return std::tie(has_solid, triangles, meshes, diameter_mm, height_mm, shrinkage, fallen,
-                  thinnest_mm, thinnest_at_mm, faired_mm, moved_mm, moved_at_mm, problems, marks);
+                  thinnest_mm, thinnest_at_mm, thinnest_in_floor, faired_mm, moved_mm, moved_at_mm,
+                  problems, failed, marks);
 }
 
 auto members(Like<strokes::Stroke> auto& of) {

@@ -25,7 +25,7 @@ void tell_pot(Report& report, const studio::AppState& state) {
   report.row("Saved", state.document.unsaved() ? "no" : "yes");
   report.row("Strokes", fmt::format("{}", state.document.work().size() - 1));
   report.row("Height", length_text(state.stroke.view().height_mm, unit));
-  report.row("Largest diameter", length_text(2.0 * state.readings.widest_mm(), unit));
+  report.row("Largest diameter", length_text(state.readings.diameter_mm(), unit));
   report.row("Clay mass", studio::mass_text(state.readings.account().in_stack_g));
   if (!state.readings.fallen())
     report.row("Capacity to the brim",
@@ -74,7 +74,7 @@ std::optional<std::string> summary_of(const studio::AppState& state) {
   return fmt::format(
       "{}: {} high, {} wide, {}. {}", state.document.name(),
       length_text(state.stroke.view().height_mm, unit),
-      length_text(2.0 * state.readings.widest_mm(), unit),
+      length_text(state.readings.diameter_mm(), unit),
       studio::mass_text(state.readings.account().in_stack_g),
       state.readings.fallen() ? "Fallen: undo removes the last stroke" : ready_text(*check, unit));
 }

@@ -61,7 +61,7 @@ async function throwAndExport(browser) {
   const page = await openPage(browser, kDesktop);
   await pause(1500);
   await picture(page, 'gallery');
-  await page.mouse.click(302, 478);  // No guide, of the bowl
+  await page.mouse.click(302, 478);  // Throw it, of the bowl
   await page.says('work started: bowl');
   await page.says('checked: proved');
   await pause(2500);

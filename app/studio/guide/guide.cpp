@@ -32,9 +32,16 @@ Result<void> Guide::begin(const Sample& sample, Demonstration demonstration) {
       });
 }
 
+void Guide::next() {
+  if (!active() || finished()) return;
+  // A step with a stroke is as good as the user wants it.
+  if (state_.tries == 0) state_.skipped.insert(state_.step);
+  go_on();
+}
+
 void Guide::go_on() {
   if (!active() || finished()) return;
-  state_ = {state_.step + 1, 0, 0.0};
+  state_ = {state_.step + 1, 0, 0.0, std::move(state_.skipped)};
   plan_.reset();
   asked_ = false;
   progress_ = 0.0;
@@ -80,9 +87,9 @@ void Guide::receive(LessonPlan plan) {
 }
 
 void Guide::update(const Document& document, const StrokeController& stroke) {
-  if (!active() || finished() || !document.has_work()) return;
+  if (!active() || !document.has_work()) return;
   if (stroke.throwing()) {
-    if (!plan_ || plan_->path.empty() || stroke.view() == seen_) return;
+    if (finished() || !plan_ || plan_->path.empty() || stroke.view() == seen_) return;
     seen_ = stroke.view();
     const double left = plan_->left_from(seen_);
     progress_ = std::clamp(1.0 - left / std::max(1.0, state_.start_mm2), 0.0, 1.0);
@@ -90,6 +97,7 @@ void Guide::update(const Document& document, const StrokeController& stroke) {
   }
   if (document.scrubbing() || document.pot().collapse) return;
   if (document.work().at() != node_) follow(document.work().at());
+  if (finished()) return;
   if (!plan_ && !asked_) ask(document);
   if (auto answer = planner_.take()) receive(std::move(*answer));
 }

@@ -9,6 +9,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -27,7 +28,8 @@ class Guide {
   /// Starts with the first step of a sample.
   Result<void> begin(const Sample& sample, Demonstration demonstration);
   void end() { script_.reset(); }
-  void next() { go_on(); }
+  /// The user goes on to the next step.
+  void next();
   /// Plays the stroke of the step, or those of all steps that are left.
   void demonstrate(Demonstration what) { demonstration_ = what; }
 
@@ -40,6 +42,9 @@ class Guide {
   [[nodiscard]] std::size_t sample() const noexcept { return index_; }
   [[nodiscard]] std::size_t step() const noexcept { return state_.step; }
   [[nodiscard]] std::size_t steps() const noexcept { return script_->strokes.size(); }
+  /// Whether the user has left out this step.
+  [[nodiscard]] bool skipped(std::size_t step) const { return state_.skipped.contains(step); }
+  [[nodiscard]] std::size_t skipped_steps() const noexcept { return state_.skipped.size(); }
   [[nodiscard]] const strokes::Stroke& stroke(std::size_t step) const {
     return script_->strokes.at(step);
   }
@@ -56,8 +61,9 @@ class Guide {
  private:
   struct State {
     std::size_t step = 0;
-    int tries = 0;           // strokes in this step
-    double start_mm2 = 0.0;  // left at its beginning
+    int tries = 0;                       // strokes in this step
+    double start_mm2 = 0.0;              // left at its beginning
+    std::set<std::size_t> skipped = {};  // steps before this one
   };
   void go_on();
   void follow(history::NodeId node);

@@ -1,6 +1,8 @@
 // Over the view: figures at the tool, how hard the hand pulls, the floor to keep, and the veil of a
 // pause.
 
+#include "app/studio/panels/at_tool.hpp"
+
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
 #include "claystack/engine/tick.hpp"
@@ -20,6 +22,7 @@ constexpr double kBoreMm = 2.0;       // a bore begins at this radius
 constexpr double kHardPullMm = 15.0;  // way of the spring at which the hand pulls with its strength
 constexpr double kSlackMm = 2.0;
 constexpr double kFiguresMm = 20.0;  // a tool so near the clay has figures
+constexpr float kGaugeEm = 1.3f;     // radius of the gauge of a pull
 
 const render::Row* row_at(const render::PotView& pot, double y_mm) {
   if (pot.rows.empty() || y_mm < 0.0 || y_mm >= pot.height_mm) return nullptr;
@@ -36,17 +39,50 @@ std::optional<double> floor_mm(const render::PotView& pot) {
          static_cast<double>(pot.rows.size());
 }
 
-std::vector<std::string> figures_at(const ViewModel& model, const render::ToolView& tool) {
+/// The clay between the foot and the bore at this radius; empty: no bore is above it.
+std::optional<double> floor_at(const render::PotView& pot, double rho_mm) {
+  const auto holds_clay = [rho_mm](const render::Row& row) {
+    return static_cast<double>(row.inner_mm) <= rho_mm &&
+           rho_mm < static_cast<double>(row.outer_mm);
+  };
+  const auto foot = std::ranges::find_if(pot.rows, holds_clay);
+  const auto bore = std::find_if_not(foot, pot.rows.end(), holds_clay);
+  if (bore == pot.rows.end() || rho_mm >= static_cast<double>(bore->outer_mm)) return std::nullopt;
+  return pot.height_mm * static_cast<double>(bore - foot) / static_cast<double>(pot.rows.size());
+}
+
+/// The wall that the check has measured, across the clay; before the first check, the level one.
+double wall_mm(const ViewModel& model, const render::Row& row, double y_mm) {
+  const auto& check = model.readings.check();
+  const auto measured = check ? wall_mm_at(*check, y_mm) : std::nullopt;
+  return measured.value_or(static_cast<double>(row.outer_mm - row.inner_mm));
+}
+
+/// Of a pot upside down: its foot is on top.
+std::vector<std::string> figures_at_foot(const ViewModel& model, const render::ToolView& tool) {
+  const LengthUnit unit = model.settings.unit;
+  const render::PotView& pot = model.stroke.view();
+  const double rho = std::hypot(tool.place_mm.x, tool.place_mm.z);
+  const double from_foot_mm = pot.height_mm - tool.place_mm.y;
+  std::vector<std::string> lines;
+  if (const auto floor = floor_at(pot, rho))
+    lines.push_back("floor " + thickness_text(*floor, unit));
+  lines.push_back("radius " + length_text(rho, unit));
+  lines.push_back((from_foot_mm < 0.0 ? "above the foot " : "from the foot ") +
+                  length_text(std::abs(from_foot_mm), unit));
+  return lines;
+}
+
+std::vector<std::string> figures_upright(const ViewModel& model, const render::ToolView& tool) {
   const LengthUnit unit = model.settings.unit;
   const render::PotView& pot = model.stroke.view();
   const double rho = std::hypot(tool.place_mm.x, tool.place_mm.z);
   std::vector<std::string> lines;
   const render::Row* row = row_at(pot, tool.place_mm.y);
   if (row != nullptr && static_cast<double>(row->inner_mm) > kBoreMm)
-    lines.push_back(fmt::format(
-        "wall {}", length_text(static_cast<double>(row->outer_mm - row->inner_mm), unit)));
+    lines.push_back("wall " + thickness_text(wall_mm(model, *row, tool.place_mm.y), unit));
   if (const auto floor = floor_mm(pot); floor && tool.inside)
-    lines.push_back(fmt::format("floor {}", length_text(*floor, unit)));
+    lines.push_back("floor " + thickness_text(*floor, unit));
   lines.push_back(fmt::format("radius {}", length_text(rho, unit)));
   lines.push_back(fmt::format("height {}", length_text(tool.place_mm.y, unit)));
   const ToolMode mode = model.settings.tool.mode;
@@ -60,16 +96,42 @@ std::vector<std::string> figures_at(const ViewModel& model, const render::ToolVi
   return lines;
 }
 
-/// Beside the tool: at its right, or at its left if there is no room.
-void draw_lines(ImDrawList* draw, const std::vector<std::string>& lines, glm::vec2 tool_px,
-                float right) {
-  const float em = ImGui::GetFontSize(), gap = 3.2f * em;
+/// The pixels that the tool takes, or both tools of a pinch, and the gauge around them.
+Span span_of(const ViewModel& model, const render::ToolView& tool, float at_px) {
+  float widest_mm = 0.0f;
+  for (const glm::vec2& p : tool.half_profile_mm) widest_mm = std::max(widest_mm, p.x);
+  if (tool.gap_mm) widest_mm = 2.0f * widest_mm + 0.5f * static_cast<float>(*tool.gap_mm);
+  const float reach =
+      std::max(kGaugeEm * ImGui::GetFontSize(), widest_mm * model.scene.px_per_mm());
+  return {at_px - reach, at_px + reach};
+}
+
+/// The pixels that the pot takes beside a box of this height around the tool.
+Span span_of_pot(const ViewModel& model, double y_mm, float height_px) {
+  const render::PotView& pot = model.stroke.view();
+  const double reach_mm = static_cast<double>(height_px / model.scene.px_per_mm());
+  const bool turned = model.settings.tool.mode == ToolMode::trim_foot;
+  float widest_mm = 0.0f;
+  for (double at = y_mm - reach_mm; at <= y_mm + reach_mm; at += 1.0)
+    if (const render::Row* row = row_at(pot, turned ? pot.height_mm - at : at))
+      widest_mm = std::max(widest_mm, row->outer_mm);
+  const float axis = model.scene.pixel_of({0.0, y_mm}).value_or(glm::vec2(0.0f)).x;
+  const float reach = widest_mm * model.scene.px_per_mm();
+  return {axis - reach, axis + reach};
+}
+
+/// Beside the tool, and beside the pot if there is room.
+void draw_lines(const ViewModel& model, ImDrawList* draw, const std::vector<std::string>& lines,
+                const render::ToolView& tool, glm::vec2 tool_px, const ViewRect& rect) {
+  const float em = ImGui::GetFontSize();
   float width = 0.0f;
   for (const std::string& line : lines)
     width = std::max(width, ImGui::CalcTextSize(line.c_str()).x);
-  ImVec2 at(tool_px.x + gap, tool_px.y - 2.0f * em);
-  if (at.x + width + em > right) at.x = tool_px.x - gap - width;
   const float height = 1.25f * em * static_cast<float>(lines.size());
+  const Span view{rect.corner_px.x, rect.corner_px.x + rect.size_px.x};
+  ImVec2 at(place_beside(span_of(model, tool, tool_px.x),
+                         span_of_pot(model, tool.place_mm.y, height), view, width, em),
+            tool_px.y - 2.0f * em);
   draw->AddRectFilled({at.x - 0.5f * em, at.y - 0.3f * em},
                       {at.x + width + 0.5f * em, at.y + height + 0.1f * em},
                       ImGui::GetColorU32(ImGuiCol_PopupBg, kOverView), 0.4f * em);
@@ -91,7 +153,7 @@ void draw_pull(const ViewModel& model, ImDrawList* draw, glm::vec2 tool_px) {
   if (model.guide.demonstration() == Demonstration::none)
     draw->AddLine({tool_px.x, tool_px.y}, {pointer.x, pointer.y}, ink, 0.1f * em);
   constexpr float kTop = -1.5707963f, kTurn = 6.2831853f;
-  draw->PathArcTo({tool_px.x, tool_px.y}, 1.1f * em, kTop, kTop + part * kTurn, 32);
+  draw->PathArcTo({tool_px.x, tool_px.y}, (kGaugeEm - 0.2f) * em, kTop, kTop + part * kTurn, 32);
   draw->PathStroke(ink, ImDrawFlags_None, 0.22f * em);
 }
 
@@ -132,10 +194,14 @@ void draw_cut_level(const ViewModel& model, ImDrawList* draw, double y_mm, doubl
 
 }  // namespace
 
+std::vector<std::string> figures_at(const ViewModel& model, const render::ToolView& tool) {
+  return model.settings.tool.mode == ToolMode::trim_foot ? figures_at_foot(model, tool)
+                                                         : figures_upright(model, tool);
+}
+
 void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
   if (!model.document.has_work() || !model.ui.shows<NoDialog>()) return;
-  // Not of a pot upside down, or a fallen one.
-  if (model.settings.tool.mode == ToolMode::trim_foot || model.readings.fallen()) return;
+  if (model.readings.fallen()) return;
   const auto tool = model.scene.tool_view(model);
   if (!tool) return;
   const double rho = std::hypot(tool->place_mm.x, tool->place_mm.z);
@@ -145,13 +211,17 @@ void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   draw->PushClipRect({rect.corner_px.x, rect.corner_px.y},
                      {rect.corner_px.x + rect.size_px.x, rect.corner_px.y + rect.size_px.y});
-  const render::Row* row = row_at(model.stroke.view(), tool->place_mm.y);
+  const bool turned = model.settings.tool.mode == ToolMode::trim_foot;
+  const render::PotView& pot = model.stroke.view();
+  const render::Row* row =
+      row_at(pot, turned ? pot.height_mm - tool->place_mm.y : tool->place_mm.y);
   const double widest = row != nullptr ? static_cast<double>(row->outer_mm) : 0.0;
   const bool near = model.stroke.throwing() || rho < widest + kFiguresMm;
-  if (near && (tool->inside || rho < kBoreMm + 20.0)) draw_floor(model, draw, rect.corner_px.x);
+  if (near && !turned && (tool->inside || rho < kBoreMm + 20.0))
+    draw_floor(model, draw, rect.corner_px.x);
   if (cuts_level(model.settings.tool.mode)) draw_cut_level(model, draw, tool->place_mm.y, widest);
   draw_pull(model, draw, at);
-  if (near) draw_lines(draw, figures_at(model, *tool), at, rect.corner_px.x + rect.size_px.x);
+  if (near) draw_lines(model, draw, figures_at(model, *tool), *tool, at, rect);
   draw->PopClipRect();
 }
 

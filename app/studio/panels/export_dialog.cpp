@@ -134,57 +134,81 @@ void draw_figures(const ViewModel& model, const ExportFigures& figures) {
     value_row(colours, "Fired size", size_text(figures, 1.0 - figures.shrinkage, unit));
   if (!figures.fallen)
     value_row(colours, "Thinnest wall",
-              fmt::format("{}, at a height of {}", length_text(figures.thinnest_mm, unit, 1),
-                          length_text(figures.thinnest_at_mm, unit)));
+              length_text(figures.thinnest_mm, unit, 1) +
+                  (figures.thinnest_in_floor
+                       ? ", in the floor"
+                       : ", at a height of " + length_text(figures.thinnest_at_mm, unit)));
   if (figures.faired_mm > 0.0)
     value_row(colours, "Walls moved by",
               fmt::format("at most {}, at a height of {}", length_text(figures.moved_mm, unit, 1),
                           length_text(figures.moved_at_mm, unit)));
-  for (const std::string& problem : figures.problems)
-    wrapped_text(sentence(problem), colours.warning);
 }
 
-/// Progress, figures or the problem, in an area of fixed height, so that the dialog keeps its
-/// height.
+/// The height of both together stays the same, so that the dialog keeps its height: the problems
+/// first, the figures scroll in the rest. Returns the height that the problems take [px].
+float draw_problems(const ExportFigures& figures, const Palette& colours) {
+  const float top = ImGui::GetCursorPosY();
+  for (const std::string& problem : figures.problems) problem_text(problem, colours.warning);
+  return ImGui::GetCursorPosY() - top;
+}
+
+/// Progress, figures or the problem.
 void draw_preview(const ViewModel& model) {
   const ExportState& exporting = model.ui.exporting;
-  constexpr float kHeightEm = 12.5f;
-  ImGui::BeginChild("##preview", {0.0f, kHeightEm * ImGui::GetFontSize()}, true);
+  constexpr float kHeightEm = 12.5f, kLeastEm = 4.0f;
+  const float em = ImGui::GetFontSize();
+  const bool shown = exporting.preview && exporting.problem.empty();
+  const float problems = shown ? draw_problems(*exporting.preview, model.colours()) : 0.0f;
+  ImGui::BeginChild("##preview", {0.0f, std::max(kLeastEm * em, kHeightEm * em - problems)}, true);
   const bool running = model.export_running.has_value();
   if (model.writing())
     faint_text(model.colours(), "Writing: " + model.export_stage);
   else if (!exporting.problem.empty())
-    wrapped_text(exporting.problem);
+    wrapped_text(exporting.problem, model.colours().fault);
   else if (running)
     faint_text(model.colours(), "Computing: " + model.export_stage);
-  if (exporting.preview && exporting.problem.empty()) draw_figures(model, *exporting.preview);
+  if (shown) draw_figures(model, *exporting.preview);
   if (!exporting.preview && !running && exporting.problem.empty())
     faint_text(model.colours(), "No mesh file is chosen");
   ImGui::EndChild();
 }
 
+std::string replaced_text(const ExportChoices& choices) {
+  const std::vector<std::string> standing = standing_files(choices);
+  if (standing.empty()) return "No file will be replaced";
+  return (standing.size() == 1 ? std::filesystem::path(standing.front()).filename().string()
+                               : fmt::format("{} files", standing.size())) +
+         " will be replaced";
+}
+
+/// The outcome, or why no export is possible, or what it would do.
+void draw_outcome(const ViewModel& model) {
+  const ExportState& exporting = model.ui.exporting;
+  const Palette& colours = model.colours();
+  const char* why_not = find_command("export.write")->why_not(model);
+  if (model.writing()) return faint_text(colours, "Writing the files");
+  if (why_not != nullptr) return wrapped_text(sentence(why_not), colours.warning);
+  if (!exporting.result.empty())
+    return wrapped_text(exporting.result, exporting.written.empty()
+                                              ? ImGui::GetStyleColorVec4(ImGuiCol_Text)
+                                          : exporting.grade == Grade::note ? colours.good
+                                                                           : colours.warning);
+  if (exporting.preview && exporting.preview->failed > 0)
+    return wrapped_text(
+        failed_text(exporting.preview->failed) + "; " + replaced_text(exporting.choices),
+        colours.warning);
+  faint_text(colours, replaced_text(exporting.choices));
+}
+
 void draw_buttons(const ViewModel& model, Actions& actions) {
   const ExportState& exporting = model.ui.exporting;
-  const bool writes = model.writing();
-  const std::vector<std::string> standing = exporting.written.empty() && !writes
-                                                ? standing_files(exporting.choices)
-                                                : std::vector<std::string>();
-  if (!exporting.result.empty()) {
-    wrapped_text(exporting.result, model.colours().good);
-  } else {
-    faint_text(model.colours(),
-               standing.empty()
-                   ? "No file will be replaced"
-                   : fmt::format("{} will be replaced",
-                                 standing.size() == 1
-                                     ? std::filesystem::path(standing.front()).filename().string()
-                                     : fmt::format("{} files", standing.size())));
-  }
-  if (writes) {
+  draw_outcome(model);
+  if (model.writing()) {
     if (ImGui::Button("Cancel")) actions.emplace_back(RunCommand{"export.cancel"});
   } else {
-    if (main_button("Export (Ctrl+Enter)", model.colours()))
-      actions.emplace_back(RunCommand{"export.write"});
+    const Command& write = *find_command("export.write");
+    if (main_button("Export (Ctrl+Enter)", model.colours(), write.enabled(model)))
+      actions.emplace_back(RunCommand{write.id});
     ImGui::SameLine();
     if (!exporting.written.empty() && !kInPage) {
       if (ImGui::Button("Open folder")) actions.emplace_back(RunCommand{"export.folder"});

@@ -51,14 +51,14 @@ void draw_sample(std::size_t index, float width, const ViewModel& model, Actions
   draw->AddText(ImGui::GetFont(), em, {x, at.y + (kPictureEm + 2.4f) * em},
                 ImGui::GetColorU32(colours.faint), sample.description, nullptr, kPictureEm * em);
   draw->AddText(ImGui::GetFont(), em, {x, at.y + (kPictureEm + 5.2f) * em},
-                ImGui::GetColorU32(ImGuiCol_Text), "Step by step >");
+                ImGui::GetColorU32(ImGuiCol_Text), "Learn the steps >");
   const float half = 0.5f * (width - ImGui::GetStyle().ItemInnerSpacing.x);
   if (clicked) actions.emplace_back(BeginLesson{index, false});
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Throw it step by step");
   if (ImGui::Button("Show me", {half, 0.0f})) actions.emplace_back(BeginLesson{index, true});
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Watch the pot being thrown");
   ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
-  if (ImGui::Button("No guide", {half, 0.0f})) actions.emplace_back(BeginSample{index});
+  if (ImGui::Button("Throw it", {half, 0.0f})) actions.emplace_back(BeginSample{index});
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Begin with the lump, without a guide");
   ImGui::PopID();
   ImGui::EndGroup();

@@ -44,7 +44,7 @@ void draw_goal(const ViewModel& model, Actions& actions) {
   PotGoal goal = model.settings.goal;
   const LengthUnit unit = model.settings.unit;
   constexpr double kUsualMl = 1500.0, kUsualMm = 300.0;
-  slider("Holds", goal.holds_ml, kUsualMl, "{:.0f} ml", "any");
+  slider("Capacity", goal.holds_ml, kUsualMl, "{:.0f} ml", "any");
   const auto length = [&](const char* label, double& mm) {
     slider_label(label, mm > 0.0 ? length_text(mm, unit) : "any");
     float shown = static_cast<float>(mm);
@@ -54,8 +54,7 @@ void draw_goal(const ViewModel& model, Actions& actions) {
   };
   length("Height", goal.height_mm);
   length("Diameter", goal.diameter_mm);
-  slider("Shrinks by firing", goal.shrinkage_percent, kMostShrinkagePercent, "{:.0f} %",
-         "not fired");
+  slider("Shrinkage", goal.shrinkage_percent, kMostShrinkagePercent, "{:.0f} %", "not fired");
   if (goal != model.settings.goal) actions.emplace_back(SetGoal{goal});
   choose_target(model, actions);
 }

@@ -1,5 +1,6 @@
 // The guide: a card with the present step, and the path to follow over the view.
 
+#include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
 
@@ -27,7 +28,7 @@ const char* name_of_tool(ToolMode mode) {
                                     : "Tool: ball";
 }
 
-/// One dot for each step: done, present, to come.
+/// One dot for each step: full if done, or present; hollow if skipped, or to come.
 void draw_steps(const Guide& guide, const Palette& colours) {
   const float em = ImGui::GetFontSize(), radius = 0.22f * em;
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -35,7 +36,7 @@ void draw_steps(const Guide& guide, const Palette& colours) {
   for (std::size_t i = 0; i < guide.steps(); ++i) {
     const ImVec2 middle(at.x + radius + static_cast<float>(i) * kDotEm * em, at.y + 0.5f * em);
     const ImVec4& colour = i < guide.step() ? colours.good : colours.accent;
-    if (i <= guide.step())
+    if (i <= guide.step() && !guide.skipped(i))
       draw->AddCircleFilled(middle, radius, ImGui::GetColorU32(colour));
     else
       draw->AddCircle(middle, radius, ImGui::GetColorU32(colours.faint));
@@ -49,13 +50,17 @@ void draw_progress(double part, const Palette& colours) {
   ImGui::PopStyleColor();
 }
 
+void draw_title(const ViewModel& model, const char* text) {
+  ImGui::PushFont(model.ui.fonts.title);
+  ImGui::TextUnformatted(text);
+  ImGui::PopFont();
+}
+
 void draw_present_step(const ViewModel& model, Actions& actions) {
   const Guide& guide = model.guide;
   const Palette& colours = model.colours();
   const strokes::Stroke& stroke = guide.stroke(guide.step());
-  ImGui::PushFont(model.ui.fonts.title);
-  ImGui::TextUnformatted(stroke.name.c_str());
-  ImGui::PopFont();
+  draw_title(model, stroke.name.c_str());
   wrapped_text(stroke.hint);
   const LessonPlan* plan = guide.plan();
   if (plan != nullptr && !plan->problem.empty())
@@ -78,23 +83,30 @@ void draw_present_step(const ViewModel& model, Actions& actions) {
   ImGui::TextColored(colours.faint, "%s", name_of_tool(plan->mode));
 }
 
+void draw_fallen(const ViewModel& model, Actions& actions) {
+  draw_title(model, "The pot has fallen");
+  ImGui::TextWrapped("The clay could not carry its own weight. Go back to the pot before.");
+  const Command& undo = *find_command("edit.undo");
+  if (main_button(undo.title, model.colours(), undo.enabled(model)))
+    actions.emplace_back(RunCommand{undo.id});
+  same_line_if_room("End the guide");
+  if (ImGui::Button("End the guide")) actions.emplace_back(EndLesson{});
+}
+
 void draw_finish(const ViewModel& model, Actions& actions) {
-  ImGui::PushFont(model.ui.fonts.title);
-  ImGui::TextUnformatted("The pot is thrown");
-  ImGui::PopFont();
-  ImGui::TextWrapped("Export it for printing, or go on shaping it as you like.");
+  const Guide& guide = model.guide;
+  const std::size_t skipped = guide.skipped_steps();
+  draw_title(model, skipped == 0 ? "The pot is thrown" : "The last step is over");
+  ImGui::TextWrapped(
+      "%s", (skipped == 0 ? std::string()
+                          : fmt::format("{} of {} steps were skipped. ", skipped, guide.steps()))
+                .append("Export the pot for printing, or go on shaping it as you like.")
+                .c_str());
   if (main_button("Export...", model.colours())) actions.emplace_back(RunCommand{"file.export"});
   same_line_if_room("Throw it yourself");
   if (ImGui::Button("Throw it yourself")) actions.emplace_back(YourTurn{});
   same_line_if_room("End the guide");
   if (ImGui::Button("End the guide")) actions.emplace_back(EndLesson{});
-}
-
-/// Pixels per mm at the axis.
-float scale_px(const ViewModel& model) {
-  const auto low = model.scene.pixel_of({0.0, 0.0}), high = model.scene.pixel_of({10.0, 0.0});
-  if (!low || !high) return 1.0f;
-  return 0.1f * std::hypot(high->x - low->x, high->y - low->y);
 }
 
 void draw_arrow(ImDrawList* draw, ImVec2 from, ImVec2 to, ImU32 colour, float size) {
@@ -146,7 +158,9 @@ void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect) 
     ImGui::SameLine();
   }
   ImGui::TextColored(model.colours().faint, "%s", title.c_str());
-  if (guide.finished())
+  if (model.readings.fallen())
+    draw_fallen(model, actions);
+  else if (guide.finished())
     draw_finish(model, actions);
   else
     draw_present_step(model, actions);
@@ -156,7 +170,7 @@ void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect) 
 }
 
 void draw_path(const ViewModel& model, const ViewRect& rect) {
-  if (!model.guide.active() || !model.ui.shows<NoDialog>()) return;
+  if (!model.guide.active() || !model.ui.shows<NoDialog>() || model.readings.fallen()) return;
   const LessonPlan* plan = model.guide.finished() ? nullptr : model.guide.plan();
   if (plan == nullptr || plan->path.size() < 2) return;
   std::vector<ImVec2> line;
@@ -175,7 +189,7 @@ void draw_path(const ViewModel& model, const ViewRect& rect) {
   draw->PushClipRect({rect.corner_px.x, rect.corner_px.y},
                      {rect.corner_px.x + rect.size_px.x, rect.corner_px.y + rect.size_px.y});
   const int count = static_cast<int>(line.size());
-  const float band = 2.0f * static_cast<float>(kPathToleranceMm) * scale_px(model);
+  const float band = 2.0f * static_cast<float>(kPathToleranceMm) * model.scene.px_per_mm();
   draw->AddPolyline(line.data(), count, ink(0.22f), ImDrawFlags_None, band);
   draw->AddPolyline(line.data(), count, ink(0.95f), ImDrawFlags_None, 0.16f * em);
   for (std::size_t i = 20; i + 4 < line.size(); i += 30)
@@ -205,13 +219,15 @@ float draw_pill(const std::string& words, const ImVec4& colour, const ViewRect& 
   return high.y;
 }
 
-/// The colours of a traffic light.
+/// The colours of a traffic light; none for clay that is no pot yet.
 const ImVec4& colour_of(Verdict verdict, const Palette& colours) {
   switch (verdict) {
     case Verdict::ready:
       return colours.good;
     case Verdict::doubtful:
       return colours.warning;
+    case Verdict::lump:
+      return colours.faint;
     case Verdict::not_ready:
       break;
   }

@@ -106,7 +106,7 @@ void mark_thinnest(const ViewModel& model, const PotCheck& check, ImDrawList* dr
       check.thin() ? model.colours().warning : ImGui::GetStyleColorVec4(ImGuiCol_Text);
   draw->AddCircle({at->x, at->y}, 0.6f * em, ImGui::GetColorU32(colour), 0, 0.15f * em);
   shaded_text(draw, {at->x + em, at->y - 0.5f * em},
-              length_text(check.thinnest_mm, model.settings.unit), colour);
+              thickness_text(check.thinnest_mm, model.settings.unit), colour);
 }
 
 /// The height at which the pot consists of two parts.

@@ -56,6 +56,13 @@ bool draw_header(const Panel& panel, const Settings& settings) {
   return shown;
 }
 
+/// Scrolls as little as shows the content from this corner to the cursor.
+void scroll_to(ImVec2 corner) {
+  const ImVec2 end(corner.x, ImGui::GetCursorScreenPos().y);
+  ImGui::ScrollToRect(ImGui::GetCurrentWindow(), ImRect(corner, end),
+                      ImGuiScrollFlags_KeepVisibleEdgeY);
+}
+
 /// Arrows that a menu within a menu needs.
 struct UsedArrows {
   bool left = false, right = false;
@@ -87,7 +94,7 @@ constexpr std::array<std::string_view, 16> kGroups = {
     "tool.next",     "tool.sphere",     "tool.smaller",     "view.nearer",
     "view.cut_half", "view.goal",       "view.certificate", "view.theme"};
 
-/// What is needed most, at the right end of the menu.
+/// The commands that are needed most, at the right end of the menu.
 void draw_main_buttons(const ViewModel& model, Actions& actions) {
   struct Shown {
     std::string_view id;
@@ -188,6 +195,7 @@ void draw_column(const ViewModel& model, Actions& actions, Column column, glm::v
   for (const Panel& panel : kPanels) {
     if (panel.column != column) continue;
     const bool open = is_open(model.settings, panel);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::SetNextItemOpen(open);
     const bool shown = draw_header(panel, model.settings);
     if (shown != open) actions.emplace_back(FoldPanel{panel.id, shown});
@@ -196,7 +204,7 @@ void draw_column(const ViewModel& model, Actions& actions, Column column, glm::v
     panel.draw(model, actions);
     ImGui::Spacing();
     ImGui::PopID();
-    if (model.ui.reveal == panel.id) ImGui::SetScrollHereY(1.0f);
+    if (model.ui.reveal == panel.id) scroll_to(corner);
   }
   ImGui::End();
 }

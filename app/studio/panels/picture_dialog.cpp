@@ -3,6 +3,7 @@
 #include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <imgui_stdlib.h>
@@ -82,6 +83,8 @@ void draw_state(const ViewModel& model) {
   if (model.picture_running) {
     ImGui::ProgressBar(model.picture_progress, {kToEdge, 0.0f},
                        fmt::format("{:.0f} %", 100.0f * model.picture_progress).c_str());
+  } else if (const char* why_not = find_command("export.write")->why_not(model)) {
+    wrapped_text(sentence(why_not), colours.warning);
   } else if (!pictures.problem.empty()) {
     wrapped_text(pictures.problem, colours.fault);
   } else if (!pictures.result.empty()) {
@@ -96,15 +99,14 @@ void draw_state(const ViewModel& model) {
   ImGui::EndChild();
 }
 
-void draw_buttons(const ViewModel& model, Actions& actions) {
+void draw_picture_buttons(const ViewModel& model, Actions& actions) {
   if (model.picture_running) {
     if (ImGui::Button("Cancel")) actions.emplace_back(RunCommand{"export.cancel"});
     return;
   }
-  ImGui::BeginDisabled(!find_command("export.write")->enabled(model));
-  if (main_button("Export (Ctrl+Enter)", model.colours()))
-    actions.emplace_back(RunCommand{"export.write"});
-  ImGui::EndDisabled();
+  const Command& write = *find_command("export.write");
+  if (main_button("Export (Ctrl+Enter)", model.colours(), write.enabled(model)))
+    actions.emplace_back(RunCommand{write.id});
   ImGui::SameLine();
   if (!model.ui.pictures.written.empty()) {
     if (ImGui::Button("Open folder")) actions.emplace_back(RunCommand{"export.folder"});
@@ -129,7 +131,7 @@ void draw(const PictureDialog&, const ViewModel& model, Actions& actions, const 
   if (file != model.ui.pictures.file) actions.emplace_back(EditPicture{file});
   ImGui::Spacing();
   draw_state(model);
-  draw_buttons(model, actions);
+  draw_picture_buttons(model, actions);
   ImGui::End();
 }
 

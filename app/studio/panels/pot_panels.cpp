@@ -19,7 +19,7 @@ void draw_pot(const ViewModel& model, Actions& actions) {
   const LengthUnit unit = model.settings.unit;
   const Palette& colours = model.colours();
   value_row(colours, "Height", length_text(model.stroke.view().height_mm, unit));
-  value_row(colours, "Largest diameter", length_text(2.0 * readings.widest_mm(), unit));
+  value_row(colours, "Largest diameter", length_text(readings.diameter_mm(), unit));
   value_row(
       colours, "Clay mass",
       grams < 1000.0 ? fmt::format("{:.0f} g", grams) : fmt::format("{:.2f} kg", 1e-3 * grams));
@@ -56,10 +56,11 @@ void draw_walls(const ViewModel& model, Actions& actions) {
   const auto& check = model.readings.check();
   if (model.readings.stack() == nullptr || !check)
     return faint_text(colours, "No clay on the wheel");
+  const bool known = check->proved && !check->fallen;
   wrapped_text(wall_text(*check, model.settings.unit),
-               check->thin()  ? colours.warning
-               : check->limit ? colours.good
-                              : ImGui::GetStyleColorVec4(ImGuiCol_Text));
+               check->thin()           ? colours.warning
+               : known && check->limit ? colours.good
+                                       : ImGui::GetStyleColorVec4(ImGuiCol_Text));
   if (check->limit && ImGui::IsItemHovered())
     ImGui::SetTooltip(
         "%s", wrapped("Source: " + check->limit->source, kTipEm * ImGui::GetFontSize()).c_str());
@@ -86,7 +87,7 @@ void figures(const PotCheck& check, const Palette& colours, LengthUnit unit) {
   value_row(colours, "Triangles", fmt::format("{}", check.triangles));
   value_row(colours, "Tolerance", fmt::format("{:g} mm", check.tolerance_mm));
   if (!check.fallen)
-    value_row(colours, "Proved minimum wall", length_text(check.least_wall_mm, unit));
+    value_row(colours, "Proved minimum wall", thickness_text(check.least_wall_mm, unit));
   value_row(colours, "Clay volume", volume_text(check.counted_mm3));
   value_row(colours, "Volume of the solid", volume_text(check.proved_mm3));
   // Where the fallen part overlaps the standing one, the union contains the clay once.
@@ -120,9 +121,7 @@ void draw_certificate(const ViewModel& model, Actions&) {
     figures(*check, colours, model.settings.unit);
   } else {
     wrapped_text(check->why_not);
-    if (check->fault_mm)
-      wrapped_text(fmt::format("The pot is in two parts at a height of {}",
-                               length_text(*check->fault_mm, model.settings.unit)));
+    if (check->fault_mm) wrapped_text("The pot is " + parts_text(*check, model.settings.unit));
   }
   remarks(*check, colours, model.settings.unit);
   // Omitted in scripts, because their pictures must be reproducible.

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -50,8 +51,9 @@ Sheet sheet_for(const PlotArea& area, double widest, double height, bool full) {
 
 ImU32 colour_at(const PotCheck* check, double y_mm, const ImVec4& clay) {
   if (check == nullptr || !check->proved) return ImGui::GetColorU32(clay);
-  const double wall = wall_at_height(check->walls, check->height_mm, y_mm);
-  const render::Swatch swatch = render::wall_swatch(wall_map_of(*check), wall);
+  const double unknown = std::numeric_limits<double>::infinity();
+  const render::Swatch swatch =
+      render::wall_swatch(wall_map_of(*check), wall_mm_at(*check, y_mm).value_or(unknown));
   return IM_COL32(swatch.red, swatch.green, swatch.blue, 255);
 }
 
@@ -90,9 +92,9 @@ void draw_clay(const ViewModel& model, const Sheet& sheet, double height, bool f
   }
 }
 
-/// Dimension lines with their values.
+/// Dimension lines with their values. `diameter`: the value of the width.
 void draw_measures(const PlotArea& area, const Sheet& sheet, double widest, double height,
-                   bool full, const Palette& colours, LengthUnit unit) {
+                   double diameter, bool full, const Palette& colours, LengthUnit unit) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float em = ImGui::GetFontSize(), tick = 0.25f * em;
   const ImU32 ink = ImGui::GetColorU32(colours.faint);
@@ -107,7 +109,7 @@ void draw_measures(const PlotArea& area, const Sheet& sheet, double widest, doub
   draw->AddLine({left.x, y}, {right.x, y}, ink);
   for (const float end : {left.x, right.x}) draw->AddLine({end, y - tick}, {end, y + tick}, ink);
   const std::string text =
-      full ? length_text(2.0 * widest, unit) : fmt::format("r {}", length_text(widest, unit));
+      full ? length_text(diameter, unit) : "r " + length_text(0.5 * diameter, unit);
   const float text_width = ImGui::CalcTextSize(text.c_str()).x;
   draw->AddText({std::clamp(0.5f * (left.x + right.x - text_width), area.low.x + tick,
                             area.high.x - text_width - tick),
@@ -190,9 +192,9 @@ void draw_faults(const PlotArea& area, const Sheet& sheet, const PotCheck& check
   for (const ImVec2& end : {from, to}) draw->AddCircleFilled(end, 0.18f * em, ink);
 }
 
-/// Values at the pointer, as text.
-std::string read_out(const PlotArea& area, const Sheet& sheet, double height, bool full,
-                     const PotCheck* check, LengthUnit unit) {
+/// Values at the pointer, as text. Heights of a pot upside down are those from its foot.
+std::string read_out(const PlotArea& area, const Sheet& sheet, bool full, const PotCheck* check,
+                     LengthUnit unit) {
   if (!ImGui::IsMouseHoveringRect(area.low, area.high)) return "Point here to read values";
   const ImVec2 mouse = ImGui::GetMousePos();
   const double rho = static_cast<double>((mouse.x - sheet.foot.x) / sheet.px_per_mm);
@@ -203,15 +205,11 @@ std::string read_out(const PlotArea& area, const Sheet& sheet, double height, bo
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text, 0.5f);
   draw->AddLine({area.low.x, mouse.y}, {area.high.x, mouse.y}, ink);
   draw->AddLine({mouse.x, area.low.y}, {mouse.x, area.high.y}, ink);
-  const UnitText u = unit_text(unit);
-  const auto figure = [&](const char* name, double mm) {
-    return fmt::format("{} {:.{}f}  ", name, mm / u.mm, u.digits);
-  };
-  std::string text = figure("r", std::abs(rho)) + figure("y", y);
-  if (check != nullptr && check->proved)
-    if (const double wall = wall_at_height(check->walls, height, y); std::isfinite(wall))
-      text += figure("wall", wall);
-  return text + u.name;
+  std::string text =
+      fmt::format("Radius {}, {} {}", length_text(std::abs(rho), unit),
+                  sheet.turned_mm ? "from the foot" : "height", length_text(y, unit));
+  const auto wall = check != nullptr ? wall_mm_at(*check, y) : std::nullopt;
+  return wall ? text + ", wall " + thickness_text(*wall, unit) : text;
 }
 
 /// The colours of `match_at`.
@@ -262,10 +260,11 @@ void draw_section(const ViewModel& model, Actions& actions) {
   draw->PushClipRect(area.low, area.high, true);
   draw_clay(model, sheet, height, full, model.settings.wall_map ? check : nullptr, off);
   if (target != nullptr) draw_target_outline(target->view, sheet, full);
-  draw_measures(area, upright, widest, height, full, colours, model.settings.unit);
+  draw_measures(area, upright, widest, height, model.readings.diameter_mm(), full, colours,
+                model.settings.unit);
   if (check != nullptr) draw_faults(area, sheet, *check, colours);
   if (const auto tool = model.scene.tool_view(model)) draw_tool_at(*tool, upright, colours);
-  const std::string words = read_out(area, sheet, height, full, check, model.settings.unit);
+  const std::string words = read_out(area, sheet, full, check, model.settings.unit);
   draw->PopClipRect();
   faint_text(colours, words);
   if (off != nullptr && !model.settings.wall_map) draw_match_legend(colours, model.settings.unit);

@@ -44,12 +44,14 @@ void rule() {
   ImGui::Spacing();
 }
 
-bool main_button(const char* text, const Palette& colours) {
+bool main_button(const char* text, const Palette& colours, bool enabled) {
+  ImGui::BeginDisabled(!enabled);
   ImGui::PushStyleColor(ImGuiCol_Button, colours.accent);
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colours.accent);
   ImGui::PushStyleColor(ImGuiCol_Text, ink_on(colours.accent));
   const bool clicked = ImGui::Button(text);
   ImGui::PopStyleColor(3);
+  ImGui::EndDisabled();
   return clicked;
 }
 
@@ -97,30 +99,28 @@ bool form_slider(const char* label, float& value, float low, float high, const s
 
 bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
                  const char* none) {
-  const UnitText text = unit_text(unit);
-  float shown = static_cast<float>(mm / text.mm);
+  const int fine = high_mm <= 1.0 ? 2 : 0;  // more digits for a tolerance
   const std::string value =
       none != nullptr && mm <= 0.0
           ? std::string(none)
-          : fmt::format("{:.{}f} {}", shown, text.digits + (high_mm <= 1.0 ? 2 : 0), text.name);
-  if (!form_slider(label, shown, static_cast<float>(low_mm / text.mm),
-                   static_cast<float>(high_mm / text.mm), value,
+          : length_text(mm, unit, thickness_digits(unit) - unit_text(unit).digits + fine);
+  // In mm whatever the unit, because a logarithmic slider takes less than a thousandth as 0.
+  float shown_mm = static_cast<float>(mm);
+  if (!form_slider(label, shown_mm, static_cast<float>(low_mm), static_cast<float>(high_mm), value,
                    low_mm > 0.0 ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None))
     return false;
-  mm = std::clamp(static_cast<double>(shown) * text.mm, low_mm, high_mm);
+  mm = std::clamp(static_cast<double>(shown_mm), low_mm, high_mm);
   return true;
 }
 
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit) {
-  const UnitText text = unit_text(unit);
-  slider_label(label, length_text(mm, unit));
-  float shown = static_cast<float>(mm / text.mm);
+  slider_label(label, thickness_text(mm, unit));
+  float shown_mm = static_cast<float>(mm);
   const std::string id = fmt::format("##{}", label);
-  if (!ImGui::SliderFloat(id.c_str(), &shown, static_cast<float>(low_mm / text.mm),
-                          static_cast<float>(high_mm / text.mm), "",
-                          kSlider | ImGuiSliderFlags_Logarithmic))
+  if (!ImGui::SliderFloat(id.c_str(), &shown_mm, static_cast<float>(low_mm),
+                          static_cast<float>(high_mm), "", kSlider | ImGuiSliderFlags_Logarithmic))
     return false;
-  mm = std::clamp(static_cast<double>(shown) * text.mm, low_mm, high_mm);
+  mm = std::clamp(static_cast<double>(shown_mm), low_mm, high_mm);
   return true;
 }
 
@@ -192,6 +192,20 @@ void wrapped_text(std::string_view text) {
 
 void faint_text(const Palette& colours, const std::string& text) {
   wrapped_text(text, colours.faint);
+}
+
+void problem_text(const std::string& problem, const ImVec4& colour) {
+  constexpr float kTipEm = 24.0f;
+  const std::string whole = sentence(problem);
+  std::string shown = whole;
+  for (std::size_t from = shown.find(" ("); from != std::string::npos; from = shown.find(" (")) {
+    const std::size_t to = shown.find(')', from);
+    if (to == std::string::npos) break;
+    shown.erase(from, to + 1 - from);
+  }
+  wrapped_text(shown, colour);
+  if (shown != whole && ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s", wrapped(whole, kTipEm * ImGui::GetFontSize()).c_str());
 }
 
 void form_place(std::string& name, std::string& folder, Actions& actions) {

@@ -35,7 +35,7 @@ void same_line_if_room(const char* text);
 void rule();
 
 /// The default button of a dialog.
-bool main_button(const char* text, const Palette& colours);
+bool main_button(const char* text, const Palette& colours, bool enabled = true);
 
 void dialog_title(const ViewModel& model, const char* text);
 
@@ -66,6 +66,10 @@ void form_place(std::string& name, std::string& folder, Actions& actions);
 /// The pot from the side in a square; the right half is cut open.
 void draw_half_section(const render::PotView& pot, ImVec2 corner, float side,
                        const Palette& colours);
+
+/// A problem that the export found. Its tooltip has the parts in brackets, such as the source of a
+/// limit.
+void problem_text(const std::string& problem, const ImVec4& colour);
 
 /// Lines of at most `width_px`, broken at blanks, but not between a number and its unit. A longer
 /// word stays whole.

@@ -1,6 +1,7 @@
 #include "app/studio/readings/pot_check.hpp"
 
 #include "app/render/wall_rows.hpp"
+#include "app/studio/readings/clay_figures.hpp"
 #include "app/studio/units.hpp"
 #include "claystack/engine/tick.hpp"
 #include "claystack/export/job.hpp"
@@ -27,17 +28,6 @@ std::optional<solid::ProcessLimits> limits_of(const std::string& process, const 
   auto limits = solid::read_process(process);
   if (limits) return std::move(*limits);
   remarks.push_back({0.0, stack.height_mm(), limits.error().message});
-  return std::nullopt;
-}
-
-/// The lowest level at which the rings above and below share no clay: the pot is in two parts
-/// there.
-std::optional<double> parting_mm(const ClayStack& stack) {
-  const auto rings = stack.rings();
-  for (std::size_t i = 1; i < rings.size(); ++i)
-    if (std::max(rings[i - 1].inner2, rings[i].inner2) >=
-        std::min(rings[i - 1].outer2, rings[i].outer2))
-      return static_cast<double>(i) * stack.ring_height_mm();
   return std::nullopt;
 }
 
@@ -86,6 +76,7 @@ void take_report(const solid::ExportReport& report, std::size_t rows, double shr
   check.thinnest_mm = report.walls.thinnest.thickness_mm;
   check.thinnest_from = {report.walls.thinnest.from.rho, report.walls.thinnest.from.y};
   check.thinnest_to = {report.walls.thinnest.to.rho, report.walls.thinnest.to.y};
+  check.thinnest_in_floor = in_floor(check.form, check.thinnest_from, check.thinnest_to);
   check.walls = render::row_walls(report.walls.field, rows, check.height_mm);
   take_remarks(report, check);
 }
@@ -101,8 +92,7 @@ void run(const PotQuestion& question, const Pot& pot, const std::function<bool()
          PotCheck& check) {
   check.height_mm = pot.stack.height_mm();
   check.fallen = pot.collapse.has_value();
-  check.hollow =
-      std::ranges::any_of(pot.stack.rings(), [](const Ring& ring) { return ring.inner2 > 0; });
+  if (!check.fallen) check.form = form_of(pot.stack);
   const auto limits = limits_of(question.process, pot.stack, check.remarks);
   if (limits)
     check.limit = limits->wall_for(4.0 * largest_radius_mm(pot.stack) + pot.stack.height_mm());
@@ -117,7 +107,7 @@ void run(const PotQuestion& question, const Pot& pot, const std::function<bool()
   const auto report = solid::run_export(pot, {}, options);
   if (report) return take_report(*report, rows, question.shrinkage, check);
   check.why_not = report.error().message;
-  check.fault_mm = parting_mm(pot.stack);
+  check.fault_mm = check.form.parting_mm;
 }
 
 }  // namespace
@@ -169,6 +159,12 @@ std::optional<ClayStack> stack_of(const render::PotView& outline, double crown_m
   return std::move(*stack);
 }
 
+std::optional<double> wall_mm_at(const PotCheck& check, double y_mm) {
+  if (!check.proved) return std::nullopt;
+  const double mm = wall_at_height(check.walls, check.height_mm, y_mm);
+  return std::isfinite(mm) ? std::optional(mm) : std::nullopt;
+}
+
 std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows, double height_mm) {
   if (check.walls.empty() || !(check.height_mm > 0.0)) return {};
   if (check.walls.size() == rows && check.height_mm == height_mm) return check.walls;
@@ -210,17 +206,33 @@ namespace {
 
 constexpr double kLipShare = 0.93;  // of the height: the lip is above
 
+std::string thin_text(double thickness_mm, double y_mm, const PotCheck& check, LengthUnit unit) {
+  const std::string thickness = thickness_text(thickness_mm, unit);
+  if (check.thinnest_in_floor) return "thin floor of " + thickness;
+  return fmt::format("thin {} of {} at a height of {}",
+                     y_mm > kLipShare * check.height_mm ? "lip" : "wall", thickness,
+                     length_text(y_mm, unit));
+}
+
+/// A lack of the vessel, which is no fault of a print; empty: none.
+std::string lack_text(const PotForm& form, LengthUnit unit) {
+  if (form.floorless) return "no floor";
+  if (form.throttle_mm)
+    return fmt::format("mouth narrower than {} at a height of {}", length_text(kLeastMouthMm, unit),
+                       length_text(*form.throttle_mm, unit));
+  return {};
+}
+
 std::string text_of(const solid::Problem& problem, const PotCheck& check, LengthUnit unit) {
   const std::string process = check.limit ? process_title(check.limit->process) : "";
   const double y_mm = problem.at ? problem.at->y : 0.0;
   switch (problem.kind) {
     case solid::ProblemKind::thin_wall:
       return fmt::format(
-          "thin {} of {} at a height of {}; {} {}",
-          y_mm > kLipShare * check.height_mm ? "lip" : "wall", length_text(problem.figure, unit),
-          length_text(y_mm, unit), check.limit ? process + " needs" : "no process allows less than",
-          length_text(check.limit ? check.limit->min_wall_mm : solid::smallest_allowed_wall_mm(),
-                      unit));
+          "{}; {} {}", thin_text(problem.figure, y_mm, check, unit),
+          check.limit ? process + " needs" : "no process allows less than",
+          thickness_text(check.limit ? check.limit->min_wall_mm : solid::smallest_allowed_wall_mm(),
+                         unit));
     case solid::ProblemKind::too_large:
       return "too large for " + process;
     case solid::ProblemKind::cavity:
@@ -244,33 +256,41 @@ bool PotCheck::ready() const {
 
 Verdict PotCheck::verdict() const {
   if (!ready()) return Verdict::not_ready;
-  return problems.empty() ? Verdict::ready : Verdict::doubtful;
+  if (!problems.empty() || !lack_text(form, LengthUnit::mm).empty()) return Verdict::doubtful;
+  return form.hollow || fallen ? Verdict::ready : Verdict::lump;
 }
 
 std::string ready_text(const PotCheck& check, LengthUnit unit) {
   if (check.stopped) return "Not checked";
   if (!check.proved)
-    return check.fault_mm ? fmt::format("Not ready: in two parts at a height of {}",
-                                        length_text(*check.fault_mm, unit))
-                          : "Not ready: not one closed solid";
+    return "Not ready: " + (check.fault_mm ? parts_text(check, unit) : "not one closed solid");
   const bool ready = check.ready();
   for (const solid::Problem& problem : check.problems)
     if (problem.fails != ready)
       return (ready ? "Check before printing: " : "Not ready: ") + text_of(problem, check, unit);
-  return "Ready to print";
+  if (const std::string lack = lack_text(check.form, unit); !lack.empty())
+    return "Check before printing: " + lack;
+  return check.verdict() == Verdict::lump ? "Solid clay" : "Ready to print";
+}
+
+std::string parts_text(const PotCheck& check, LengthUnit unit) {
+  const std::string height = length_text(*check.fault_mm, unit);
+  if (check.form.parts <= 2) return "in two parts at a height of " + height;
+  return fmt::format("in {} parts, the lowest up to a height of {}", check.form.parts, height);
 }
 
 std::string wall_text(const PotCheck& check, LengthUnit unit) {
   if (check.fallen) return "Fallen: walls are not measured";
   if (check.stopped) return "Walls unknown: the pot is not checked";
   if (!check.proved) return "Walls unknown: the section is not that of one solid";
-  if (!check.hollow && !check.thin()) return "Solid clay: there are no walls yet";
-  std::string words =
-      fmt::format("Thinnest wall {}, at a height of {}", length_text(check.thinnest_mm, unit),
-                  length_text(check.thinnest_from.y, unit));
+  if (!check.form.hollow && !check.thin()) return "Solid clay: there are no walls yet";
+  std::string words = fmt::format(
+      "Thinnest wall {}, {}", thickness_text(check.thinnest_mm, unit),
+      check.thinnest_in_floor ? "in the floor"
+                              : "at a height of " + length_text(check.thinnest_from.y, unit));
   if (check.limit)
     words += fmt::format("; {} requires {}: {}", process_title(check.limit->process),
-                         length_text(check.limit->min_wall_mm, unit),
+                         thickness_text(check.limit->min_wall_mm, unit),
                          check.thin() ? "too thin" : "thick enough");
   return words;
 }

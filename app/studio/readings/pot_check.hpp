@@ -5,6 +5,7 @@
 #include "app/history/work.hpp"
 #include "app/render/picture.hpp"
 #include "app/studio/readings/off_target.hpp"
+#include "app/studio/readings/pot_form.hpp"
 #include "app/studio/settings.hpp"
 #include "app/studio/target.hpp"
 #include "claystack/engine/clay.hpp"
@@ -50,7 +51,8 @@ struct PotRemark {
 
 enum class Verdict {
   ready,
-  doubtful,  ///< one closed solid, with problems that the export only warns about
+  doubtful,  ///< one closed solid, with problems that the export only warns about, or no vessel
+  lump,      ///< solid clay without a problem: no pot yet
   not_ready,
 };
 
@@ -66,9 +68,10 @@ struct PotCheck {
   double tolerance_mm = 0.0;
   double counted_mm3 = 0.0, proved_mm3 = 0.0, volume_error_relative = 0.0;
   double least_wall_mm = 0.0;  ///< proved lower bound of the wall
-  bool hollow = false;         ///< some ring has a bore
+  PotForm form;                ///< of a standing pot
   double thinnest_mm = 0.0;    ///< thinnest place of the section, between two points (rho, y) [mm]
   glm::dvec2 thinnest_from{0.0}, thinnest_to{0.0};  ///< rho is negative beyond the axis
+  bool thinnest_in_floor = false;
   std::optional<solid::WallLimit> limit;
   std::vector<solid::Problem> problems;  ///< as for `claystack export` with the same process
   std::vector<render::RowWall> walls;    ///< one for each equal part of `height_mm`; empty: unknown
@@ -80,7 +83,9 @@ struct PotCheck {
   /// One solid without a problem that fails.
   [[nodiscard]] bool ready() const;
   [[nodiscard]] Verdict verdict() const;
-  [[nodiscard]] bool thin() const { return limit && !fallen && thinnest_mm < limit->min_wall_mm; }
+  [[nodiscard]] bool thin() const {
+    return limit && proved && !fallen && thinnest_mm < limit->min_wall_mm;
+  }
 };
 
 [[nodiscard]] std::vector<std::string> process_names();
@@ -90,6 +95,9 @@ struct PotCheck {
 /// `cancelled` as in ExportOptions::cancelled. The result of a cancelled check is meaningless.
 [[nodiscard]] PotCheck check_pot(const PotQuestion& question,
                                  const std::function<bool()>& cancelled = {});
+
+/// The wall across the clay at this height [mm]; empty: unknown.
+[[nodiscard]] std::optional<double> wall_mm_at(const PotCheck& check, double y_mm);
 
 /// Walls resampled by height for an outline of `rows` rows and a height of `height_mm`.
 [[nodiscard]] std::vector<render::RowWall> walls_for(const PotCheck& check, std::size_t rows,
@@ -105,7 +113,10 @@ struct PotCheck {
 /// "Thinnest wall 2.1 mm, at a height of 34.0 mm; porcelain requires 3.0 mm: too thin".
 [[nodiscard]] std::string wall_text(const PotCheck& check, LengthUnit unit);
 
-/// "Ready to print", or why not, in a few words.
+/// "in two parts at a height of 40.0 mm"; requires `fault_mm`.
+[[nodiscard]] std::string parts_text(const PotCheck& check, LengthUnit unit);
+
+/// "Ready to print", "Solid clay", or why not, in a few words.
 [[nodiscard]] std::string ready_text(const PotCheck& check, LengthUnit unit);
 
 /// A stack whose rings are the rows of an outline, with radii at float precision, and the crown.

@@ -26,6 +26,7 @@ void Readings::update(const Document& document, StrokeController& stroke, const 
   if (wanted.check) ask(wanted, now_ns);
   if (auto answer = checker_.take()) {
     check_ = std::move(answer);
+    current_ = !changed_ && !checker_.busy();
     if (!check_->live) log(line_of(*check_));
   }
 }
@@ -44,6 +45,7 @@ void Readings::read(const Document& document, const StrokeController& stroke) {
     outline_stack_ = live ? stack_of(subject_.outline, subject_.crown_mm) : std::nullopt;
     section_size_ = 0;
     changed_ = true;
+    current_ = false;
     if (const ClayStack* clay = stack()) {
       widest_mm_ = largest_radius_mm(*clay);
       stress_ = stress_of(*clay, subject_.density_g_cm3, limit_kpa);
@@ -66,6 +68,10 @@ void Readings::ask(const Wanted& wanted, std::int64_t now_ns) {
   asked_ = wanted;
   asked_ns_ = now_ns;
   changed_ = false;
+}
+
+double Readings::diameter_mm() const noexcept {
+  return current_ && check_->maker ? check_->maker->thrown.size.diameter_mm : 2.0 * widest_mm_;
 }
 
 const ClayStack* Readings::stack() const noexcept {

@@ -37,6 +37,9 @@ class Readings {
   /// Null: no clay on the wheel.
   [[nodiscard]] const ClayStack* stack() const noexcept;
   [[nodiscard]] double widest_mm() const noexcept { return widest_mm_; }  ///< radius
+  /// The largest diameter: that of the smoothed section, as the export states it, or, until that is
+  /// known, that of the rings.
+  [[nodiscard]] double diameter_mm() const noexcept;
   [[nodiscard]] bool live() const noexcept { return subject_.live(); }
   [[nodiscard]] bool fallen() const noexcept { return subject_.pot && subject_.pot->collapse; }
   [[nodiscard]] const ClayAccount& account() const noexcept { return account_; }
@@ -63,6 +66,7 @@ class Readings {
   std::optional<Wanted> asked_;  // of the last check
   std::int64_t asked_ns_ = 0;
   bool changed_ = false;  // since the last check
+  bool current_ = false;  // `check_` is of this clay
   mutable std::vector<SectionRow> section_;
   mutable std::size_t section_size_ = 0;
   PotChecker checker_;

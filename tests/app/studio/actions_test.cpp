@@ -1,9 +1,8 @@
 // Actions on the state of the window, without a window: what each changes and when it asks first.
 
+#include "tests/app/studio/actions.hpp"
 #include "app/studio/app_state.hpp"
 #include "app/studio/commands.hpp"
-#include "tests/app/history/strokes.hpp"
-#include "tests/app/studio/still_host.hpp"
 #include "tests/support/run_program.hpp"
 
 #include "app/history/journal.hpp"
@@ -23,25 +22,6 @@ namespace {
 
 using test::ScratchFolder;
 using test::small_scene;
-
-class ActionsTest : public ::testing::Test {
- protected:
-  ActionsTest() { apply(state, BeginWork{small_scene(), nullptr, {}}); }
-  /// A stroke, as an unsaved change.
-  void change() {
-    auto begun = state.document.begin_stroke(small_scene());
-    ASSERT_TRUE(begun);
-    test::record(test::press_stroke(1), *begun->sink);
-    ASSERT_TRUE(state.document.end_stroke(std::nullopt, history::Recording::one_stroke));
-  }
-  [[nodiscard]] std::size_t strokes() const { return state.document.work().size() - 1; }
-
-  StillHost host;
-  std::string log;
-  AppState state{host, Settings{},
-                 [this](std::string_view line) { log.append(line).append("\n"); }};
-  ScratchFolder folder;
-};
 
 TEST_F(ActionsTest, ADialogReplacesThePreviousOne) {
   EXPECT_TRUE(state.ui.shows<NoDialog>());
@@ -81,6 +61,49 @@ TEST_F(ActionsTest, AGapCanBeAPartOfTheWall) {
   EXPECT_NEAR(std::hypot(press.place_mm.x, press.place_mm.z), 37.0, 1e-3);
   apply(state, ChangeGap{-1.0});
   EXPECT_DOUBLE_EQ(state.settings.tool.gap_share, 0.45);
+}
+
+TEST_F(ActionsTest, AnUnfoldedPanelIsScrolledTo) {
+  apply(state, FoldPanel{"wheel", true});
+  EXPECT_EQ(state.ui.reveal, "wheel");
+  apply(state, FoldPanel{"wheel", false});
+  EXPECT_EQ(state.ui.reveal, "");
+}
+
+TEST_F(ActionsTest, AHoveringToolIsOnTheWheelAndNotInIt) {
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state, LookFrom{ViewFrom::front});
+  apply(state, SetToolShape{Shape::sphere});
+  state.settings.tool.sphere.radius_mm = 6.0;
+  state.scene.lead({90.0, 0.0});
+  for (const ToolMode mode : {ToolMode::press, ToolMode::trim, ToolMode::trim_foot}) {
+    apply(state, SetToolMode{mode});
+    const auto tool = state.scene.tool_view(view_model(state));
+    ASSERT_TRUE(tool);
+    EXPECT_NEAR(tool->place_mm.y, 6.0, 1e-9);
+  }
+  apply(state, SetToolMode{ToolMode::wire});
+  EXPECT_NEAR(state.scene.tool_view(view_model(state))->place_mm.y, 0.0, 1e-9) << "where it cuts";
+}
+
+/// A pull of half the height stays in sight.
+TEST_F(ActionsTest, AChosenPinchHasRoomAboveTheRim) {
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state, LookFrom{ViewFrom::front});
+  for (int i = 0; i < 4; ++i) apply(state, Zoom{1.0});
+  const double pulled_mm = 1.5 * state.stroke.view().height_mm;
+  const auto above = [&] { return state.scene.pixel_of({0.0, pulled_mm}).value().y; };
+  ASSERT_LT(above(), 0.0f);
+  apply(state, SetToolMode{ToolMode::trim});
+  EXPECT_LT(above(), 0.0f) << "only a pinch pulls";
+  apply(state, SetToolMode{ToolMode::pinch});
+  EXPECT_GE(above(), 0.0f);
+}
+
+TEST_F(ActionsTest, ANameToSaveUnderHasItsFolder) {
+  apply(state, ShowDialog{DialogKind::save_file});
+  const std::filesystem::path path = std::get<SaveDialog>(state.ui.dialog).path;
+  EXPECT_EQ(path.parent_path(), std::filesystem::current_path());
 }
 
 TEST_F(ActionsTest, ATargetIsAPotAWorkOrADrawing) {

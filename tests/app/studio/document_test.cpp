@@ -33,6 +33,22 @@ class DocumentTest : public ::testing::Test {
   ScratchFolder folder;
 };
 
+TEST_F(DocumentTest, NamesTheFilesThatItOpensAndTheImport) {
+  const std::string before = pot();
+  write_text(folder.file("a.stl"), "solid a\nendsolid a\n");
+  write_text(folder.file("a.bin"), "\x89PNG\r\n\x1a\n");
+  for (const char* name : {"a.stl", "a.bin"}) {
+    const auto opened = document.open(folder.file(name));
+    ASSERT_FALSE(opened) << name;
+    EXPECT_EQ(opened.error().kind, ErrorKind::bad_input);
+    for (const char* kind : {".scene.json", ".pot.json", ".work", "3MF", ".svg"})
+      EXPECT_NE(opened.error().message.find(kind), std::string::npos) << opened.error().message;
+  }
+  EXPECT_NE(document.open(folder.file("a.stl")).error().message.find("claystack import"),
+            std::string::npos);
+  EXPECT_EQ(pot(), before);
+}
+
 TEST_F(DocumentTest, IsUnsavedFromAStrokeUntilAWorkIsSaved) {
   EXPECT_FALSE(document.unsaved());
   stroke(1);

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <regex>
 
 namespace clay::studio {
@@ -177,6 +178,30 @@ TEST_F(Exporting, ReportsAThinWallWithItsPlace) {
   EXPECT_NE(mark.text.find("thin wall"), std::string::npos);
   EXPECT_GE(mark.place_mm.y, 0.0);
   EXPECT_LE(mark.place_mm.y, pot->stack.height_mm() + 1e-9);
+}
+
+TEST_F(Exporting, CountsTheLimitsThatFailAndListsThemFirst) {
+  exporter.preview(pot, choices);
+  const auto previewed = outcome();
+  ASSERT_TRUE(previewed.done) << previewed.done.error().message;
+  EXPECT_EQ(previewed.done->failed, 1u) << "the wall; lip and overhang are warnings";
+  ASSERT_FALSE(previewed.done->problems.empty());
+  EXPECT_NE(previewed.done->problems[0].find("thin wall"), std::string::npos);
+  EXPECT_EQ(failed_text(1), "1 limit failed");
+  EXPECT_EQ(failed_text(2), "2 limits failed");
+}
+
+TEST_F(Exporting, StatesTheWidthOfTheCommand) {
+  choices.shrinkage_percent = 0.0;
+  exporter.preview(pot, choices);
+  const auto previewed = outcome();
+  ASSERT_TRUE(previewed.done) << previewed.done.error().message;
+  write_text(folder.file("two.pot.json"), write_pot(*pot, PotEncoding::json));
+  const auto ran = claystack("export --json " + folder.file("two.pot.json") + " " +
+                             folder.file("two.stl") + " --tolerance 0.05 --process porcelain");
+  const auto numbers = nlohmann::json::parse(ran.out).at("maker").at("thrown");
+  EXPECT_DOUBLE_EQ(previewed.done->diameter_mm, numbers.at("diameter_mm").get<double>());
+  EXPECT_DOUBLE_EQ(previewed.done->height_mm, numbers.at("height_mm").get<double>());
 }
 
 TEST_F(Exporting, ListsExistingFiles) {

@@ -76,5 +76,17 @@ TEST(WallAt, IsTheGapOfTwoToolsOnTheWall) {
   EXPECT_FALSE(wall_at(tube(40.0f, 4.0f, 60.0, 120), sphere(5.0), 30.0));  // no room in the bore
 }
 
+/// Upside down, the bore of a tube is below its foot: no tool gets there.
+TEST(FreePlace, IsNeverInACoveredBore) {
+  const render::PotView pot = tube(40.0f, 30.0f, 60.0, 120);
+  for (const double rho : {-33.0, -5.0, 0.0, 10.0, 31.0, 38.0}) {
+    const glm::dvec2 place = free_place(pot, sphere(5.0), {rho, 30.0}, Bore::covered);
+    const bool outside = std::abs(place.x) >= 45.0, above = place.y >= 65.0;
+    EXPECT_TRUE(outside || above) << rho << ": " << place.x << ", " << place.y;
+  }
+  EXPECT_EQ(free_place(pot, sphere(5.0), {60.0, 30.0}, Bore::covered), glm::dvec2(60.0, 30.0));
+  EXPECT_EQ(free_place(pot, sphere(5.0), {0.0, 70.0}, Bore::covered), glm::dvec2(0.0, 70.0));
+}
+
 }  // namespace
 }  // namespace clay::studio

@@ -126,6 +126,38 @@ TEST_F(Lesson, AStepSelectsItsToolAndAPressEndsTheDemonstration) {
   EXPECT_EQ(state.guide.demonstration(), Demonstration::none);
 }
 
+TEST_F(Lesson, AStepIsSkippedIfItHasNoStroke) {
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state, BeginLesson{kCylinder, true});
+  while (state.guide.step() == 0 && host.frame_ns() < 60'000'000'000) frames(1);
+  ASSERT_EQ(state.guide.step(), 1u);
+  apply(state, StopShowing{});
+  apply(state, NextStep{});
+  EXPECT_EQ(state.guide.step(), 2u);
+  EXPECT_FALSE(state.guide.skipped(0)) << "it was shown";
+  EXPECT_TRUE(state.guide.skipped(1));
+  EXPECT_EQ(state.guide.skipped_steps(), 1u);
+}
+
+/// Skipping to the end is not the end of the way back.
+TEST_F(Lesson, UndoGoesBackFromTheEnd) {
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state, BeginLesson{kCylinder, true});
+  while (state.guide.step() == 0 && host.frame_ns() < 60'000'000'000) frames(1);
+  apply(state, StopShowing{});
+  while (!state.guide.finished()) apply(state, NextStep{});
+  host.advance();
+  update(state);
+  ASSERT_TRUE(state.guide.finished());
+  apply(state, Undo{});
+  frames(2);
+  host.advance();
+  update(state);
+  EXPECT_FALSE(state.guide.finished());
+  EXPECT_EQ(state.guide.step(), 0u);
+  EXPECT_EQ(state.guide.skipped_steps(), 0u);
+}
+
 TEST(Newcomer, ThrowsAPotByFollowingThePath) {
   const test::FirstPot pot = test::throw_first_pot(kCylinder, 1, 2.5);
   EXPECT_TRUE(pot.finished);

@@ -2,6 +2,7 @@
 
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/app_state.hpp"
+#include "app/studio/panels/at_tool.hpp"
 #include "app/studio/panels/widgets.hpp"
 #include "tests/app/history/strokes.hpp"
 #include "tests/app/studio/still_host.hpp"
@@ -10,7 +11,10 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace clay::studio {
 namespace {
@@ -155,6 +159,103 @@ TEST_F(Panels, OnlyTheOpenDialogIsDrawn) {
   (void)frame(dialog);
   EXPECT_TRUE(ImGui::FindWindowByName("##unsaved")->Active);
   EXPECT_FALSE(ImGui::FindWindowByName("##settings")->Active);
+}
+
+/// The middle of a logarithmic slider is the geometric mean of its ends, whatever the unit.
+TEST_F(Panels, ALengthSliderIsTheSameInEveryUnit) {
+  for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::cm, LengthUnit::in}) {
+    double mm = 0.02;
+    ImVec2 low, high;
+    const auto slider = in_window([&](const ViewModel&, Actions&) {
+      (void)form_length("Tolerance", mm, 0.001, 1.0, unit);
+      low = ImGui::GetItemRectMin();
+      high = ImGui::GetItemRectMax();
+    });
+    ImGui::GetIO().MousePos = {500.0f, 650.0f};
+    for (int i = 0; i < 2; ++i) (void)frame(slider);
+    EXPECT_EQ(mm, 0.02) << "nothing was touched";
+    (void)click(slider, {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)});
+    EXPECT_NEAR(mm, std::sqrt(0.001 * 1.0), 0.004);
+  }
+}
+
+TEST_F(Panels, AnUnfoldedPanelComesIntoSight) {
+  const auto column = [](const ViewModel& model, Actions& actions) {
+    draw_column(model, actions, Column::context, {0.0f, 0.0f}, {240.0f, 500.0f});
+  };
+  for (int i = 0; i < 2; ++i) (void)frame(column);
+  const ImGuiWindow* window = ImGui::FindWindowByName("##context");
+  ASSERT_EQ(window->Scroll.y, 0.0f);
+  apply(state, FoldPanel{"wheel", true});
+  (void)frame(column);
+  state.ui.reveal.clear();
+  for (int i = 0; i < 2; ++i) (void)frame(column);
+  EXPECT_GT(window->ScrollMax.y, 0.0f) << "the panels are higher than the column";
+  EXPECT_NEAR(window->Scroll.y, window->ScrollMax.y, 12.0f) << "the last panel is in sight";
+}
+
+/// Floor 10 mm, bore 40 mm, leaning out by 45 degrees above it; level, its wall is 6 mm.
+class FiguresAtTool : public Panels {
+ protected:
+  FiguresAtTool() {
+    std::vector<Ring> rings(20, Ring{quanta_from_radius(30.0), 0});
+    for (int i = 0; i < 100; ++i)
+      rings.push_back({quanta_from_radius(30.0 + 0.5 * i), quanta_from_radius(24.0 + 0.5 * i)});
+    Pot pot;
+    pot.stack = ClayStack::from_rings(0.5, std::move(rings), 0).value();
+    pot.ledger.initial = pot.stack.volume();
+    apply(state, BeginWork{small_scene(), std::make_shared<const Pot>(pot), {}});
+    state.readings.update(state.document, state.stroke, {.check = true}, 0,
+                          [](std::string_view) {});
+  }
+  std::vector<std::string> figures(glm::dvec3 place_mm) {
+    render::ToolView tool;
+    tool.place_mm = place_mm;
+    return figures_at(view_model(state), tool);
+  }
+};
+
+TEST_F(FiguresAtTool, TheWallIsThatOfTheCheck) {
+  const double wall_mm = wall_mm_at(*state.readings.check(), 40.0).value();
+  ASSERT_NEAR(wall_mm, 6.0 / std::sqrt(2.0), 0.1);
+  EXPECT_EQ(figures({80.0, 40.0, 0.0}),
+            (std::vector<std::string>{"wall " + thickness_text(wall_mm, LengthUnit::mm),
+                                      "radius 80.0 mm", "height 40.0 mm"}));
+}
+
+TEST_F(FiguresAtTool, AtAFootAreThoseOfThePotUpsideDown) {
+  apply(state, SetToolMode{ToolMode::trim_foot});
+  // The pot is 60 mm high; its foot is on top.
+  EXPECT_EQ(figures({12.0, 57.0, 0.0}),
+            (std::vector<std::string>{"floor 10.0 mm", "radius 12.0 mm", "from the foot 3.0 mm"}));
+  EXPECT_EQ(figures({12.0, 64.0, 0.0}).back(), "above the foot 4.0 mm");
+  EXPECT_EQ(figures({100.0, 57.0, 0.0}).front(), "radius 100.0 mm") << "beside the foot";
+}
+
+TEST_F(FiguresAtTool, TheDiameterIsThatOfTheExport) {
+  const auto& check = state.readings.check();
+  ASSERT_TRUE(check && check->maker);
+  EXPECT_EQ(state.readings.diameter_mm(), check->maker->thrown.size.diameter_mm);
+  EXPECT_NE(state.readings.diameter_mm(), 2.0 * state.readings.widest_mm()) << "rings have steps";
+}
+
+TEST(PlaceBeside, CoversNeitherToolNorPotWhereThereIsRoom) {
+  const Span view{0.0f, 800.0f}, pot{300.0f, 500.0f};
+  constexpr float kWidth = 100.0f, kGap = 10.0f;
+  const auto apart = [](float left, const Span& other) {
+    return left + kWidth <= other.low || left >= other.high;
+  };
+  for (const float reach : {10.0f, 60.0f, 120.0f})
+    for (float at = reach; at <= 800.0f - reach; at += 5.0f) {
+      const Span tool{at - reach, at + reach};
+      const float left = place_beside(tool, pot, view, kWidth, kGap);
+      EXPECT_TRUE(apart(left, tool)) << at;
+      EXPECT_TRUE(left >= view.low && left + kWidth <= view.high) << at;
+      // Between 180 and 620 px a side of both has room.
+      if (at >= 180.0f + reach && at <= 620.0f - reach) {
+        EXPECT_TRUE(apart(left, pot)) << at;
+      }
+    }
 }
 
 TEST_F(Panels, LinesEndBetweenWordsButNotBeforeAUnit) {

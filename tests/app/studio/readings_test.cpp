@@ -6,6 +6,7 @@
 #include "app/render/pot_view.hpp"
 #include "claystack/engine/tick.hpp"
 #include "claystack/export/walls.hpp"
+#include "tests/app/studio/cups.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,28 +16,11 @@
 namespace clay::studio {
 namespace {
 
+using test::cup_rings;
+using test::pot_of;
+using test::question_of;
+
 constexpr double kPi = std::numbers::pi;
-
-/// A cup with vertical walls: floor 10 mm, wall 5 mm, height 60 mm, radius 40 mm; rings of 0.5 mm.
-std::vector<Ring> cup_rings(double wall_mm = 5.0) {
-  std::vector<Ring> rings(120, Ring{quanta_from_radius(40.0), 0});
-  for (std::size_t i = 20; i < rings.size(); ++i)
-    rings[i].inner2 = quanta_from_radius(40.0 - wall_mm);
-  return rings;
-}
-
-history::SharedPot pot_of(std::vector<Ring> rings, WideQuanta trimmed = 0) {
-  Pot pot;
-  pot.stack = ClayStack::from_rings(0.5, std::move(rings), 0).value();
-  pot.density_g_cm3 = 2.0;
-  pot.ledger.initial = pot.stack.volume() + trimmed;
-  pot.ledger.trimmed = trimmed;
-  return std::make_shared<const Pot>(std::move(pot));
-}
-
-PotQuestion question_of(const history::SharedPot& pot, const std::string& process = {}) {
-  return {{pot, render::view_of(*pot), pot->density_g_cm3}, process};
-}
 
 TEST(ClayAccount, WeighsTheClayOfTheLedger) {
   const Quanta trimmed = quanta_from_mm2(100.0);
@@ -261,74 +245,6 @@ TEST(PotCheck, NamesAClosedCavity) {
   ASSERT_FALSE(check.remarks.empty());
   EXPECT_NEAR(check.remarks[0].from_mm, 10.0, 1e-9);
   EXPECT_NEAR(check.remarks[0].to_mm, 55.0, 1e-9);
-}
-
-TEST(Verdict, IsThatOfTheExport) {
-  auto thin = cup_rings();
-  for (std::size_t i = 66; i < 70; ++i) thin[i].inner2 = quanta_from_radius(38.4);
-  auto lid = cup_rings();
-  for (std::size_t i = 110; i < lid.size(); ++i) lid[i].inner2 = 0;
-  std::vector<Ring> wide(20, Ring{quanta_from_radius(400.0), 0});
-  for (const auto& rings : {cup_rings(), thin, lid, wide}) {
-    const auto pot = pot_of(rings);
-    for (const char* process : {"fdm", "porcelain"}) {
-      const PotCheck check = check_pot(question_of(pot, process));
-      solid::ExportRequest request;
-      request.options.walls.process = solid::process_named(process).value();
-      request.files = {solid::file_request("pot.stl").value()};
-      const auto problems = solid::problems_of(solid::preview_export(*pot, request).value());
-      ASSERT_EQ(check.problems.size(), problems.size()) << process;
-      for (std::size_t i = 0; i < problems.size(); ++i) {
-        EXPECT_EQ(check.problems[i].kind, problems[i].kind);
-        EXPECT_EQ(check.problems[i].fails, problems[i].fails);
-      }
-      EXPECT_EQ(check.ready(), std::ranges::none_of(problems, &solid::Problem::fails));
-    }
-  }
-}
-
-TEST(Verdict, ClaimsNothingAboutAPotThatIsNotChecked) {
-  PotCheck check;
-  check.stopped = true;
-  EXPECT_EQ(ready_text(check, LengthUnit::mm), "Not checked");
-  EXPECT_EQ(wall_text(check, LengthUnit::mm), "Walls unknown: the pot is not checked");
-}
-
-TEST(Verdict, NamesPlaceAndMeasureInTheUnit) {
-  const auto verdict = [](std::vector<Ring> rings, LengthUnit unit) {
-    return ready_text(check_pot(question_of(pot_of(std::move(rings)), "porcelain")), unit);
-  };
-  EXPECT_EQ(verdict(cup_rings(), LengthUnit::mm), "Ready to print");
-  auto lip = cup_rings();
-  for (std::size_t i = 116; i < 120; ++i) lip[i].inner2 = quanta_from_radius(38.4);  // 58 to 60 mm
-  const std::string thin = verdict(lip, LengthUnit::mm);
-  EXPECT_EQ(thin.find("Not ready: thin lip of 1.6 mm at a height of 5"), 0u) << thin;
-  EXPECT_NE(thin.find("Porcelain needs 2.0 mm"), std::string::npos) << thin;
-  const std::string inches = verdict(lip, LengthUnit::in);
-  EXPECT_EQ(inches.find("Not ready: thin lip of 0.06 in"), 0u) << inches;
-  EXPECT_EQ(inches.find("mm"), std::string::npos) << inches;
-  auto lid = cup_rings();
-  for (std::size_t i = 110; i < lid.size(); ++i) lid[i].inner2 = 0;
-  EXPECT_EQ(verdict(lid, LengthUnit::mm), "Not ready: closed cavity at a height of 32.5 mm");
-  auto parted = cup_rings();
-  for (std::size_t i = 80; i < parted.size(); ++i)
-    parted[i] = {quanta_from_radius(30.0), quanta_from_radius(25.0)};
-  EXPECT_EQ(verdict(parted, LengthUnit::mm), "Not ready: in two parts at a height of 40.0 mm");
-}
-
-TEST(Verdict, IsDoubtfulWhereTheExportOnlyWarns) {
-  const auto check_of = [](std::vector<Ring> rings, const char* process) {
-    return check_pot(question_of(pot_of(std::move(rings)), process));
-  };
-  EXPECT_EQ(check_of(cup_rings(), "").verdict(), Verdict::ready);
-  auto paper = cup_rings();
-  for (std::size_t i = 80; i < 100; ++i) paper[i].inner2 = quanta_from_radius(39.6);
-  const PotCheck unasked = check_of(paper, "");
-  EXPECT_EQ(unasked.verdict(), Verdict::doubtful);
-  EXPECT_TRUE(unasked.ready());  // the export writes it
-  const std::string words = ready_text(unasked, LengthUnit::mm);
-  EXPECT_EQ(words.find("Check before printing: thin wall of 0."), 0u) << words;
-  EXPECT_EQ(check_of(paper, "porcelain").verdict(), Verdict::not_ready);
 }
 
 TEST(WallMap, FitsItsScaleToThePot) {

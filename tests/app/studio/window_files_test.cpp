@@ -204,6 +204,19 @@ TEST_F(Window, OpeningAsksAboutAnUnsavedWork) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
+/// Two strokes undercut the lump until it falls. Then the guide offers undo and no further step.
+TEST_F(Window, AFallenPotEndsNoLesson) {
+  const std::string fall =
+      "do file.learn_bowl\nwait 0.3\n"
+      "point 55 20\npress left\npoint 20 20 over 3\nrelease left\nwait 0.5\n"
+      "point 55 20\npress left\npoint 10 20 over 3\nrelease left\nwait 0.5\nexpect fallen yes\n";
+  Ran ran = run(fall + "do help.next_step\n", "");
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_NE(ran.err.find("help.next_step"), std::string::npos) << ran.err;
+  ran = run(fall + "do edit.undo\nexpect fallen no\ndo help.next_step\n", "");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
 TEST_F(Window, ScriptErrorsNameTheLine) {
   Ran ran = run("wait 0.1\nexpect contact yes\n");
   EXPECT_EQ(ran.status, 1);

@@ -44,6 +44,9 @@ std::string shown(const studio::PotCheck& check) {
   const auto place = [&](const glm::dvec2& p) { text << p.x << ' ' << p.y << '\n'; };
   text << check.live << check.proved << check.fallen << check.why_not << check.triangles << '\n'
        << check.fault_mm.value_or(-1.0) << '\n'
+       << check.form.hollow << check.form.floorless << check.form.parts << ' '
+       << check.form.parting_mm.value_or(-1.0) << ' ' << check.form.floor_mm.value_or(-1.0) << ' '
+       << check.form.throttle_mm.value_or(-1.0) << check.thinnest_in_floor << '\n'
        << check.tolerance_mm << ' ' << check.counted_mm3 << ' ' << check.proved_mm3 << ' '
        << check.volume_error_relative << ' ' << check.least_wall_mm << ' ' << check.thinnest_mm
        << ' ' << check.height_mm << ' ' << check.seconds << '\n'
@@ -144,14 +147,17 @@ TEST(JobMessage, CarriesFiguresFilesAndErrors) {
                                             .fallen = true,
                                             .thinnest_mm = 0.4,
                                             .thinnest_at_mm = 0.5,
+                                            .thinnest_in_floor = true,
                                             .problems = {"thin"},
+                                            .failed = 1,
                                             .marks = {{{0.6, 0.7}, "here"}}},
                       {std::string("a\0b", 3), ""}};
   const auto found = export_in(message_of(answer));
   ASSERT_TRUE(found && found->done);
   EXPECT_EQ(found->files, answer.files);
   const studio::ExportFigures& figures = *found->done;
-  EXPECT_TRUE(figures.has_solid && figures.fallen);
+  EXPECT_TRUE(figures.has_solid && figures.fallen && figures.thinnest_in_floor);
+  EXPECT_EQ(figures.failed, 1u);
   EXPECT_EQ(figures.triangles, 7u);
   ASSERT_EQ(figures.meshes.size(), 1u);
   EXPECT_EQ(figures.meshes[0].format, solid::MeshFormat::obj);

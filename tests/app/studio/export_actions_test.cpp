@@ -1,0 +1,69 @@
+// Actions of the export dialog: its process, its outcome and its marks.
+
+#include "app/studio/commands.hpp"
+#include "tests/app/studio/actions.hpp"
+
+#include <string>
+
+namespace clay::studio {
+namespace {
+
+TEST_F(ActionsTest, WallsAndExportHaveOneProcess) {
+  const auto of_export = [this]() -> std::string& { return state.ui.exporting.choices.process; };
+  apply(state, ShowDialog{DialogKind::export_files});
+  EXPECT_EQ(of_export(), "");
+  apply(state, CloseDialog{});
+  apply(state, SetProcess{"porcelain"});
+  apply(state, ShowDialog{DialogKind::export_files});
+  EXPECT_EQ(of_export(), "porcelain") << "chosen in the panel after the first export";
+  ExportChoices choices = state.ui.exporting.choices;
+  choices.process = "stoneware";
+  apply(state, EditExport{choices});
+  EXPECT_EQ(state.settings.process, "stoneware") << "chosen in the dialog";
+  apply(state, UseProcess{test::sample("workshop.process.json")});
+  EXPECT_EQ(of_export(), state.settings.process);
+}
+
+TEST_F(ActionsTest, AnExportThatFailsALimitIsAWarning) {
+  apply(state, ShowDialog{DialogKind::export_files});
+  ExportChoices choices = state.ui.exporting.choices;
+  choices.folder = folder.path().string();
+  choices.min_wall_mm = 500.0;  // no pot has such a wall
+  apply(state, EditExport{choices});
+  apply(state, RunCommand{"export.write"});
+  apply(state, CloseDialog{});
+  update(state);
+  const ExportState& exporting = state.ui.exporting;
+  ASSERT_EQ(exporting.written.size(), 1u) << exporting.problem;
+  EXPECT_EQ(exporting.grade, Grade::warning);
+  EXPECT_NE(exporting.result.find("1 limit failed"), std::string::npos) << exporting.result;
+  ASSERT_TRUE(state.ui.notices.shown());
+  EXPECT_EQ(state.ui.notices.shown()->grade, Grade::warning);
+  EXPECT_TRUE(view_model(state).has_marks()) << "the marks stay after writing";
+  choices.min_wall_mm = 0.0;
+  apply(state, ShowDialog{DialogKind::export_files});
+  choices.folder = folder.path().string();
+  apply(state, EditExport{choices});
+  apply(state, WriteExport{true});
+  update(state);
+  EXPECT_EQ(exporting.grade, Grade::note) << exporting.result;
+  EXPECT_EQ(exporting.result.find("failed"), std::string::npos) << exporting.result;
+}
+
+TEST_F(ActionsTest, ANameOfAFolderExportsNothingAndSaysWhy) {
+  const Command& write = *find_command("export.write");
+  for (const DialogKind kind : {DialogKind::export_files, DialogKind::picture}) {
+    apply(state, ShowDialog{kind});
+    EXPECT_TRUE(write.enabled(view_model(state)));
+    EXPECT_EQ(write.why_not(view_model(state)), nullptr);
+    for (const char* name : {"bad/name", ""}) {
+      state.ui.exporting.choices.name = state.ui.pictures.file.name = name;
+      EXPECT_FALSE(write.enabled(view_model(state)));
+      ASSERT_NE(write.why_not(view_model(state)), nullptr);
+      EXPECT_NE(std::string(write.why_not(view_model(state))).find("name"), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace clay::studio
