@@ -124,6 +124,9 @@ void check_packed(std::string_view bytes, const TriangleMesh& mesh, const std::s
     const auto pot = parse_pot(parts->pot, file);
     if (report(pot.map([](const Pot&) {}), "the pot inside"))
       verdict.add("contents", Grade::pass, "carries the pot, to be thrown on with throw --from");
+    if (pot && !pot->collapse)
+      verdict.notes.push_back("the pot inside is before shrinkage and finish: " +
+                              sizes_text(mesh, *pot));
     // With a certificate, the mesh is compared with that.
     const bool foreign = pot && parts->certificate.empty();
     if (const auto difference = foreign ? mesh_differs(mesh, *pot) : std::nullopt)
@@ -188,10 +191,24 @@ void check_cavities(const CheckCommand& command, Verdict& verdict) {
                           one ? "it needs a drain hole" : "they need drain holes"));
 }
 
+/// A part in mid-air falls while it is printed.
+void check_standing(const TriangleMesh& mesh, Verdict& verdict) {
+  const auto found = solid::hanging_parts(mesh, verdict.mesh);
+  if (!found) return;
+  const bool one = found->hanging == 1;
+  verdict.add(
+      "geometry", Grade::warn,
+      fmt::format("{} of {} parts {} touch the bed or a part on it: {} lowest point is {:.3g} mm "
+                  "above the bed",
+                  found->hanging, found->parts, one ? "does not" : "do not", one ? "its" : "their",
+                  found->lowest_mm));
+}
+
 /// What the mesh encloses, and what the file holds besides the mesh.
 void check_contents(std::string_view bytes, const TriangleMesh& mesh, MeshFormat format,
                     const CheckCommand& command, Verdict& verdict) {
   check_cavities(command, verdict);
+  check_standing(mesh, verdict);
   if (command.changes_mesh()) return;
   if (format == MeshFormat::drc) check_claims(bytes, mesh, verdict);
   if (format == MeshFormat::three_mf) check_packed(bytes, mesh, command.file, verdict);
@@ -252,7 +269,9 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   check_contents(bytes, *mesh, format, command, verdict);
   progress.clear();
   const glm::dvec3 size = verdict.mesh.size_mm;
-  if (const auto doubt = doubted_unit(size, format)) verdict.add("geometry", Grade::warn, *doubt);
+  if (const auto doubt = doubted_unit(size, format))
+    verdict.add("geometry", Grade::warn,
+                *doubt + "; scale it in a slicer, or make a pot with claystack import --height MM");
   const PrintedBody body =
       command.walls.asked() ? printed_body(*mesh, verdict) : PrintedBody{&*mesh, {}, {}};
   check_process(body, size, command, verdict);
