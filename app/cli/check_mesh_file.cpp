@@ -126,6 +126,9 @@ Result<void> check_packed_pot(const solid::PackedParts& parts, const TriangleMes
       .map([&](bool reads) {
         if (!reads) return;
         verdict.add("contents", Grade::pass, "carries the pot, to be thrown on with throw --from");
+        if (!pot->collapse)
+          verdict.notes.push_back("the pot inside is before shrinkage and finish: " +
+                                  sizes_text(mesh, *pot));
         if (!parts.certificate.empty()) return;  // the mesh is compared with the certificate
         if (const auto difference = mesh_differs(mesh, *pot))
           verdict.add("contents", Grade::warn, *difference);
@@ -211,10 +214,24 @@ void check_cavities(const CheckCommand& command, Verdict& verdict) {
                           one ? "it needs a drain hole" : "they need drain holes"));
 }
 
+/// A part in mid-air falls while it is printed.
+void check_standing(const TriangleMesh& mesh, Verdict& verdict) {
+  const auto found = solid::hanging_parts(mesh, verdict.mesh);
+  if (!found) return;
+  const bool one = found->hanging == 1;
+  verdict.add(
+      "geometry", Grade::warn,
+      fmt::format("{} of {} parts {} touch the bed or a part on it: {} lowest point is {:.3g} mm "
+                  "above the bed",
+                  found->hanging, found->parts, one ? "does not" : "do not", one ? "its" : "their",
+                  found->lowest_mm));
+}
+
 /// Cavities of the mesh, and the parts of the file besides the mesh.
 Result<void> check_contents(std::string_view bytes, const TriangleMesh& mesh, MeshFormat format,
                             const CheckCommand& command, Verdict& verdict) {
   check_cavities(command, verdict);
+  check_standing(mesh, verdict);
   if (command.changes_mesh()) return {};
   if (format == MeshFormat::drc) check_claims(bytes, mesh, verdict);
   if (format != MeshFormat::three_mf) return {};
@@ -278,7 +295,9 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
     return tl::make_unexpected(done.error());
   progress.clear();
   const glm::dvec3 size = verdict.mesh.size_mm;
-  if (const auto doubt = doubted_unit(size, format)) verdict.add("geometry", Grade::warn, *doubt);
+  if (const auto doubt = doubted_unit(size, format))
+    verdict.add("geometry", Grade::warn,
+                *doubt + "; scale it in a slicer, or make a pot with claystack import --height MM");
   const auto body = command.walls.asked() ? printed_body(*mesh, command, verdict)
                                           : Result<PrintedBody>(PrintedBody{&*mesh, {}, {}});
   if (!body) return tl::make_unexpected(body.error());

@@ -148,6 +148,14 @@ Json findings_json(const std::vector<Finding>& findings) {
   return json;
 }
 
+/// What to do with a mesh that is not sound.
+std::string next_step(const std::string& file, const Verdict& verdict) {
+  const std::string repair = fmt::format("claystack check {} --repair ", file);
+  if (verdict.state == MeshState::prints)
+    return repair + "-o FILE makes one body of it; --accept prints accepts it as it is";
+  return repair + "--dry-run reports what a repair changes, or why it is not possible";
+}
+
 /// "sound", or "sound; walls: fail".
 std::string headline(MeshState state, const std::vector<Finding>& findings) {
   std::string text(name_of(state));
@@ -239,8 +247,10 @@ Json verdict_json(const std::string& file, const Verdict& verdict, bool accept_p
 void print_verdict(const Console& console, const std::string& file, const Verdict& verdict) {
   const solid::MeshReport& mesh = verdict.mesh;
   const bool was_repaired = verdict.repair_summary.has_value();
-  const MeshState state = was_repaired ? verdict.repair_summary->before : verdict.state;
-  console.print(fmt::format("{}: {}", file, headline(state, verdict.findings)));
+  const std::string found = headline(verdict.state, verdict.findings);
+  console.print(was_repaired ? fmt::format("{}: {} before, the result: {}", file,
+                                           name_of(verdict.repair_summary->before), found)
+                             : fmt::format("{}: {}", file, found));
   if (was_repaired) print_repair(console, *verdict.repair_summary, verdict);
   for (const auto& problem : mesh.problems)
     console.print(fmt::format("  {}{} ({}{}): {}", was_repaired ? "remaining: " : "", problem.what,
@@ -266,6 +276,10 @@ void print_verdict(const Console& console, const std::string& file, const Verdic
   for (const auto& [check, grade, text] : verdict.findings)
     console.print(fmt::format("  {}: {}: {}", check, name_of(grade), text));
   for (const std::string& note : verdict.notes) console.print("  note: " + note);
+  const bool mesh_of_file = verdict.examined && !was_repaired && !verdict.wall_mm;
+  if (mesh_of_file &&
+      (verdict.state == MeshState::prints || verdict.state == MeshState::will_not_print))
+    console.print("  next: " + next_step(file, verdict));
 }
 
 }  // namespace clay::cli

@@ -86,21 +86,50 @@ bool carries_pot(const std::string& path) {
   return parts && !parts->pot.empty();
 }
 
+namespace {
+
+/// Of the mesh beside a pot, and of the pot.
+struct Sizes {
+  double mesh_width_mm = 0.0, mesh_height_mm = 0.0, pot_width_mm = 0.0, pot_height_mm = 0.0;
+
+  Sizes(const solid::TriangleMesh& mesh, const Pot& pot)
+      : pot_width_mm(2.0 * largest_radius_mm(pot.stack)), pot_height_mm(pot.stack.height_mm()) {
+    const glm::dvec3 size = solid::extent_of(mesh).size();
+    mesh_width_mm = std::max(size.x, size.y);
+    mesh_height_mm = size.z;
+  }
+  [[nodiscard]] double across() const { return mesh_width_mm / pot_width_mm; }
+  [[nodiscard]] double up() const { return mesh_height_mm / pot_height_mm; }
+};
+
+}  // namespace
+
 std::optional<std::string> mesh_differs(const solid::TriangleMesh& mesh, const Pot& pot) {
-  // Smoothing, facets and finishing change the size by less; a shrinkage of 50 % doubles it.
-  constexpr double kTolerance = 0.03, kMostEnlarged = 2.0;
-  const glm::dvec3 size = solid::extent_of(mesh).size();
-  const double width_mm = std::max(size.x, size.y);
-  const double pot_width_mm = 2.0 * largest_radius_mm(pot.stack);
-  const double pot_height_mm = pot.stack.height_mm();
-  const double across = width_mm / pot_width_mm, up = size.z / pot_height_mm;
+  // Smoothing, facets and finishing change the size by less; a shrinkage of 20 % enlarges it by a
+  // quarter.
+  constexpr double kTolerance = 0.03, kMostEnlarged = 1.25;
+  const Sizes sizes(mesh, pot);
+  const double across = sizes.across(), up = sizes.up();
   const bool alike = std::abs(across - up) <= kTolerance * up;
   if (pot.collapse || (alike && up >= 1.0 - kTolerance && up <= kMostEnlarged + kTolerance))
     return std::nullopt;
+  const bool enlarged = alike && up > 1.0;
   return fmt::format(
-      "the mesh is {:.1f} mm wide and {:.1f} mm high, the pot inside {:.1f} mm and {:.1f} mm: "
-      "another program changed the mesh",
-      width_mm, size.z, pot_width_mm, pot_height_mm);
+      "the mesh is {:.1f} mm wide and {:.1f} mm high, the pot inside {:.1f} mm and {:.1f} mm: {}",
+      sizes.mesh_width_mm, sizes.mesh_height_mm, sizes.pot_width_mm, sizes.pot_height_mm,
+      enlarged ? fmt::format("{:.2f} times as much is more than for the shrinkage of clays, so "
+                             "another program may have scaled the mesh",
+                             up)
+               : "another program changed the mesh");
+}
+
+std::string sizes_text(const solid::TriangleMesh& mesh, const Pot& pot) {
+  const Sizes sizes(mesh, pot);
+  return fmt::format(
+      "{:.1f} mm wide and {:.1f} mm high; the mesh is {:.1f} mm and {:.1f} mm, {:.2f} and {:.2f} "
+      "times as much",
+      sizes.pot_width_mm, sizes.pot_height_mm, sizes.mesh_width_mm, sizes.mesh_height_mm,
+      sizes.across(), sizes.up());
 }
 #endif
 
@@ -109,11 +138,15 @@ Result<Pot> read_pot(const std::string& path, [[maybe_unused]] const Console& co
   if (is_3mf(path))
     return read_file(path).and_then([&](const std::string& bytes) {
       return pot_from(bytes, path).map([&](Pot pot) {
+        const auto mesh = solid::decode_3mf(bytes, path);
+        if (!mesh || pot.collapse) return pot;
+        console.print(
+            fmt::format("note: {}: the pot inside is used, before shrinkage and finish: {}", path,
+                        sizes_text(*mesh, pot)));
         // Slicers drop the certificate when they write a package again.
         const auto parts = solid::parts_in_3mf(bytes, path);
-        if (!parts || !parts->certificate.empty()) return pot;
-        const auto mesh = solid::decode_3mf(bytes, path);
-        if (const auto difference = mesh ? mesh_differs(*mesh, pot) : std::nullopt)
+        const bool foreign = parts && parts->certificate.empty();
+        if (const auto difference = foreign ? mesh_differs(*mesh, pot) : std::nullopt)
           console.warn(path + ": " + *difference + "; the pot is used");
         return pot;
       });

@@ -24,7 +24,8 @@ inline constexpr std::string_view kPotInputs = ".pot.json, .pot.cbor, or a .3mf 
 /// A pot file, or the pot that a 3MF carries (by its first bytes).
 Result<Pot> pot_from(std::string_view bytes, std::string_view name);
 Result<Pot> read_pot(const std::string& path);
-/// The same, with a warning if the mesh of a 3MF is no longer that of its pot.
+/// The same; of a 3MF with a note on the pot inside, and a warning if its mesh is no longer that of
+/// the pot.
 Result<Pot> read_pot(const std::string& path, const Console& console);
 
 #ifdef CLAYSTACK_EXPORT
@@ -33,9 +34,12 @@ Result<Pot> read_pot(const std::string& path, const Console& console);
 
 /// The difference in words if the mesh beside a pot cannot be of that pot: another program may have
 /// scaled or cut it, or added other objects. Empty if it may be, in its size as thrown or enlarged
-/// by up to the largest shrinkage, 50 %. It may be moved, or turned about the vertical.
+/// for a shrinkage of up to 20 %, as clays have: the file does not hold that of the export. It may
+/// be moved, or turned about the vertical.
 [[nodiscard]] std::optional<std::string> mesh_differs(const solid::TriangleMesh& mesh,
                                                       const Pot& pot);
+/// "77.1 mm wide and 129.7 mm high; the mesh is 84.6 mm and 143.6 mm, 1.10 and 1.11 times as much".
+[[nodiscard]] std::string sizes_text(const solid::TriangleMesh& mesh, const Pot& pot);
 #endif
 
 }  // namespace clay::cli

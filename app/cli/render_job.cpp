@@ -41,10 +41,10 @@ Result<void> check_usage(const RenderCommand& command, const Console& console) {
 }
 
 /// The pot, or the lump of a scene.
-Result<Pot> clay_of(const std::string& path) {
+Result<Pot> clay_of(const std::string& path, const Console& console) {
+  if (!ends_ignoring_case(path, ".scene.json")) return read_pot(path, console);
   const auto bytes = read_file(path);
   if (!bytes) return tl::make_unexpected(bytes.error());
-  if (!ends_ignoring_case(path, ".scene.json")) return pot_from(*bytes, path);
   return parse_scene(*bytes, path).and_then([](const SceneSpec& scene) {
     const LumpSpec& lump = scene.lump;
     return ClayStack::cylinder(lump.rings, lump.ring_height_mm, lump.outer_radius_mm,
@@ -55,8 +55,9 @@ Result<Pot> clay_of(const std::string& path) {
   });
 }
 
-Result<render::Picture> picture_of(const RenderCommand& command, Rendered& done) {
-  const auto pot = clay_of(command.pot);
+Result<render::Picture> picture_of(const RenderCommand& command, const Console& console,
+                                   Rendered& done) {
+  const auto pot = clay_of(command.pot, console);
   if (!pot) return tl::make_unexpected(pot.error());
   render::Picture picture = render::picture_of(*pot, command.choices);
 #ifdef CLAYSTACK_EXPORT
@@ -149,7 +150,7 @@ Result<Rendered> render(const RenderCommand& command, const Console& console) {
   Progress progress(console, "rendering", 0);
   progress.stage(command.wall_map ? "reading, measuring walls" : "reading");
   Rendered done;
-  const auto picture = picture_of(command, done);
+  const auto picture = picture_of(command, console, done);
   if (!picture) return tl::make_unexpected(picture.error());
   auto screen = expect_room_to_draw(static_cast<std::uint64_t>(command.choices.size.width_px) *
                                     static_cast<std::uint64_t>(command.choices.size.height_px))

@@ -4,6 +4,7 @@
 #include "export/formats/byte_stream.hpp"
 #include "export/formats/file_floats.hpp"
 #include "export/formats/mesh_limits.hpp"
+#include "export/formats/point_merging.hpp"
 #include "export/formats/polygon_faces.hpp"
 #include "export/formats/text_scanner.hpp"
 
@@ -63,6 +64,7 @@ class ObjReader {
       refuse_number(static_cast<long long>(points_.highest_used), points_.line_of_highest);
     if (scanner_.fault()) return tl::make_unexpected(*scanner_.fault());
     polygons_.split(mesh_, options_.notes);
+    merge_equal_points(mesh_, options_.notes);
     note_faults();
     return check_facet_count(mesh_.triangles.size(), name_).map([&] { return std::move(mesh_); });
   }

@@ -3,6 +3,7 @@
 #include "core/text.hpp"
 #include "export/formats/byte_stream.hpp"
 #include "export/formats/mesh_limits.hpp"
+#include "export/formats/point_merging.hpp"
 #include "export/formats/polygon_faces.hpp"
 #include "export/formats/text_scanner.hpp"
 
@@ -36,6 +37,7 @@ class OffReader {
       scanner_.fail_expected("the end of the file after its faces", rest);
     if (scanner_.fault()) return tl::make_unexpected(*scanner_.fault());
     polygons_.split(mesh_, notes_);
+    merge_equal_points(mesh_, notes_);
     return check_facet_count(mesh_.triangles.size(), name_).map([&] { return std::move(mesh_); });
   }
 

@@ -6,6 +6,7 @@
 #include "export/formats/file_floats.hpp"
 #include "export/formats/mesh_limits.hpp"
 #include "export/formats/ply_header.hpp"
+#include "export/formats/point_merging.hpp"
 #include "export/formats/polygon_faces.hpp"
 #include "export/formats/text_scanner.hpp"
 
@@ -182,6 +183,7 @@ class BodyReader {
     numbers_.expect_end();
     if (numbers_.fault()) return tl::make_unexpected(*numbers_.fault());
     polygons_.split(mesh_, notes);
+    merge_equal_points(mesh_, notes);
     return check_facet_count(mesh_.triangles.size(), name).map([&] { return std::move(mesh_); });
   }
 

@@ -152,7 +152,10 @@ class Inspection {
     }
     const ShellGeometry geometry = shell_geometry(mesh_, topology);
     report_.bounds_volume = geometry.bounds_volume;
-    problem("shell turned against its neighbours", geometry.misplaced_shells);
+    problem(geometry.only_filled
+                ? "closed shell inside another one that faces outward; a slicer fills it"
+                : "shell turned against its neighbours",
+            geometry.misplaced_shells);
     if (geometry.bounds_volume && geometry.outward && topology.components > 1)
       count_cavities(topology, geometry.enclosed);
     return geometry.outward;

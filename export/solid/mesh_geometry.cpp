@@ -85,7 +85,10 @@ class Nest {
     ShellGeometry geometry;
     geometry.steps = steps_;
     geometry.outward = shells_[highest_].outward;
+    geometry.only_filled = geometry.outward;
     for (const NestedShell& shell : shells_) {
+      if (shell.misplaced && !(shell.outward && shell.around != kNoShell))
+        geometry.only_filled = false;
       if (shell.misplaced) note(geometry.misplaced_shells, {shell.triangle}, {});
       if (shell.around != kNoShell) geometry.enclosed.push_back(shell.triangle);
     }

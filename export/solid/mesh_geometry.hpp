@@ -10,8 +10,9 @@
 namespace clay::solid {
 
 struct ShellGeometry {
-  bool outward = false;    ///< the outermost shell's normals point outward
-  Fault misplaced_shells;  ///< oriented against the shells around or beside them
+  bool outward = false;      ///< the outermost shell's normals point outward
+  Fault misplaced_shells;    ///< oriented against the shells around or beside them
+  bool only_filled = false;  ///< each of those faces outward and lies in the clay of another
   bool bounds_volume = false;
   std::vector<std::uint32_t> enclosed;  ///< the first triangles of the shells that lie in others
   std::size_t steps = 0;                ///< visited boxes and triangles

@@ -67,6 +67,29 @@ std::optional<RayUpward::Hit> RayUpward::first_hit(
   return first;
 }
 
+std::optional<RayUpward::Hit> RayUpward::enclosing_hit(
+    const BoxTree& tree, const std::function<bool(std::uint32_t)>& passed_over) {
+  std::optional<Hit> left;
+  int winding = 0;
+  const auto entry = [&](const BoxTree::Box& box) {
+    ++steps_;
+    return enter(box);
+  };
+  tree.for_each_near(
+      entry, [] { return std::numeric_limits<double>::max(); },
+      [&](std::span<const std::uint32_t> triangles) {
+        for (const std::uint32_t t : triangles) {
+          ++steps_;
+          if (passed_over(t)) continue;
+          const auto hit = meet(t);
+          if (!hit) continue;
+          winding += hit->from_back ? 1 : -1;
+          if (hit->from_back && !left) left = hit;
+        }
+      });
+  return winding > 0 ? left : std::nullopt;
+}
+
 /// The lowest height at which the ray can hit something in the box.
 double RayUpward::enter(const BoxTree::Box& box) const {
   if (box.low.x > from_.x || from_.x > box.high.x || box.low.y > from_.y || from_.y > box.high.y)

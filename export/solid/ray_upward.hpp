@@ -28,6 +28,11 @@ class RayUpward {
   std::optional<Hit> first_hit(const BoxTree& tree,
                                const std::function<bool(std::uint32_t)>& passed_over);
 
+  /// For triangles that may intersect: some triangle of the surface whose front the ray leaves
+  /// more often than it enters it, so that the vertex lies in its clay; else empty.
+  std::optional<Hit> enclosing_hit(const BoxTree& tree,
+                                   const std::function<bool(std::uint32_t)>& passed_over);
+
   /// Number of visited boxes and triangles.
   [[nodiscard]] std::size_t steps() const noexcept { return steps_; }
 

@@ -106,7 +106,7 @@ std::vector<Planted> faults() {
        16000.0},
       {"inner",
        together(good, moved(cube(10.0), {5, 5, 5})),
-       "shell turned against its neighbours",
+       "closed shell inside another one that faces outward; a slicer fills it",
        "triangle 12 at (11.6666667, 8.33333333, 5) mm",
        {{"triangle inside the solid removed", 12}},
        8000.0},
@@ -217,9 +217,9 @@ TEST_F(CheckRepair, ReportsWhatItChanged) {
   const Ran run = claystack("check --repair " + in + " -o " + folder.file("out.obj"));
   EXPECT_EQ(run.status, 0) << run.out << run.err;
   for (const char* line :
-       {": will not print\n", "found: open edge (3)", "repaired: hole filled (1)",
-        "repaired: pair of intersecting triangles resolved (", "filled: hole of 3 edges, 28.28 mm",
-        "volume: ", "written: "})
+       {": will not print before, the result: sound\n", "found: open edge (3)",
+        "repaired: hole filled (1)", "repaired: pair of intersecting triangles resolved (",
+        "filled: hole of 3 edges, 28.28 mm", "volume: ", "written: "})
     EXPECT_NE(run.out.find(line), std::string::npos) << line << " in\n" << run.out;
   EXPECT_EQ(run.out.find("remaining"), std::string::npos) << run.out;
 }

@@ -74,6 +74,44 @@ TEST_F(CheckMesh, WarnsOfAMeshThatMayBeInMetres) {
   }
 }
 
+TEST_F(CheckMesh, WarnsOfAPotAsLargeAsARoom) {
+  using namespace solid::shapes;
+  for (const auto& [side_mm, warned] : {std::pair(990.0, false), {1100.0, true}}) {
+    write_text(folder.file("m.stl"),
+               *solid::encode_mesh(cube(side_mm), solid::MeshFormat::stl_binary));
+    const Ran run = claystack("check " + folder.file("m.stl"));
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_EQ(run.out.find("in a smaller unit") != std::string::npos, warned) << run.out;
+    EXPECT_EQ(run.out.find("import --height MM") != std::string::npos, warned) << run.out;
+  }
+}
+
+TEST_F(CheckMesh, WarnsOfPartsInMidAir) {
+  using namespace solid::shapes;
+  for (const auto& [gap_mm, warned] : {std::pair(0.2, true), {-0.5, false}}) {
+    const auto mesh = together(cube(20), moved(cube(5), {20.0 + gap_mm, 5, 8}));
+    write_text(folder.file("m.stl"), *solid::encode_mesh(mesh, solid::MeshFormat::stl_binary));
+    const Ran run = claystack("check --accept prints " + folder.file("m.stl"));
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_EQ(run.out.find("geometry: warn: 1 of 2 parts does not touch the bed or a part on it: "
+                           "its lowest point is 8 mm above the bed") != std::string::npos,
+              warned)
+        << run.out;
+  }
+}
+
+TEST_F(CheckMesh, NamesTheNextStep) {
+  using namespace solid::shapes;
+  const auto output_of = [&](const solid::TriangleMesh& mesh) {
+    write_text(folder.file("m.stl"), *solid::encode_mesh(mesh, solid::MeshFormat::stl_binary));
+    return claystack("check " + folder.file("m.stl")).out;
+  };
+  EXPECT_NE(output_of(together(cube(20), moved(cube(5), {18, 5, 8}))).find("--accept prints"),
+            std::string::npos);
+  EXPECT_NE(output_of(inverted(cube(20))).find("--repair --dry-run"), std::string::npos);
+  EXPECT_EQ(output_of(cube(20)).find("next:"), std::string::npos);
+}
+
 TEST_F(CheckMesh, ReportsAHoleWithItsPlace) {
   std::string stl = good_stl;
   stl.erase(84 + 50 * 100, 50);

@@ -158,6 +158,24 @@ TEST(Import, ReadsADrawingOnStandardInput) {
                                      "found an STL mesh in text"));
 }
 
+TEST(Export, NotesThePotInA3mf) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("a.pot.json"), package = folder.file("a.3mf");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  ASSERT_EQ(claystack("export -q " + pot + " " + package + " --shrinkage 20%").status, 0);
+  const Ran run = claystack("export " + package + " " + folder.file("b.stl"));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("note: " + package +
+                         ": the pot inside is used, before shrinkage and "
+                         "finish: "),
+            std::string::npos)
+      << run.out;
+  EXPECT_NE(run.out.find(", 1.25 and 1.25 times as much"), std::string::npos) << run.out;
+  EXPECT_EQ(run.err, "");
+  EXPECT_NE(claystack("check " + package).out.find("the pot inside is before shrinkage and finish"),
+            std::string::npos);
+}
+
 TEST(Import, PointsToThePotInA3mf) {
   const ScratchFolder folder;
   const std::string pot = folder.file("a.pot.json"), again = folder.file("b.pot.json");

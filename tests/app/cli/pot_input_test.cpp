@@ -16,7 +16,7 @@ TEST(MeshDiffers, FromThePotInAnotherSizeOrShape) {
   EXPECT_FALSE(mesh_differs(box(80, 50), pot));
   EXPECT_FALSE(mesh_differs(box(79.5, 50), pot)) << "facets";
   EXPECT_FALSE(mesh_differs(box(80 / 0.88, 50 / 0.88), pot)) << "enlarged for a shrinkage";
-  EXPECT_FALSE(mesh_differs(box(160, 100), pot)) << "the largest shrinkage";
+  EXPECT_FALSE(mesh_differs(box(100, 62.5), pot)) << "a shrinkage of 20 %";
   EXPECT_TRUE(mesh_differs(box(40, 25), pot)) << "scaled";
   EXPECT_TRUE(mesh_differs(box(80, 45), pot)) << "cut";
   EXPECT_TRUE(mesh_differs(box(180, 50), pot)) << "two pots on a plate";
@@ -24,6 +24,14 @@ TEST(MeshDiffers, FromThePotInAnotherSizeOrShape) {
       mesh_differs(box(40, 25), pot),
       "the mesh is 40.0 mm wide and 25.0 mm high, the pot inside 80.0 mm and 50.0 mm: another "
       "program changed the mesh");
+  EXPECT_EQ(
+      mesh_differs(box(144, 90), pot),
+      "the mesh is 144.0 mm wide and 90.0 mm high, the pot inside 80.0 mm and 50.0 mm: 1.80 times "
+      "as much is more than for the shrinkage of clays, so another program may have scaled the "
+      "mesh");
+  EXPECT_EQ(sizes_text(box(100, 60), pot),
+            "80.0 mm wide and 50.0 mm high; the mesh is 100.0 mm and 60.0 mm, 1.25 and 1.20 times "
+            "as much");
 }
 
 }  // namespace

@@ -43,6 +43,15 @@ TEST(Obj, WritesTheShortestTextThatReadsBack) {
             "v 0 0.33333334 0\nf 3 2 1\n");
 }
 
+TEST(Obj, MergesEqualPointsThatTrianglesDoNotShare) {
+  const char* const apart =
+      "v 0 0 0\nv 0 10 0\nv 10 0 0\nv 0 0 0\nv 10 0 0\nv 0 0 10\nv 10 0 0\nv 0 10 0\nv 0 0 "
+      "10\nv 0 0 0\nv 0 0 10\nv 0 10 0\nf 1 2 3\nf 4 5 6\nf 7 8 9\nf 10 11 12\n";
+  std::vector<std::string> notes;
+  EXPECT_EQ(decode_obj(apart, "x", {.notes = &notes}).value().points.size(), 4u);
+  EXPECT_EQ(notes.size(), 1u);
+}
+
 TEST(Obj, ShortensAnOverlongName) {
   const std::string text = encode_obj(tetrahedron(), std::string(100'000, 'n'));
   EXPECT_EQ(decode_obj(text, "x").value(), tetrahedron());

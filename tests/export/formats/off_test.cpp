@@ -33,6 +33,36 @@ TEST(Off, ReadsAFileWithoutKeywordWithANote) {
   EXPECT_TRUE(decode_off(file, "x"));
 }
 
+TEST(Off, MergesEqualPointsThatTrianglesDoNotShare) {
+  // Each triangle of the tetrahedron has its own corners.
+  const TriangleMesh whole = tetrahedron();
+  std::string apart = "OFF\n12 4 0\n", faces;
+  for (const auto& triangle : whole.triangles) {
+    for (const std::uint32_t v : triangle) {
+      const glm::dvec3& p = whole.points[v];
+      apart += std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+    }
+    const auto first = static_cast<int>(&triangle - whole.triangles.data()) * 3;
+    faces += "3 " + std::to_string(first) + " " + std::to_string(first + 1) + " " +
+             std::to_string(first + 2) + "\n";
+  }
+  std::vector<std::string> notes;
+  const auto mesh = decode_off(apart + faces, "x", {.notes = &notes}).value();
+  EXPECT_EQ(mesh.points.size(), 4u);
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  EXPECT_EQ(notes, std::vector<std::string>{"triangles do not share their points in the file: 8 "
+                                            "equal points merged"});
+}
+
+TEST(Off, KeepsEqualPointsOfClosedShells) {
+  // Two tetrahedra that touch at equal points: as written, each is closed.
+  const std::string points = "0 0 0\n10 0 0\n0 10 0\n0 0 10\n";
+  const std::string file = "OFF\n8 8 0\n" + points + points +
+                           "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
+                           "3 4 6 5\n3 4 5 7\n3 5 6 7\n3 4 7 6\n";
+  EXPECT_EQ(decode_off(file, "x").value().points.size(), 8u);
+}
+
 TEST(Off, ReadsPolygonsAsFans) {
   const auto mesh = decode_off("OFF\n4 1 0\n0 0 0 1 0 0 1 1 0 0 1 0\n4 0 1 2 3\n", "x");
   EXPECT_FALSE(mesh);  // the rest of a vertex's line is its colour

@@ -85,6 +85,18 @@ TEST(Ply, WritesTheDocumentedLayout) {
 
 // ---- reading
 
+TEST(Ply, MergesEqualPointsThatTrianglesDoNotShare) {
+  const char* const apart =
+      "ply\nformat ascii 1.0\nelement vertex 12\nproperty float x\nproperty float y\nproperty "
+      "float "
+      "z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n0 10 0\n10 0 0\n0 0 0\n10 0 0\n0 0 10\n10 0 0\n0 10 0\n0 0 10\n0 0 0\n0 0 10\n0 10 "
+      "0\n3 0 1 2\n3 3 4 5\n3 6 7 8\n3 9 10 11\n";
+  std::vector<std::string> notes;
+  EXPECT_EQ(decode_ply(apart, "x", {.notes = &notes}).value().points.size(), 4u);
+  EXPECT_EQ(notes.size(), 1u);
+}
+
 TEST(Ply, ReadsTextAndBothByteOrders) {
   EXPECT_EQ(decode_ply(ply_text(), "x").value(), tetrahedron());
   EXPECT_EQ(decode_ply(ply_binary(std::endian::little), "x").value(), tetrahedron());

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 
 namespace clay::solid::inline check {
 
@@ -20,6 +21,19 @@ inline constexpr std::size_t kMostUnitedPairs = 200;
 /// self-intersections, shells inside others, vertices shared by two fans, and triangles without
 /// area. A rule, not a proof: more pairs may print, too.
 [[nodiscard]] bool slicer_unites(const TriangleMesh& mesh, const MeshReport& report);
+
+/// Parts in mid-air, which a printer cannot hold up without supports.
+struct HangingParts {
+  std::size_t parts = 0;    ///< of the mesh
+  std::size_t hanging = 0;  ///< of them, or of groups of them that touch each other
+  double lowest_mm = 0.0;   ///< of the lowest point of those, above the bed
+};
+
+/// The bed is at the lowest point of the mesh. A part stands if it comes within 0.05 mm of the bed,
+/// or meets a part that stands, or would if it were 0.05 mm lower, or lies in its clay, as a cavity
+/// does. Empty if all do, or if `report`, which is on this mesh, leaves open where its clay is.
+[[nodiscard]] std::optional<HangingParts> hanging_parts(const TriangleMesh& mesh,
+                                                        const MeshReport& report);
 
 // ---- sampled walls -------------------------------------------------------------------
 // The wall of a mesh that has no profile: sampled at many points, not bounded.
