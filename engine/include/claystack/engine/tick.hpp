@@ -153,10 +153,10 @@ struct StabilityPlan {
 };
 
 struct RulesPlan {
-  unsigned rules = 0;           ///< Rule bits
+  unsigned rules = 0;  ///< Rule bits
   /// The solid rings that no tool opens: the lowest, or below the bore if the tool trims the foot.
   std::size_t floor_rings = 0;
-  double surface_per_s = 0.0;   ///< speed of a surface of radius 1 under a tool
+  double surface_per_s = 0.0;  ///< speed of a surface of radius 1 under a tool
 };
 
 /// One line of `claystack plan`.
