@@ -75,7 +75,7 @@ TEST(ExportFallen, FailsForTrappedAirInAFiredProcess) {
   const Pot pot = shapes::fallen(stack_of(8, {{20, 0}, {20, 15}, {20, 0}}), 0, {20, 8, 0}, 0.0);
   ExportOptions options;
   for (const bool fired : {false, true}) {
-    options.walls.process = ProcessLimits{};
+    options.walls.process = process_named("earthenware").value();
     options.walls.process->fired = fired;
     const auto result = exported(pot, {}, options);
     ASSERT_TRUE(result) << result.error().message;

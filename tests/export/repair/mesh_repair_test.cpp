@@ -182,20 +182,6 @@ TEST(Repair, RefusesAHoleOfTooManyEdgesWithItsPlace) {
     EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
 }
 
-/// A cone whose tip and base have many triangles, beside two cubes that cross; a search of all
-/// pairs of those triangles would exceed the time limit of a test.
-TEST(Repair, FindsCrossingsBesideAFanOfManyTriangles) {
-  const TriangleMesh cone = revolve({{{{0, 0}, {30, 0}, {0, 40}}}}, 100'000);
-  const TriangleMesh crossing = moved(together(cube(2.0), moved(cube(2.0), {1, 1, 1})), {60, 0, 0});
-  TriangleMesh mesh = together(cone, crossing);
-  mesh.triangles.erase(mesh.triangles.begin());
-  const auto result = repair_mesh(mesh);
-  ASSERT_TRUE(result) << result.error().message;
-  EXPECT_EQ(times(*result, "hole filled"), 1U);
-  EXPECT_EQ(check_mesh(result->mesh).components, 2U);
-  EXPECT_NEAR(signed_volume(result->mesh), signed_volume(cone) + 15.0, rounding_mm3(result->mesh));
-}
-
 TEST(Repair, FillsAPatchOfEightTrianglesWithoutIntersections) {
   // Curved in both directions; a fill in the plane of the border would fold.
   TriangleMesh mesh =
