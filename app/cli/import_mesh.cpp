@@ -171,6 +171,7 @@ Result<void> import_mesh(const std::string& path, const std::string& pot,
   if (!made) return tl::make_unexpected(made.error());
   const solid::MeshEnclosure enclosure = solid::enclosure_of(*mesh);
   const PotEncoding encoding = pot_encoding_of(pot).value_or(PotEncoding::json);
+  if (auto room = expect_room_to_write(made->pot.stack.size(), encoding, pot); !room) return room;
   if (auto done = publish(pot, write_pot(made->pot, encoding)); !done) return done;
   std::optional<double> mesh_mm3 = enclosure.volume_mm3;
   if (mesh_mm3) mesh_mm3 = std::abs(*mesh_mm3) * std::pow(made->scale, 3);
