@@ -1,3 +1,4 @@
+#include "app/cli/batch_outputs.hpp"
 #include "app/cli/batch_pool.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/json_output.hpp"
@@ -212,6 +213,9 @@ Result<int> batch(BatchOptions options, const Console& console) {
   if (!jobs) return tl::make_unexpected(jobs.error());
   if (auto free = check_outputs({{options.results}}, {options.jobs}, console); !free)
     return tl::make_unexpected(free.error());
+  if (options.processes > 1)
+    if (auto apart = check_job_outputs(*jobs, options.jobs); !apart)
+      return tl::make_unexpected(apart.error());
   auto results = ResultFile::open(options.results);
   if (!results) return tl::make_unexpected(results.error());
   const std::size_t asked = jobs->size();
@@ -254,7 +258,8 @@ void add_batch_command(CLI::App& app, Console& console, int& exit) {
   command
       ->add_option("file", options->jobs,
                    "JOBS.jsonl, or - for standard input: a line for each job, {\"id\": \"bowl\", "
-                   "\"run\": [\"export\", \"bowl.pot.json\", \"bowl.stl\"]}")
+                   "\"run\": [\"export\", \"bowl.pot.json\", \"bowl.stl\"]}; it may run " +
+                       fmt::format("{}", fmt::join(kRunnable, ", ")))
       ->required();
   command->add_option("-o,--output", options->results,
                       "File for the results, appended; jobs whose results it has are skipped, but "

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -23,11 +24,26 @@ Json collapse_json(const Collapse& fall) {
           {"plastic_work_mj", fall.plastic_work_mj}};
 }
 
-void add_export([[maybe_unused]] const Pot& pot, Json& json) {
-  json["min_wall_mm"] = json["maker"] = nullptr;
 #ifdef CLAYSTACK_EXPORT
-  const auto report = solid::run_export(pot, {}, {});
+/// The heights at which the upper piece does not touch the lower one.
+Json parted_at(const ClayStack& stack, const std::vector<solid::PieceShape>& pieces) {
+  Json heights = Json::array();
+  for (std::size_t i = 1; i < pieces.size(); ++i)
+    heights.push_back(stack.ring_height_mm() * static_cast<double>(pieces[i].first_ring));
+  return heights;
+}
+#endif
+
+void add_export([[maybe_unused]] const Pot& pot, Json& json) {
+  json["min_wall_mm"] = json["maker"] = json["pieces"] = json["parted_at_mm"] = nullptr;
+#ifdef CLAYSTACK_EXPORT
+  solid::ExportOptions options;
+  options.allow_pieces = true;
+  const auto report = solid::run_export(pot, {}, options);
   if (!report) return;
+  const auto& pieces = report->section.shapes();
+  json["pieces"] = report->collapsed ? report->collapsed->pieces : pieces.size();
+  if (!report->collapsed) json["parted_at_mm"] = parted_at(pot.stack, pieces);
   if (!report->collapsed) json["min_wall_mm"] = report->walls.min_wall_mm;
   json["maker"] = maker_json(*report);
 #endif
@@ -45,13 +61,27 @@ void print_collapse(const Console& console, const Json& summary) {
       fall["energy_lost_mj"].get<double>(), fall["plastic_work_mj"].get<double>()));
 }
 
+/// "in 3 pieces that do not touch, parted at heights of 20.3 and 41.0 mm".
+std::string pieces_text(const Json& summary) {
+  constexpr std::size_t kMostShown = 4;
+  const Json& heights = summary["parted_at_mm"];
+  std::string text;
+  for (std::size_t i = 0; i < std::min(heights.size(), kMostShown); ++i)
+    text += fmt::format("{}{:.1f}", i == 0 ? "" : ", ", heights[i].get<double>());
+  if (heights.size() > kMostShown) text += ", ...";
+  return fmt::format(
+      "in {} pieces that do not touch, parted at {} {} mm; claystack export --pieces writes them",
+      summary["pieces"].get<std::size_t>(), heights.size() == 1 ? "a height of" : "heights of",
+      text);
+}
+
 std::string verdict_of(const Json& summary) {
   const std::string error =
       fmt::format("volume error {} quanta", summary["volume_error_quanta"].dump());
   if (summary["collapsed"].get<bool>()) return "collapsed; " + error;
-  return (summary["maker"].is_null() ? "stands, but cannot be exported in one piece; "
-                                     : "stands; ") +
-         error;
+  if (summary["maker"].is_null()) return "stands, but cannot be exported; " + error;
+  const Json& parted = summary["parted_at_mm"];
+  return (parted.is_null() || parted.empty() ? "stands" : pieces_text(summary)) + "; " + error;
 }
 
 }  // namespace

@@ -82,7 +82,8 @@ Result<double> part_of(const std::string& text, double most) {
   double percent = 0.0;
   const char* end = text.data() + text.size();
   const auto [stop, problem] = from_chars(text.data(), end, percent);
-  const std::string_view rest(stop, static_cast<std::size_t>(end - stop));
+  std::string_view rest(stop, static_cast<std::size_t>(end - stop));
+  if (rest.starts_with(' ')) rest.remove_prefix(1);
   if (problem != std::errc() || rest != "%" || !(percent >= 0.0 && percent <= 100.0 * most))
     return failure(ErrorKind::bad_input,
                    fmt::format("expected a percentage from 0% to {:g}%, such as 12%, found {}",
@@ -243,8 +244,10 @@ Result<Pot> pot_at_goal(const Pot& pot, ExportCommand& command, const Console& c
   command.goal.to_fill_line = command.fill_line;
   return solid::scaled_to(pot, command.goal, command.request.options)
       .map([&](solid::GoalReport reached) {
-        console.print(fmt::format("scaled by {:.4f} across and {:.4f} up to meet the goal",
-                                  reached.radius_factor, reached.height_factor));
+        console.print(fmt::format("scaled by {:.4f} across and {:.4f} up to meet the goal: {}",
+                                  reached.met.radius_factor, reached.met.height_factor,
+                                  solid::text_of(reached.met)));
+        command.request.options.met_goal = reached.met;
         return std::move(reached.pot);
       });
 }
@@ -293,7 +296,7 @@ Result<int> export_pot(ExportCommand& command, Console console) {
   const auto report = solid::export_files(*pot, command.request,
                                           [&](std::string_view stage) { progress.stage(stage); });
   if (!report) return tl::make_unexpected(report.error());
-  if (console.json) print_json(export_json(*report, *copies));
+  if (console.json) print_json(export_json(*report, *copies, command.request.options.met_goal));
   print_export(console, *report, *copies);
   const bool fails = print_problems(console, *report);
   print_summary(console, *report);
@@ -338,8 +341,8 @@ void add_clay_options(CLI::App* sub, const SharedCommand& command) {
            "Loss in firing, in percent of the dry weight (default: 9%)",
            [](solid::ExportOptions& options) -> double& { return options.clay.ignition_loss; });
   add_length(*sub, "--fill-line", command->request.options.fill_line_mm,
-             "Fill line for the capacity, below the brim of the fired pot [mm]; with --holds "
-             "the capacity is up to this line",
+             "Fill line for the capacity, below the brim of the finished pot, fired and glazed "
+             "[mm]; with --holds the capacity is up to this line",
              0.0, 1e4)
       ->capture_default_str();
   // After parsing: whether the line was asked for.
@@ -371,8 +374,10 @@ void add_goal_options(CLI::App* sub, const SharedCommand& command) {
                             const std::string& help) {
     add_quantity(sub, name, value, kLengthUnits, help)->type_name(kLengthName);
   };
-  add_quantity(sub, "--holds", command->goal.holds_ml, kVolumeUnits,
-               "Scale the pot to this capacity, such as 350ml: to the brim, or to --fill-line");
+  add_quantity(
+      sub, "--holds", command->goal.holds_ml, kVolumeUnits,
+      "Scale the pot to this capacity, such as 350ml or 12oz (US fluid ounces): to the brim, "
+      "or to --fill-line");
   add_quantity(sub, "--weighs", command->goal.weighs_g, kWeightUnits,
                "Scale the pot to this weight, such as 400g");
   add_size("--height", command->goal.height_mm,
@@ -380,7 +385,8 @@ void add_goal_options(CLI::App* sub, const SharedCommand& command) {
            "height and radius are scaled apart");
   add_size("--diameter", command->goal.diameter_mm, "Scale the pot to this largest diameter");
   sub->add_flag("--fired", command->goal.fired,
-                "The goal is of the fired pot, after --shrinkage; else of the pot as thrown");
+                "The goal is of the finished pot: after --shrinkage, and with the glaze of "
+                "--glaze-allowance, which has no weight; else of the pot as thrown");
 }
 
 /// How the steps of the rings become walls.
@@ -427,7 +433,8 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
   begin_group(*sub, "Finish");
   add_finish_options(*sub, command->request.options, command->glaze_mm);
   add_length(*sub, "--drain", command->request.options.drain_mm,
-             "Diameter of a hole along the axis that opens closed cavities [mm] (default: none)",
+             "Diameter of a hole along the axis that opens closed cavities, as thrown [mm] "
+             "(default: none)",
              1e-3, 1e4);
 }
 

@@ -172,8 +172,8 @@ void print_shrinkage(const Console& console, const ExportReport& report) {
   if (report.prepared.shrinkage == 0.0) return;
   const double fired = 1.0 - report.prepared.shrinkage;
   console.detail(fmt::format(
-      "enlarged for a shrinkage of {:g} %: {:.2f} mm wide and {:.2f} mm high in the files, "
-      "{:.2f} mm wide and {:.2f} mm high after firing",
+      "enlarged for a shrinkage of {:g} %; across the corners of the facets {:.2f} mm wide and "
+      "{:.2f} mm high in the files, {:.2f} mm wide and {:.2f} mm high after firing",
       100.0 * report.prepared.shrinkage, report.size.diameter_mm, report.size.height_mm,
       fired * report.size.diameter_mm, fired * report.size.height_mm));
 }
@@ -188,7 +188,7 @@ void print_solid(const Console& console, const ExportReport& report) {
       fmt::format("volume {:.3f} cm3, relative difference {}to the counted clay {:.1e}; minimum "
                   "wall {:.2f} mm at {}; chordal error {:.3g} mm",
                   report.volume.solid_mm3 / 1000.0, report.collapsed ? "with overlap " : "",
-                  report.volume.error_relative, report.walls.min_wall_mm, thinnest_height(report),
+                  report.volume.error_relative, report.thinnest_mm(), thinnest_height(report),
                   report.size.chordal_error_mm));
   if (!report.walls.parts.empty())
     console.detail("thinnest places: " + solid::text_of(report.walls.parts));
@@ -274,7 +274,7 @@ Json solid_json(const ExportReport& report) {
       {"volume_mm3", report.volume.solid_mm3},
       {"counted_volume_mm3", report.prepared.counted_volume_mm3},
       {"volume_error_relative", report.volume.error_relative},
-      {"min_wall_mm", report.walls.min_wall_mm},
+      {"min_wall_mm", report.thinnest_mm()},
       {"thinnest_at_mm",
        {{report.walls.thinnest.from.rho, report.walls.thinnest.from.y},
         {report.walls.thinnest.to.rho, report.walls.thinnest.to.y}}},
@@ -345,9 +345,26 @@ std::string verdict_of(const ExportReport& report) {
   return notes > 0 ? fmt::format("{}; {}", solid, counted(notes, "warning")) : solid;
 }
 
+/// As precise as the line on the limit, if there is one.
 std::string wall_row(const ExportReport& report) {
-  return fmt::format("at least {:.2f} mm, thinnest at {}", report.thinnest_mm(),
-                     thinnest_height(report));
+  return fmt::format("at least {:.{}f} mm, thinnest at {}", report.thinnest_mm(),
+                     report.walls.limit ? 3 : 2, thinnest_height(report));
+}
+
+Json goal_json(const std::optional<solid::MetGoal>& met) {
+  if (!met) return nullptr;
+  const solid::Goal& goal = met->goal;
+  const auto number = [](const std::optional<double>& n) { return n ? Json(*n) : Json(); };
+  return {{"holds_ml", number(goal.holds_ml)},
+          {"weighs_g", number(goal.weighs_g)},
+          {"height_mm", number(goal.height_mm)},
+          {"diameter_mm", number(goal.diameter_mm)},
+          {"to_fill_line", goal.to_fill_line},
+          {"state", !goal.fired   ? "thrown"
+                    : met->glazed ? "glazed"
+                                  : "fired"},
+          {"radius_factor", met->radius_factor},
+          {"height_factor", met->height_factor}};
 }
 
 }  // namespace
@@ -382,7 +399,8 @@ std::vector<std::pair<std::string, std::string>> finish_rows(const ExportReport&
   return rows;
 }
 
-Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies) {
+Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
+                 const std::optional<solid::MetGoal>& goal) {
   Json json = report.has_solid() ? solid_json(report) : Json::object();
   for (const char* list : {"files", "left_out", "stages"}) json[list] = Json::array();
   if (const auto& limit = report.walls.limit; limit && report.has_solid())
@@ -392,6 +410,7 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies)
   if (report.process.overhang) json["overhang"] = overhang_json(report.process);
   if (const auto& process = report.process.limits) json["process"] = process_json(report, *process);
   json["maker"] = maker_json(report);
+  json["goal"] = goal_json(goal);
   json["problems"] = problems_json(report);
   auto copy = copies.begin();
   for (const FileReport& file : report.files) {

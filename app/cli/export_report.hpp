@@ -6,6 +6,7 @@
 #include "app/cli/pot_copy.hpp"
 #include "claystack/export/job.hpp"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,9 +30,10 @@ namespace clay::cli {
 [[nodiscard]] Json wall_parts_json(const std::vector<solid::PartWall>& parts);
 
 /// `copies` describe those files of the report that are pots, in their order. Without a mesh there
-/// are no figures of a solid.
+/// are no figures of a solid. `goal`: to which the pot was scaled.
 [[nodiscard]] Json export_json(const solid::ExportReport& report,
-                               const std::vector<PotCopy>& copies);
+                               const std::vector<PotCopy>& copies,
+                               const std::optional<solid::MetGoal>& goal);
 void print_export(const Console& console, const solid::ExportReport& report,
                   const std::vector<PotCopy>& copies);
 

@@ -132,6 +132,7 @@ class Page {
     verdict();
     pictures(picture);
     if (!json["maker"].is_null()) maker(json["maker"]);
+    assumptions();
     walls();
     if (report.maker) drawing();
     files();
@@ -196,8 +197,8 @@ class Page {
     const bool fired = !maker["fired"].is_null();
     table("Size, weight, capacity and surface", [&] {
       std::vector<std::pair<std::string, const Json*>> states;
-      for (const auto& [key, name] :
-           {std::pair("thrown", "as thrown"), std::pair("dry", "dry"), std::pair("fired", "fired")})
+      for (const auto& [key, name] : {std::pair("thrown", "as thrown"), std::pair("dry", "dry"),
+                                      std::pair("fired", "fired"), std::pair("glazed", "glazed")})
         if (!maker[key].is_null()) states.emplace_back(name, &maker[key]);
       std::vector<std::string> heads{""};
       for (const auto& state : states) heads.push_back(state.first);
@@ -231,14 +232,30 @@ class Page {
     });
   }
 
+  /// What the figures above rest on.
+  void assumptions() {
+    if (json_["maker"].is_null()) return;
+    table("Assumptions", [&] {
+      if (options_.met_goal)
+        row({"goal, to which the pot was scaled", solid::text_of(*options_.met_goal)}, "td", false);
+      for (const auto& [name, figure] : solid::assumptions_of(clay_figures()))
+        row({name, figure}, "td", false);
+    });
+  }
+
+  [[nodiscard]] const solid::ClayFigures& clay_figures() const {
+    return (report_.maker ? report_.maker : report_.fallen)->clay;
+  }
+
   void walls() {
     table("Walls and making", [&] {
-      row({"minimum wall",
-           fmt::format("{:.2f} mm at {}", report_.thinnest_mm(), thinnest_height(report_))},
+      row({"minimum wall of the files",
+           fmt::format("{:.{}f} mm at {}", report_.thinnest_mm(), report_.walls.limit ? 3 : 2,
+                       thinnest_height(report_))},
           "td", false);
       for (const auto& [part, thickness_mm, at] : report_.walls.parts)
-        row({fmt::format("thinnest {}", solid::name_of(part)),
-             fmt::format("{:.2f} mm at a height of {:.1f} mm", thickness_mm, at.y)},
+        row({fmt::format("{} of the round section", solid::name_of(part)),
+             fmt::format("{:.2f} mm or more, at a height of {:.1f} mm", thickness_mm, at.y)},
             "td", false);
       if (const auto& limit = report_.walls.limit)
         row({"required", fmt::format("{:.2f} mm ({})", limit->min_wall_mm, limit->asked_by())},

@@ -67,9 +67,14 @@ struct Stage {
 /// The simulated hand's stroke: sets duration and workspace unless given.
 Result<void> take_up_stroke(const LiveJob& job, LiveOptions& options, Stage& stage) {
   std::error_code ignored;
-  if (options.device != "simulated" || job.stroke_path.empty() ||
-      !std::filesystem::exists(job.stroke_path, ignored))
-    return {};
+  if (options.device != "simulated") return {};
+  if (job.stroke_path.empty() || !std::filesystem::exists(job.stroke_path, ignored)) {
+    if (options.settings.seconds > 0.0) return {};
+    // Its hand would rest for ever.
+    return failure(ErrorKind::bad_input,
+                   "--device simulated: expected a session for its hand (-s NAME.session, or one "
+                   "beside the scene) or --seconds, found neither");
+  }
   auto session = load_session(job.stroke_path);
   if (!session) return tl::make_unexpected(session.error());
   stage.stroke = std::move(session->poses);

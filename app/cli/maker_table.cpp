@@ -25,11 +25,24 @@ Json balance_json(const solid::Balance& balance) {
 }
 #endif
 
-/// "500 g as thrown, 364 g fired"; "500 g" if the shrinkage is not known.
+/// "500 g as thrown, 364 g fired"; "500 g" if the shrinkage is not known. Sizes and capacities also
+/// under the glaze.
 template <class Text>
-std::string by_state(const Json& numbers, Text text) {
-  if (numbers["fired"].is_null()) return text(numbers["thrown"]);
-  return text(numbers["thrown"]) + " as thrown, " + text(numbers["fired"]) + " fired";
+std::string by_state(const Json& numbers, Text text, bool under_glaze = true) {
+  const bool fired = !numbers["fired"].is_null();
+  const bool glazed = under_glaze && !numbers["glazed"].is_null();
+  std::string all = text(numbers["thrown"]);
+  if (fired || glazed) all += " as thrown";
+  if (fired) all += ", " + text(numbers["fired"]) + " fired";
+  if (glazed) all += ", " + text(numbers["glazed"]) + " glazed";
+  return all;
+}
+
+/// The state to which the fill line belongs.
+const Json& used_state(const Json& numbers) {
+  for (const char* state : {"glazed", "fired"})
+    if (!numbers[state].is_null()) return numbers[state];
+  return numbers["thrown"];
 }
 
 std::string size_text(const Json& state) {
@@ -46,17 +59,20 @@ std::string capacity_text(const Json& state) {
 }
 
 std::string capacity_row(const Json& numbers) {
-  const bool fired = !numbers["fired"].is_null();
-  const Json& used = fired ? numbers["fired"] : numbers["thrown"];
+  const bool fired = !numbers["fired"].is_null(), glazed = !numbers["glazed"].is_null();
+  const Json& used = used_state(numbers);
   if (used["capacity_ml"].is_null()) return "none: the pot collapsed";
-  if (number_in(used, "capacity_ml") <= 0.0) return "none: no floor under an open bore";
+  if (!numbers["no_capacity"].is_null())
+    return "none: " + numbers["no_capacity"].get<std::string>();
   const std::string to_brim = by_state(numbers, capacity_text) + " to the brim; ";
   const double to_line_ml = number_in(used, "to_line_ml");
   const double line_mm = number_in(numbers, "fill_line_mm");
   if (to_line_ml <= 0.0)
     return to_brim + fmt::format("the fill line, {:g} mm below it, is below the floor", line_mm);
   return to_brim + fmt::format("{:.0f} ml to {:g} mm below it{}", to_line_ml, line_mm,
-                               fired ? ", fired" : "");
+                               glazed  ? ", glazed"
+                               : fired ? ", fired"
+                                       : "");
 }
 
 /// The surface that glaze may cover, of the pot in use.
@@ -86,10 +102,14 @@ Json maker_json(const solid::MakerNumbers& numbers, bool stands) {
                {"thrown", state_json(numbers.thrown, stands)},
                {"dry", nullptr},
                {"fired", nullptr},
+               {"glazed", nullptr},
+               {"no_capacity", nullptr},
                {"empty", nullptr},
                {"full", nullptr}};
   if (numbers.dry) json["dry"] = state_json(*numbers.dry, stands);
   if (numbers.fired) json["fired"] = state_json(*numbers.fired, stands);
+  if (numbers.glazed) json["glazed"] = state_json(*numbers.glazed, stands);
+  if (!numbers.no_capacity.empty()) json["no_capacity"] = numbers.no_capacity;
   if (stands) json["empty"] = balance_json(numbers.empty);
   if (numbers.full) json["full"] = balance_json(*numbers.full);
   return json;
@@ -110,7 +130,7 @@ void print_maker_table(const Console& console, const Json& numbers, const std::s
   };
   if (!numbers.is_null()) {
     row("size", by_state(numbers, size_text));
-    row("weight", by_state(numbers, weight_text));
+    row("weight", by_state(numbers, weight_text, false));
     row("capacity", capacity_row(numbers));
     row("surface", surface_row(numbers));
   }

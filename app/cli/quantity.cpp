@@ -1,6 +1,7 @@
 #include "app/cli/quantity.hpp"
 
 #include "core/number_text.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -22,7 +23,9 @@ std::optional<double> number_in(std::string_view text, std::span<const Unit> uni
   std::string_view name(stop, static_cast<std::size_t>(end - stop));
   if (name.starts_with(' ')) name.remove_prefix(1);
   if (name.empty()) return number * units.front().factor;
-  const auto unit = std::ranges::find(units, name, &Unit::name);
+  const auto unit = std::ranges::find_if(units, [&](const Unit& one) {
+    return one.name.size() == name.size() && ends_ignoring_case(name, one.name);
+  });
   if (unit == units.end()) return {};
   return number * unit->factor;
 }

@@ -21,14 +21,15 @@ struct Unit {
 
 /// Factors to mm.
 inline constexpr std::array kLengthUnits{Unit{"mm", 1.0}, Unit{"cm", 10.0}, Unit{"in", 25.4}};
-/// Factors to ml.
-inline constexpr std::array kVolumeUnits{Unit{"ml", 1.0}, Unit{"cl", 10.0}, Unit{"l", 1000.0}};
+/// Factors to ml; the ounce is the fluid ounce of the US.
+inline constexpr std::array kVolumeUnits{Unit{"ml", 1.0}, Unit{"cl", 10.0}, Unit{"l", 1000.0},
+                                         Unit{"oz", 29.5735295625}};
 /// Factors to g; the pound and the ounce are those of shops (avoirdupois).
 inline constexpr std::array kWeightUnits{Unit{"g", 1.0}, Unit{"kg", 1000.0},
                                          Unit{"oz", 28.349523125}, Unit{"lb", 453.59237}};
 
 /// "350ml", "0.35 l", "350": a number above 0 in the first of the units, or in the one that it
-/// names. Errors of kind `bad_input` list the units.
+/// names, in capitals or not. Errors of kind `bad_input` list the units.
 Result<double> quantity_of(std::string_view text, std::span<const Unit> units);
 
 /// "10mm", "1 cm", "0.4in", or "10", which is in mm: a length within these limits [mm]. Errors of

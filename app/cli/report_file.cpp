@@ -17,7 +17,7 @@ void set_report(const Pot& pot, solid::ExportRequest& request, const std::vector
   if (page && !pot.collapse) request.options.wall_spacing_mm = solid::kWallTableSpacingMm;
   request.report_text = [page, picture, copies,
                          options = request.options](const solid::ExportReport& report) {
-    const Json json = export_json(report, copies);
+    const Json json = export_json(report, copies, options.met_goal);
     return page ? html_report(json, report, options, picture) : pretty(json);
   };
 }

@@ -325,7 +325,8 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
   if (ends_ignoring_case(options.scene, ".work")) return throw_work_file(options, console);
   if (options.at || options.list)
     return failure(ErrorKind::bad_input,
-                   "--at and --list: expected NAME.work, found " + options.scene);
+                   "--at and --list: expected NAME.work, found " +
+                       (options.scene.empty() ? "no file, only --from" : options.scene));
   if (!options.from.empty() && !options.error_plot.empty())
     return failure(ErrorKind::bad_input,
                    "--error-plot: expected no --from, because it throws with both models and a pot "

@@ -53,8 +53,8 @@ auto members(Like<solid::Balance> auto& of) {
   return std::tie(centre_mm, tipping_deg);
 }
 auto members(Like<solid::MakerNumbers> auto& of) {
-  auto& [clay, fill_line_mm, thrown, dry, fired, empty, full] = of;
-  return std::tie(clay, fill_line_mm, thrown, dry, fired, empty, full);
+  auto& [clay, fill_line_mm, thrown, dry, fired, glazed, empty, full, no_capacity] = of;
+  return std::tie(clay, fill_line_mm, thrown, dry, fired, glazed, empty, full, no_capacity);
 }
 auto members(Like<render::Row> auto& of) {
   auto& [outer_mm, inner_mm] = of;

@@ -53,10 +53,15 @@ void merge_equal_points(TriangleMesh& mesh, std::vector<std::string>* notes) {
   }
   const std::size_t repeated = mesh.points.size() - merged.points.size();
   if (repeated == 0) return;
+  // A triangle that collapses closes no edge.
+  TriangleMesh apart{mesh.points, {}};
   merged.triangles.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles)
-    merged.triangles.push_back({number[a], number[b], number[c]});
-  if (open_edges(merged) >= open_edges(mesh)) return;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const auto& [i, j, k] =
+        merged.triangles.emplace_back(Triangle{number[a], number[b], number[c]});
+    if (i != j && j != k && k != i) apart.triangles.push_back({a, b, c});
+  }
+  if (open_edges(merged) >= open_edges(apart)) return;
   mesh = std::move(merged);
   if (notes != nullptr)
     notes->push_back("triangles do not share their points in the file: " +

@@ -103,8 +103,11 @@ class GoalSearch {
         });
   }
 
+  /// A goal of the finished pot counts the glaze.
   [[nodiscard]] const PotState& state(const ExportReport& report) const {
-    return goal_.fired ? *report.maker->fired : report.maker->thrown;
+    const MakerNumbers& numbers = *report.maker;
+    if (!goal_.fired) return numbers.thrown;
+    return numbers.glazed ? *numbers.glazed : *numbers.fired;
   }
 
   [[nodiscard]] bool close(const ExportReport& report) const {
@@ -148,7 +151,7 @@ class GoalSearch {
     if (state(report).capacity_ml > 0.0)
       return ": expected a fill line above the floor of the pot, found one " +
              in_mm(options_.fill_line_mm) + " mm below the brim";
-    return ": expected a pot that has one, found none: no floor under an open bore";
+    return ": expected a pot that has one, found none: " + report.maker->no_capacity;
   }
 
   Result<GoalReport> accept(const ExportReport& report) {
@@ -159,7 +162,8 @@ class GoalSearch {
           "goal: scaled by " + in_mm(scale_.radius) + " across and " + in_mm(scale_.height) +
               " up, thin wall: " +
               thin_wall_text(report.section.profile(), report.walls.min_wall_mm, *limit));
-    return GoalReport{std::move(scaled_pot_), scale_.radius, scale_.height};
+    const bool glazed = goal_.fired && report.maker->glazed.has_value();
+    return GoalReport{std::move(scaled_pot_), {goal_, glazed, scale_.radius, scale_.height}};
   }
 
   const Pot& pot_;
@@ -171,6 +175,19 @@ class GoalSearch {
 };
 
 }  // namespace
+
+std::string text_of(const MetGoal& met) {
+  const Goal& goal = met.goal;
+  std::string text;
+  const auto add = [&](const std::optional<double>& number, const char* before, const char* after) {
+    if (number) text.append(text.empty() ? "" : ", ").append(before + in_mm(*number) + after);
+  };
+  add(goal.holds_ml, "holds ", goal.to_fill_line ? " ml to the fill line" : " ml to the brim");
+  add(goal.weighs_g, "weighs ", " g");
+  add(goal.height_mm, "", " mm high");
+  add(goal.diameter_mm, "", " mm wide");
+  return text + (!goal.fired ? ", as thrown" : met.glazed ? ", fired and glazed" : ", fired");
+}
 
 Result<GoalReport> scaled_to(const Pot& pot, const Goal& goal, const ExportOptions& options) {
   return named(GoalSearch(pot, goal, options).run(), options.source);

@@ -192,9 +192,20 @@ class RevolvedExport {
             "finish",
             [&] { return finished(section.profile(), options_.finish, min_wall_mm, tolerance_mm); })
         .map([&](FinishedProfile made) {
+          section.glazed = glaze_on(section.profile(), tolerance_mm);
           section.smoothed.section.profile = std::move(made.profile);
           section.finish = made.ledger;
         });
+  }
+
+  /// The same finish without the set-back: glaze on an arc of the floor makes it tighter.
+  std::optional<Profile> glaze_on(const Profile& profile, double tolerance_mm) const {
+    Finish finish = options_.finish;
+    if (finish.glaze_mm == 0.0) return {};
+    finish.floor_fillet_mm = std::max(finish.floor_fillet_mm - finish.glaze_mm, 0.0);
+    finish.glaze_mm = 0.0;
+    auto made = finished(profile, finish, std::nullopt, tolerance_mm);
+    return made ? std::optional(std::move(made->profile)) : std::nullopt;
   }
 
   /// The clay of the stack, after finishing.
@@ -281,7 +292,9 @@ class RevolvedExport {
     ClayFigures clay = options_.clay;
     clay.density_g_cm3 = prepared_.pot.density_g_cm3;
     clay.shrinkage = options_.shrinkage;
-    return maker_numbers(report_.section.profile(), clay, options_.fill_line_mm);
+    MakerNumbers numbers = maker_numbers(report_.section.profile(), clay, options_.fill_line_mm);
+    if (report_.section.glazed) add_glaze(numbers, *report_.section.glazed);
+    return numbers;
   }
 
   const PreparedPot& prepared_;

@@ -96,7 +96,8 @@ class SheetMaker {
         profile_(report.section.profile()),
         numbers_(*report.maker),
         lip_mm_(report.section.smoothed.lip_fillet_mm),
-        shrinkage_(options.shrinkage) {
+        shrinkage_(options.shrinkage),
+        goal_(options.met_goal) {
     sheet_.title = options.name;
     for (const Polygon& piece : profile_.pieces)
       for (const ProfilePoint& p : piece) {
@@ -320,6 +321,17 @@ class SheetMaker {
            fixed(pot.capacity_ml, 0) + " ml";
   }
 
+  /// On two lines, which are as long as the others.
+  void add_assumptions(std::vector<std::string>& facts) const {
+    std::string lines[2] = {"assumed: ", ""};
+    const auto rows = assumptions_of(numbers_.clay);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      std::string& line = lines[2 * i < rows.size() + 1 ? 0 : 1];
+      line += rows[i].first + " " + rows[i].second + (i + 1 < rows.size() ? ", " : "");
+    }
+    for (std::string& line : lines) facts.push_back(std::move(line));
+  }
+
   /// Returns the height below the last line.
   double write_facts(double y) {
     const double left = -radius_;
@@ -327,6 +339,9 @@ class SheetMaker {
     std::vector<std::string> facts{state("as thrown (drawn)", numbers_.thrown)};
     if (numbers_.dry) facts.push_back(state("dry", *numbers_.dry));
     if (numbers_.fired) facts.push_back(state("fired", *numbers_.fired));
+    if (numbers_.glazed) facts.push_back(state("glazed", *numbers_.glazed));
+    if (goal_) facts.push_back("scaled to: " + text_of(*goal_));
+    if (shrinkage_ > 0.0) add_assumptions(facts);
     facts.push_back("thinnest wall " + fixed(report_.walls.thinnest.thickness_mm, 1) +
                     " at a height of " + fixed(report_.walls.thinnest.from.y, 1) +
                     "; all sizes in mm");
@@ -380,6 +395,7 @@ class SheetMaker {
   const Profile& profile_;
   const MakerNumbers& numbers_;
   double lip_mm_, shrinkage_;
+  const std::optional<MetGoal>& goal_;
   double radius_ = 0.0, top_ = 0.0;
   glm::dvec2 low_{0.0}, high_{0.0};  ///< of everything drawn
   Sheet sheet_;

@@ -95,10 +95,12 @@ Balance balance(double centre_mm, double foot_diameter_mm) noexcept {
   return {centre_mm, std::atan2(0.5 * foot_diameter_mm, centre_mm) * 180.0 / std::numbers::pi};
 }
 
+std::string in_percent(double part) { return in_mm(100.0 * part) + " %"; }
+
 Result<void> check_part(std::string_view name, double value, double below) {
   if (value >= 0.0 && value < below) return {};
-  return failure(ErrorKind::bad_input, std::string(name) + ": expected 0 to below " + in_mm(below) +
-                                           ", found " + in_mm(value));
+  return failure(ErrorKind::bad_input, std::string(name) + ": expected 0 to below " +
+                                           in_percent(below) + ", found " + in_percent(value));
 }
 
 /// Visits the lines from the brim down the bore, each by its ends in the order against the walk.
@@ -153,8 +155,20 @@ Result<void> ClayFigures::check() const {
         if (drying >= 0.0 && drying <= shrinkage) return {};
         return failure(ErrorKind::bad_input,
                        "drying shrinkage: expected at most the shrinkage in total, " +
-                           in_mm(shrinkage) + ", found " + in_mm(drying));
+                           in_percent(shrinkage) + ", found " + in_percent(drying));
       });
+}
+
+std::vector<std::pair<std::string, std::string>> assumptions_of(const ClayFigures& clay) {
+  std::vector<std::pair<std::string, std::string>> rows{
+      {"density as thrown", in_mm(clay.density_g_cm3) + " g/cm3"}};
+  if (!(clay.shrinkage > 0.0)) return rows;
+  const double drying = clay.drying_shrinkage.value_or(0.5 * clay.shrinkage);
+  rows.emplace_back("shrinkage", in_percent(clay.shrinkage) + " of each length");
+  rows.emplace_back("of it in drying", in_percent(drying));
+  rows.emplace_back("water", in_percent(clay.water) + " of the weight as thrown");
+  rows.emplace_back("ignition loss", in_percent(clay.ignition_loss) + " of the dry weight");
+  return rows;
 }
 
 RevolvedBody revolved_body(const Profile& profile) noexcept {
@@ -192,6 +206,11 @@ void add_later_states(MakerNumbers& numbers) {
 
 constexpr double kPerMl = 1e-3;
 
+std::string no_capacity_of(const Profile& profile) {
+  const Polygon& top = profile.pieces.back();
+  return top[brim_of(top)].rho > 0.0 ? "no floor under an open bore" : "no opening at the top";
+}
+
 }  // namespace
 
 MakerNumbers fallen_numbers(const PotSize& size, double volume_mm3, const ClayFigures& clay,
@@ -217,6 +236,7 @@ MakerNumbers maker_numbers(const Profile& profile, const ClayFigures& clay, doub
   thrown.capacity_ml = kPerMl * room.volume_mm3;
   thrown.to_line_ml = kPerMl * room_of(profile, fill_line_mm / fired).volume_mm3;
   measure_surface(profile, thrown);
+  if (!(thrown.capacity_ml > 0.0)) numbers.no_capacity = no_capacity_of(profile);
   add_later_states(numbers);
   const PotState& used = numbers.in_use();
   const double foot = foot_level(profile), centre = fired * (body.centre_mm - foot);
@@ -228,6 +248,11 @@ MakerNumbers maker_numbers(const Profile& profile, const ClayFigures& clay, doub
     numbers.full = balance(both, used.size.foot_diameter_mm);
   }
   return numbers;
+}
+
+void add_glaze(MakerNumbers& numbers, const Profile& section) {
+  numbers.glazed = maker_numbers(section, numbers.clay, numbers.fill_line_mm).in_use();
+  numbers.glazed->weight_g = numbers.in_use().weight_g;
 }
 
 }  // namespace clay::solid::inline section

@@ -146,6 +146,25 @@ TEST_F(Batch, RefusesAWrongLineBeforeTheFirstJob) {
   }
 }
 
+TEST_F(Batch, RefusesJobsThatWriteTheSameFile) {
+  auto second = thrown("a.pot.json");
+  second["id"] = "again";
+  second["run"][3] = folder.file("./a.pot.json");
+  write_jobs({thrown("a.pot.json"), second});
+  const Ran ran = run("-j 2");
+  EXPECT_EQ(ran.status, 2) << ran.out;
+  EXPECT_NE(ran.err.find("written by a.pot.json and again"), std::string::npos) << ran.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
+  // The input of several exports is no output.
+  const std::string pot = folder.file("b.pot.json"), stl = folder.file("b.stl");
+  ASSERT_EQ(claystack("throw -q " + sample("cylinder.scene.json") + " -o " + pot).status, 0);
+  write_jobs({job("1", {"export", pot, stl}), job("2", {"export", pot, folder.file("b.obj")})});
+  EXPECT_EQ(run("-j 2").status, 0);
+  write_jobs({job("1", {"export", pot, stl}), job("2", {"export", "--min-wall", "1", pot, stl})});
+  EXPECT_EQ(run("-j 2").status, 2);
+  EXPECT_EQ(run("-j 1").status, 0) << "one after the other";
+}
+
 TEST_F(Batch, RefusesAResultFileOfAnotherKind) {
   write_jobs({thrown("a.pot.json")});
   // With and without a line feed at the end, as JSON on one line and meshes have none.

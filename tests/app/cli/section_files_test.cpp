@@ -98,9 +98,10 @@ TEST_F(SectionFiles, TheReportIsOnePage) {
       run(folder.file("a.stl") + " --shrinkage 12% --process stoneware --report " + page);
   ASSERT_LE(made.status, 1) << made.err;
   const std::string html = read_text(page);
-  for (const char* part : {"<!DOCTYPE html>", "as thrown", "fired", "centre of gravity", "tips at",
-                           "thinnest wall", "steepest overhang", "distance from the round solid",
-                           "Left out", "Time", "closed and embedded", "</html>"})
+  for (const char* part :
+       {"<!DOCTYPE html>", "as thrown", "fired", "centre of gravity", "tips at",
+        "wall of the round section", "steepest overhang", "distance from the round solid",
+        "Left out", "Time", "closed and embedded", "</html>"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   // The report and the text agree on how far the facets are from the pot.
   const std::string within = "within ", of = " of the round solid";
@@ -166,6 +167,35 @@ TEST_F(SectionFiles, TheReportConformsToItsSchema) {
   pot = folder.file("fallen.pot.json");
   ASSERT_EQ(claystack("throw -q " + sample("collapse.scene.json") + " -o " + pot).status, 0);
   check(stl + " " + folder.file("a.svg"));
+}
+
+TEST_F(SectionFiles, ScalesAPotToACapacityUnderItsGlaze) {
+  const std::string page = folder.file("r.html"), drawing = folder.file("a.svg");
+  const std::string goal = " --holds 12OZ --fired --shrinkage '12 %' --glaze-allowance 1 ";
+  const Ran made =
+      run("--json" + goal + folder.file("a.stl") + " " + drawing + " --report " + page);
+  ASSERT_EQ(made.status, 0) << made.err;
+  const auto json = made.json();
+  EXPECT_EQ(violation(load_schema("report"), Json::parse(made.out)), "");
+  constexpr double kHoldsMl = 12.0 * 29.5735295625;  // of the US
+  EXPECT_NEAR(json.at("maker").at("glazed").at("capacity_ml").get<double>(), kHoldsMl, 1e-3);
+  EXPECT_GT(json.at("maker").at("fired").at("capacity_ml").get<double>(), kHoldsMl + 5.0);
+  EXPECT_EQ(json.at("goal").at("state"), "glazed");
+  EXPECT_NEAR(json.at("goal").at("holds_ml").get<double>(), kHoldsMl, 1e-9);
+  for (const std::string& text : {read_text(page), read_text(drawing)})
+    for (const char* part : {"fired and glazed", "12 % of each length", "6 %",
+                             "20 % of the weight as thrown", "9 % of the dry weight", "g/cm3"})
+      EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+TEST_F(SectionFiles, StatesOneMinimumWall) {
+  // The files have different walls, because they are rounded differently.
+  const std::string files = folder.file("a.stl") + " " + folder.file("a.drc");
+  const auto walls = run("--json " + files).json();
+  double thinnest = 1e9;
+  for (const auto& file : walls.at("files"))
+    thinnest = std::min(thinnest, file.at("wall_mm").at(0).get<double>());
+  EXPECT_EQ(walls.at("min_wall_mm").get<double>(), thinnest);
 }
 
 TEST_F(SectionFiles, ScalesAPotToACapacity) {

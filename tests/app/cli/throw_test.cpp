@@ -26,6 +26,37 @@ TEST(Throw, RefusesOptionsOfADeviceWithoutOne) {
 }
 #endif
 
+TEST(Throw, RefusesAListOfAPot) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("a.pot.json");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  const auto run = claystack("throw --from " + pot + " --list");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("found no file, only --from"), std::string::npos) << run.err;
+#ifdef CLAYSTACK_FALCON
+  // The simulated hand would have no stroke, and no end.
+  const auto live = claystack("throw --from " + pot + " --device simulated");
+  EXPECT_EQ(live.status, 2);
+  EXPECT_NE(live.err.find("expected a session for its hand"), std::string::npos) << live.err;
+#endif
+}
+
+TEST(Throw, ReportsThePiecesOfATornPot) {
+  const std::string torn = "throw " + sample("vase.scene.json") + " -s " + sample("bowl.session");
+  const auto run = claystack(torn);
+  EXPECT_EQ(run.status, 0) << run.err;
+  const auto json = claystack(torn + " --json").json();
+  const std::size_t pieces = json.at("pieces");
+  ASSERT_GT(pieces, 1u);
+  EXPECT_EQ(json.at("parted_at_mm").size(), pieces - 1);
+  EXPECT_NE(run.out.find("verdict   in " + std::to_string(pieces) +
+                         " pieces that do not touch, parted at "),
+            std::string::npos)
+      << run.out;
+  EXPECT_NE(run.out.find("claystack export --pieces writes them"), std::string::npos);
+  EXPECT_NE(run.out.find("\nsize "), std::string::npos) << "the table of the pot";
+}
+
 class Samples : public testing::TestWithParam<const char*> {
  protected:
   std::string scene = sample(std::string(GetParam()) + ".scene.json");

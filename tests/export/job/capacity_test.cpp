@@ -119,7 +119,7 @@ TEST(Goal, IsMetByTheWaterInTheWrittenMesh) {
     goal.to_fill_line = to_line;
     const auto reached = scaled_to(pot_of(shapes::vase(150)), goal, options);
     ASSERT_TRUE(reached) << reached.error().message;
-    EXPECT_EQ(reached->radius_factor, reached->height_factor);
+    EXPECT_EQ(reached->met.radius_factor, reached->met.height_factor);
     const auto exported = samples::exported(reached->pot, {MeshFormat::stl_binary}, options);
     ASSERT_TRUE(exported) << exported.error().message;
     const auto mesh = decode_mesh(exported->files[0], MeshFormat::stl_binary, "pot").value();
@@ -138,7 +138,7 @@ TEST(Goal, OfACylinderAgreesWithClosedForms) {
     options.shrinkage = shrinkage;
     const auto reached = scaled_to(cup, goal, options);
     EXPECT_TRUE(reached) << (reached ? "" : reached.error().message);
-    return reached ? std::pair(reached->radius_factor, reached->height_factor)
+    return reached ? std::pair(reached->met.radius_factor, reached->met.height_factor)
                    : std::pair(0.0, 0.0);
   };
   Goal goal;
@@ -159,6 +159,34 @@ TEST(Goal, OfACylinderAgreesWithClosedForms) {
   EXPECT_NEAR(factors(goal, 0.1).second, 0.9, 1e-6);
   goal.fired = false;
   EXPECT_NEAR(factors(goal, 0.1).second, 0.81, 1e-6);
+}
+
+TEST(Goal, OfTheFinishedPotCountsItsGlaze) {
+  // Glaze fills the set-back: the glazed cup has the size of the cup before it.
+  std::vector<shapes::Radii> rings(10, {40, 35});
+  rings[0] = {40, 0};
+  const Pot cup = pot_of(shapes::stack_of(10.0, rings));
+  ExportOptions options;
+  options.smoothing = Smoothing::none;
+  options.shrinkage = 0.1;
+  options.finish.glaze_mm = enlargement(0.1);  // 1 mm, fired
+  Goal goal;
+  goal.fired = true;
+  goal.height_mm = 100.0;
+  const auto reached = scaled_to(cup, goal, options);
+  ASSERT_TRUE(reached) << reached.error().message;
+  EXPECT_NEAR(reached->met.height_factor, 1.0, 1e-6);
+  EXPECT_EQ(text_of(reached->met), "100 mm high, fired and glazed");
+  const auto report = run_export(reached->pot, {}, options);
+  ASSERT_TRUE(report) << report.error().message;
+  const MakerNumbers& numbers = *report->maker;
+  ASSERT_TRUE(numbers.glazed && numbers.fired);
+  EXPECT_NEAR(numbers.glazed->size.height_mm, 100.0, 1e-4);
+  EXPECT_NEAR(numbers.glazed->size.diameter_mm, 80.0, 1e-4);
+  EXPECT_NEAR(numbers.fired->size.height_mm, 99.0, 0.02);
+  EXPECT_NEAR(numbers.fired->size.diameter_mm, 78.0, 0.02);
+  EXPECT_NEAR(numbers.glazed->capacity_ml, 1e-3 * std::numbers::pi * 35 * 35 * 90, 1e-3);
+  EXPECT_EQ(numbers.glazed->weight_g, numbers.fired->weight_g);
 }
 
 TEST(Goal, IsRefusedWithTheReason) {
@@ -190,6 +218,8 @@ TEST(Goal, IsRefusedWithTheReason) {
             "");
   const Pot tube = pot_of(shapes::stack_of(10.0, {{40, 30}, {40, 30}}));
   EXPECT_EQ(has(why(tube, of([](Goal& g) { g.holds_ml = 350.0; })), "no floor"), "");
+  const Pot vessel = pot_of(shapes::stack_of(10.0, {{40, 0}, {40, 30}, {40, 0}}));
+  EXPECT_EQ(has(why(vessel, of([](Goal& g) { g.holds_ml = 350.0; })), "no opening at the top"), "");
   ExportOptions thick;
   thick.walls.min_wall_mm = 3.0;
   EXPECT_EQ(has(why(vase, of([](Goal& g) { g.height_mm = 20.0; }), thick), "thin wall"), "");

@@ -54,12 +54,22 @@ struct Goal {
   std::optional<double> height_mm;
   std::optional<double> diameter_mm;
   bool to_fill_line = false;  ///< `holds_ml` up to the fill line of the options
-  bool fired = false;         ///< all are of the fired pot; requires a shrinkage
+  bool fired = false;         ///< all are of the finished pot: fired, which requires a shrinkage,
+                              ///< and glazed, if the options have an allowance for that
 };
+
+/// A goal that a pot was scaled to.
+struct MetGoal {
+  Goal goal;
+  bool glazed = false;
+  double radius_factor = 1.0, height_factor = 1.0;
+};
+/// "holds 350 ml to the brim, 120 mm high, fired and glazed".
+[[nodiscard]] std::string text_of(const MetGoal& met);
 
 struct GoalReport {
   Pot pot;  ///< scaled; its ledger begins with the clay of the result
-  double radius_factor = 1.0, height_factor = 1.0;
+  MetGoal met;
 };
 
 /// Scales a standing pot until its smoothed section meets the goal within 1e-6. Errors: `bad_input`
@@ -94,6 +104,7 @@ struct ExportOptions {
   /// Figures for `ExportReport::maker`; density and shrinkage come from the pot and from above.
   ClayFigures clay;
   double fill_line_mm = kFillLineMm;  ///< below the brim of the pot in use
+  std::optional<MetGoal> met_goal;    ///< of the pot: for the drawing and the report
   StepWalls step_walls = StepWalls::spline;
   GlbMesh glb = GlbMesh::draco;
   std::string material = "terracotta";  ///< of a GLB, as in FileContents
@@ -198,6 +209,7 @@ struct ProvedSection {
   Smoothing smoothing = Smoothing::none;  ///< as applied: straight walls need none
   std::string no_smoothing;               ///< the reason; empty if smoothed
   FinishLedger finish;
+  std::optional<Profile> glazed;  ///< the faces of the glaze, if there is an allowance for it
   PlanarCertificate planar;
 
   [[nodiscard]] const Profile& profile() const noexcept { return smoothed.section.profile; }

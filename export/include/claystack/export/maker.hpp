@@ -5,6 +5,9 @@
 #include "claystack/export/section.hpp"
 
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace clay::solid::inline section {
 
@@ -24,6 +27,11 @@ struct ClayFigures {
   /// total.
   [[nodiscard]] Result<void> check() const;
 };
+
+/// The figures by name, in words: "shrinkage", "12 % of each length"; without shrinkage only the
+/// density.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> assumptions_of(
+    const ClayFigures& clay);
 
 /// Default distance of the fill line below the brim [mm].
 inline constexpr double kFillLineMm = 10.0;
@@ -76,9 +84,12 @@ struct MakerNumbers {
   ClayFigures clay;
   double fill_line_mm = 0.0;  ///< below the brim, of the pot in use
   PotState thrown;
-  std::optional<PotState> dry, fired;  ///< if the shrinkage is known
-  Balance empty;                       ///< of the pot in use
-  std::optional<Balance> full;         ///< to the brim; empty if it holds nothing
+  std::optional<PotState> dry, fired;  ///< if the shrinkage is known; without glaze
+  /// The pot in use under its glaze, if it has an allowance for that; the weight is of the clay.
+  std::optional<PotState> glazed;
+  Balance empty;                ///< of the pot in use
+  std::optional<Balance> full;  ///< to the brim; empty if it holds nothing
+  std::string no_capacity;      ///< the reason why it holds nothing; empty: it does
 
   /// Fired, if the shrinkage is known; else as thrown.
   [[nodiscard]] const PotState& in_use() const noexcept { return fired ? *fired : thrown; }
@@ -87,6 +98,9 @@ struct MakerNumbers {
 /// Requires a profile that is not empty and valid figures.
 [[nodiscard]] MakerNumbers maker_numbers(const Profile& profile, const ClayFigures& clay,
                                          double fill_line_mm = kFillLineMm);
+
+/// Adds the figures under the glaze: those of `section`, the faces before they were set back.
+void add_glaze(MakerNumbers& numbers, const Profile& section);
 
 /// Of a collapsed pot, which has a size and a weight only: capacities, foot and balance are 0.
 /// Requires valid figures.
