@@ -205,7 +205,7 @@ class FiguresAtTool : public Panels {
     pot.stack = ClayStack::from_rings(0.5, std::move(rings), 0).value();
     pot.ledger.initial = pot.stack.volume();
     apply(state, BeginWork{small_scene(), std::make_shared<const Pot>(pot), {}});
-    state.readings.update(state.document, state.stroke, {.check = true}, 0,
+    state.readings.update(state.document, state.stroke, wanted_of(state.settings, state.ui), 0,
                           [](std::string_view) {});
   }
   std::vector<std::string> figures(glm::dvec3 place_mm) {
