@@ -75,7 +75,8 @@ TEST_F(ActionsTest, AHoveringToolIsOnTheWheelAndNotInIt) {
   apply(state, LookFrom{ViewFrom::front});
   apply(state, SetToolShape{Shape::sphere});
   state.settings.tool.sphere.radius_mm = 6.0;
-  state.scene.lead({90.0, 0.0});
+  const double beside_mm = static_cast<double>(state.stroke.view().rows.front().outer_mm) + 8.0;
+  state.scene.lead({beside_mm, 0.0});
   for (const ToolMode mode : {ToolMode::press, ToolMode::trim, ToolMode::trim_foot}) {
     apply(state, SetToolMode{mode});
     const auto tool = state.scene.tool_view(view_model(state));
