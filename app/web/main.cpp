@@ -102,7 +102,7 @@ EMSCRIPTEN_KEEPALIVE bool claystack_frame(double page_ms) {
   host->begin_frame(page_ms);
   window->frame(std::exchange(damaged, false) ? studio::Painting::always
                                               : studio::Painting::if_changed);
-  tell();
+  announce();
   if (frames_wanted > 0) --frames_wanted;
   return frames_wanted > 0 || window->wakeful();
 }
