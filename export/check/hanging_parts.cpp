@@ -2,9 +2,9 @@
 
 #include "claystack/export/check.hpp"
 
-#include "export/repair/disjoint_sets.hpp"
 #include "export/repair/intersecting_pairs.hpp"
 #include "export/solid/box_tree.hpp"
+#include "export/solid/disjoint_sets.hpp"
 #include "export/solid/ray_upward.hpp"
 
 #include <algorithm>
