@@ -2,7 +2,7 @@
 
 #include "claystack/export/check.hpp"
 
-#include "export/repair/intersecting_pairs.hpp"
+#include "export/proof/intersecting_pairs.hpp"
 #include "export/solid/box_tree.hpp"
 #include "export/solid/disjoint_sets.hpp"
 #include "export/solid/ray_upward.hpp"

@@ -2,8 +2,8 @@
 
 #include "core/cancel.hpp"
 #include "core/parallel_parts.hpp"
+#include "export/proof/intersecting_pairs.hpp"
 #include "export/proof/pair_test.hpp"
-#include "export/repair/intersecting_pairs.hpp"
 #include "export/repair/sheet_count.hpp"
 #include "export/repair/triangle_crossing.hpp"
 #include "export/solid/disjoint_sets.hpp"

@@ -4,7 +4,7 @@
 #include "export/proof/soup_intersections.hpp"
 
 #include "claystack/export/proof.hpp"
-#include "export/repair/intersecting_pairs.hpp"
+#include "export/proof/intersecting_pairs.hpp"
 #include "export/solid/cgal_versions.hpp"
 #include "tests/export/solid/shapes.hpp"
 

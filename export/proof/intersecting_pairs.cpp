@@ -1,4 +1,4 @@
-#include "export/repair/intersecting_pairs.hpp"
+#include "export/proof/intersecting_pairs.hpp"
 
 #include "core/parallel_parts.hpp"
 #include "export/proof/soup_intersections.hpp"
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <atomic>
 
-namespace clay::solid::inline repair {
+namespace clay::solid::inline proof {
 
 std::vector<TrianglePair> intersecting_pairs(const TriangleMesh& mesh, std::size_t most) {
   if (mesh.triangles.empty()) return {};
@@ -26,4 +26,4 @@ std::vector<TrianglePair> intersecting_pairs(const TriangleMesh& mesh, std::size
   return all;
 }
 
-}  // namespace clay::solid::inline repair
+}  // namespace clay::solid::inline proof
