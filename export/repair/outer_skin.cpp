@@ -87,12 +87,12 @@ class Regions {
   /// Counterclockwise about the edge, from its first wing on.
   void sort_around(std::span<Wing> wings) const {
     const ExactPoint low = soup_.point(wings[0].low), high = soup_.point(wings[0].high);
-    struct Placed {
+    struct PlacedWing {
       Wing wing;
       ExactPoint apex;
       int quarter;
     };
-    std::vector<Placed> placed;
+    std::vector<PlacedWing> placed;
     const ExactPoint first = soup_.point(wings[0].apex);
     for (std::size_t i = 0; i < wings.size(); ++i) {
       const ExactPoint apex = soup_.point(wings[i].apex);
@@ -100,13 +100,13 @@ class Regions {
       const int quarter = i == 0 ? 0 : turn == CGAL::POSITIVE ? 1 : turn == CGAL::COPLANAR ? 2 : 3;
       placed.push_back({wings[i], apex, quarter});
     }
-    std::sort(placed.begin(), placed.end(), [&](const Placed& a, const Placed& b) {
+    std::sort(placed.begin(), placed.end(), [&](const PlacedWing& a, const PlacedWing& b) {
       if (a.quarter != b.quarter) return a.quarter < b.quarter;
       return a.wing.triangle != b.wing.triangle &&
              CGAL::orientation(low, high, a.apex, b.apex) == CGAL::POSITIVE;
     });
     std::transform(placed.begin(), placed.end(), wings.begin(),
-                   [](const Placed& p) { return p.wing; });
+                   [](const PlacedWing& p) { return p.wing; });
   }
 
   /// One ray for each set of regions that triangles connect. Returns false for a contradiction.
