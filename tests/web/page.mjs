@@ -266,7 +266,7 @@ async function drawn(browser) {
 async function words(browser) {
   const page = await openPage(browser, kDesktop);
   await choose(page, '#open', join(folder, 'bowl.work'));
-  await page.shows('pot', /^bowl.work: .* high, .* wide, .* g\. Ready to print$/);
+  await page.shows('pot', /^bowl.work: .* high, .* wide, .* g\. Solid clay$/);
   const facts = JSON.parse(native('throw', '--json', 'bowl.work', '-o', 'words.pot.cbor'));
   await page.click('#words');
   const report = await page.$eval('#report-text', element => element.textContent);
