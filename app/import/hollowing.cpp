@@ -53,7 +53,8 @@ class BoreRadius {
     const double slope = (slab.outer_to_mm - slab.outer_from_mm) / (slab.to_mm - slab.from_mm);
     const double low = std::max(-wall_mm_, slab.from_mm - height_mm);
     const double high = std::min(wall_mm_, slab.to_mm - height_mm);
-    const double d = std::clamp(-slope * wall_mm_ / std::hypot(1.0, slope), low, high);
+    // Rounding may put `low` above `high` at the edge of the disc.
+    const double d = std::max(low, std::min(-slope * wall_mm_ / std::hypot(1.0, slope), high));
     return slab.outer_from_mm + slope * (height_mm + d - slab.from_mm) -
            std::sqrt(std::max(0.0, wall_mm_ * wall_mm_ - d * d));
   }
@@ -61,11 +62,6 @@ class BoreRadius {
   const std::vector<Slab>& slabs_;
   double wall_mm_;
   std::vector<double> least_mm_;  ///< radius of each kBlock slabs
-};
-
-/// A point of the bore's outline: radius may be negative, where there is no bore.
-struct BorePoint {
-  double height_mm = 0.0, radius_mm = 0.0;
 };
 
 /// A straight piece of the bore's outline. Radii are negative where there is no bore.
@@ -94,9 +90,11 @@ void append_chords(std::vector<BorePiece>& pieces, const BoreRadius& bore, const
 
 /// From the floor to the rim. A level face of the outside breaks the bore a wall above or below it.
 std::vector<BorePiece> bore_pieces(const HalfSection& solid, double wall_mm) {
+  constexpr double kMostSteps = 100'000.0;
   const double rim = solid.height_mm;
   std::vector<double> breaks{wall_mm, rim};
-  for (double z = wall_mm; z < rim; z += 0.125 * wall_mm) breaks.push_back(z);
+  const double step = std::max(0.125 * wall_mm, rim / kMostSteps);
+  for (double z = wall_mm; z < rim; z += step) breaks.push_back(z);
   for (std::size_t i = 1; i < solid.slabs.size(); ++i) {
     const Slab &below = solid.slabs[i - 1], &above = solid.slabs[i];
     if (below.outer_to_mm == above.outer_from_mm) continue;

@@ -110,9 +110,9 @@ bool is_closed(const TriangleMesh& soup) {
   return true;
 }
 
-/// Of solids that share edges, as the parts of a stacked cup do, whose triangles no surface joins:
-/// winding numbers tell what they enclose. None for an open soup, and if a solid is inside out,
-/// which half-edges can show.
+/// The union of closed solids that share edges, as the parts of a stacked cup do. No surface joins
+/// all of their triangles, but winding numbers tell what they enclose. Empty for an open soup, and
+/// if a solid is inside out: which one, only half-edges can show.
 std::optional<TriangleMesh> united_solids(TriangleMesh soup, std::vector<Repair>& repaired,
                                           StageReport& stage) {
   if (!is_closed(soup)) return std::nullopt;

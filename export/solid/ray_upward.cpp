@@ -39,12 +39,10 @@ struct Height {
 
 }  // namespace
 
-std::optional<RayUpward::Hit> RayUpward::first_hit(
-    const BoxTree& tree, const std::function<bool(std::uint32_t)>& passed_over) {
-  std::optional<Hit> first;
-  std::optional<Height> lowest;
-  double limit = std::numeric_limits<double>::max();  // distance of the nearest hit so far; boxes
-                                                      // beyond it are skipped
+template <class Use>
+void RayUpward::for_each_hit(const BoxTree& tree,
+                             const std::function<bool(std::uint32_t)>& passed_over,
+                             const double& limit, const Use& use) {
   const auto entry = [&](const BoxTree::Box& box) {
     ++steps_;
     return enter(box);
@@ -55,15 +53,23 @@ std::optional<RayUpward::Hit> RayUpward::first_hit(
         for (const std::uint32_t t : triangles) {
           ++steps_;
           if (passed_over(t)) continue;
-          const auto hit = meet(t);
-          if (!hit) continue;
-          Height height(mesh_, t, from_);
-          if (lowest && !height.below(*lowest)) continue;
-          limit = CGAL::to_interval(height.z).second;
-          lowest = std::move(height);
-          first = hit;
+          if (const auto hit = meet(t)) use(*hit);
         }
       });
+}
+
+std::optional<RayUpward::Hit> RayUpward::first_hit(
+    const BoxTree& tree, const std::function<bool(std::uint32_t)>& passed_over) {
+  std::optional<Hit> first;
+  std::optional<Height> lowest;
+  double limit = std::numeric_limits<double>::max();  // of the nearest hit so far
+  for_each_hit(tree, passed_over, limit, [&](const Hit& hit) {
+    Height height(mesh_, hit.triangle, from_);
+    if (lowest && !height.below(*lowest)) return;
+    limit = CGAL::to_interval(height.z).second;
+    lowest = std::move(height);
+    first = hit;
+  });
   return first;
 }
 
@@ -71,22 +77,10 @@ std::optional<RayUpward::Hit> RayUpward::enclosing_hit(
     const BoxTree& tree, const std::function<bool(std::uint32_t)>& passed_over) {
   std::optional<Hit> left;
   int winding = 0;
-  const auto entry = [&](const BoxTree::Box& box) {
-    ++steps_;
-    return enter(box);
-  };
-  tree.for_each_near(
-      entry, [] { return std::numeric_limits<double>::max(); },
-      [&](std::span<const std::uint32_t> triangles) {
-        for (const std::uint32_t t : triangles) {
-          ++steps_;
-          if (passed_over(t)) continue;
-          const auto hit = meet(t);
-          if (!hit) continue;
-          winding += hit->from_back ? 1 : -1;
-          if (hit->from_back && !left) left = hit;
-        }
-      });
+  for_each_hit(tree, passed_over, std::numeric_limits<double>::max(), [&](const Hit& hit) {
+    winding += hit.from_back ? 1 : -1;
+    if (hit.from_back && !left) left = hit;
+  });
   return winding > 0 ? left : std::nullopt;
 }
 

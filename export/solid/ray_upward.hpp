@@ -13,7 +13,7 @@ namespace clay::solid {
 /// A ray along +z from a vertex, symbolically perturbed toward +x and, by a smaller order, toward
 /// +y: it passes through no vertex or edge and along no triangle of any mesh.
 ///
-/// Requires that no queried triangle touches the vertex, and that none intersect.
+/// Requires that no queried triangle touches the vertex, and for the first hit that none intersect.
 class RayUpward {
  public:
   struct Hit {
@@ -37,6 +37,11 @@ class RayUpward {
   [[nodiscard]] std::size_t steps() const noexcept { return steps_; }
 
  private:
+  /// Calls `use(hit)` for the triangles above, nearer boxes first; boxes beyond `limit` (a height
+  /// [mm], which `use` may lower) are left out.
+  template <class Use>
+  void for_each_hit(const BoxTree& tree, const std::function<bool(std::uint32_t)>& passed_over,
+                    const double& limit, const Use& use);
   [[nodiscard]] double enter(const BoxTree::Box& box) const;
   [[nodiscard]] int side(const glm::dvec3& a, const glm::dvec3& b) const;
   [[nodiscard]] std::optional<Hit> meet(std::uint32_t triangle) const;

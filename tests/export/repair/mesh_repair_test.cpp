@@ -8,13 +8,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <new>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -511,94 +508,6 @@ TEST(Repair, KeepsTheOrderOfTheRestOfAMesh) {
   };
   EXPECT_GE(far_ones(crossed).size(), 19'000U);
   EXPECT_EQ(far_ones(repaired->mesh), far_ones(crossed));
-}
-
-/// Three balls that cut each other, one with a hole.
-TriangleMesh tangled_balls() {
-  TriangleMesh mesh = ball(10.0);
-  mesh.triangles.pop_back();
-  for (const double k : {1.0, 2.0})
-    mesh = together(mesh, moved(ball(10.0), {3.3 * k, 1.7 * k, 0.9 * k}));
-  return mesh;
-}
-
-TEST(Repair, CancelsAtEveryCheck) {
-  const TriangleMesh mesh = tangled_balls();
-  std::atomic<std::size_t> asked{0};
-  RepairOptions options;
-  options.cancelled = [&] { return ++asked == 0; };
-  const auto whole = repair_mesh(mesh, options);
-  ASSERT_TRUE(whole) << whole.error().message;
-  const std::size_t all = asked;
-  ASSERT_GT(all, 20U);
-  std::size_t stopped = 0;
-  for (std::size_t until = 0; until <= all; until += 1 + until / 8) {
-    asked = 0;
-    options.cancelled = [&] { return ++asked > until; };
-    const auto result = repair_mesh(mesh, options);
-    if (result) {
-      // Threads share the questions differently from run to run.
-      EXPECT_GT(until, all / 2);
-      EXPECT_EQ(result->mesh, whole->mesh);
-      continue;
-    }
-    ++stopped;
-    EXPECT_EQ(result.error().kind, ErrorKind::io);
-    EXPECT_EQ(result.error().message, "repair stopped: cancelled");
-  }
-  EXPECT_GT(stopped, 8U);
-}
-
-/// Not a fault of the mesh, and no reason for a wrap, which needs more.
-TEST(Repair, NamesMissingMemory) {
-  const TriangleMesh mesh = tangled_balls();
-  std::atomic<std::size_t> asked{0};
-  RepairOptions options;
-  options.wrap_mm = 1.0;
-  options.cancelled = [&] { return ++asked == 0; };
-  ASSERT_TRUE(repair_mesh(mesh, options));
-  const std::size_t all = asked;
-  std::size_t stopped = 0;
-  for (std::size_t until = 0; until < all; until += 1 + until / 4) {
-    asked = 0;
-    options.cancelled = [&]() -> bool {
-      if (++asked > until) throw std::bad_alloc();
-      return false;
-    };
-    const auto result = repair_mesh(mesh, options);
-    if (result) continue;  // near the end, threads share the questions differently
-    ++stopped;
-    EXPECT_EQ(result.error().kind, ErrorKind::io) << until << " of " << all;
-    EXPECT_EQ(result.error().message, "repair stopped: not enough memory");
-  }
-  EXPECT_GT(stopped, 8U);
-}
-
-TEST(Repair, ReportsStagesAndTheirShares) {
-  std::vector<std::string> stages;
-  std::vector<double> shares;  // of cutting
-  double before = 0.0;
-  RepairOptions options;
-  options.progress = [&](std::string_view stage, double share) {
-    if (stages.empty() || stages.back() != stage || share == 0.0) {
-      stages.emplace_back(stage);
-      before = 0.0;
-    }
-    EXPECT_GE(share, before) << stage;
-    EXPECT_LE(share, 1.0) << stage;
-    before = share;
-    if (stage == "cutting triangles") shares.push_back(share);
-  };
-  ASSERT_TRUE(repair_mesh(tangled_balls(), options));
-  std::size_t at = 0;
-  for (const char* name :
-       {"checking", "cleaning", "joining triangles", "filling holes", "turning shells", "checking",
-        "finding intersections", "cutting triangles", "choosing the outer skin", "rounding",
-        "checking", "measuring the change"}) {
-    while (at < stages.size() && stages[at] != name) ++at;
-    EXPECT_LT(at, stages.size()) << name;
-  }
-  EXPECT_GT(shares.size(), 20U);
 }
 
 }  // namespace
