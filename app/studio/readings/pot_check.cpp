@@ -214,8 +214,8 @@ std::string thin_text(double thickness_mm, double y_mm, const PotCheck& check, L
                      length_text(y_mm, unit));
 }
 
-/// A lack of the vessel, which is no fault of a print; empty: none.
-std::string lack_text(const PotForm& form, LengthUnit unit) {
+/// A fault of the vessel that does not stop a print; empty: none.
+std::string vessel_fault_text(const PotForm& form, LengthUnit unit) {
   if (form.floorless) return "no floor";
   if (form.throttle_mm)
     return fmt::format("mouth narrower than {} at a height of {}", length_text(kLeastMouthMm, unit),
@@ -256,7 +256,8 @@ bool PotCheck::ready() const {
 
 Verdict PotCheck::verdict() const {
   if (!ready()) return Verdict::not_ready;
-  if (!problems.empty() || !lack_text(form, LengthUnit::mm).empty()) return Verdict::doubtful;
+  if (!problems.empty() || !vessel_fault_text(form, LengthUnit::mm).empty())
+    return Verdict::doubtful;
   return form.hollow || fallen ? Verdict::ready : Verdict::lump;
 }
 
@@ -268,8 +269,8 @@ std::string ready_text(const PotCheck& check, LengthUnit unit) {
   for (const solid::Problem& problem : check.problems)
     if (problem.fails != ready)
       return (ready ? "Check before printing: " : "Not ready: ") + text_of(problem, check, unit);
-  if (const std::string lack = lack_text(check.form, unit); !lack.empty())
-    return "Check before printing: " + lack;
+  if (const std::string fault = vessel_fault_text(check.form, unit); !fault.empty())
+    return "Check before printing: " + fault;
   return check.verdict() == Verdict::lump ? "Solid clay" : "Ready to print";
 }
 
