@@ -99,6 +99,7 @@ void describe(auto& io, Is<ClaySpec> auto& clay) {
   io.choice("smear", clay.smear, files::kSwitchNames);
   io.number("wheel_rpm", clay.wheel_rpm, from(0).to(1e3));
   io.number("floor_mm", clay.floor_mm, from(0).to(1e6));
+  io.number("finger_mm", clay.finger_mm, from(0).to(200));
 }
 
 void describe(auto& io, Is<ThrowSettings> auto& settings) {

@@ -199,8 +199,8 @@ class Heaving {
                  start = per_reach_ * way_to(heap_.up ? first_face_ : first_face_ - 1);
     const double end = heap_.up ? faces + static_cast<double>(count) : -faces;
     reached_end_ = start + end * step >= 1.0;
-    find_clearance(first, count);
     walls_.cover(stack_, first, first + count);
+    find_clearance(first, count);
     const auto single = [](double x) { return static_cast<float>(x); };
     const double sign = heap_.up ? 1.0 : -1.0;
     const Way way{single(start),
@@ -218,6 +218,11 @@ class Heaving {
   /// long way.
   void find_clearance(std::size_t first, std::size_t count) noexcept {
     std::fill_n(block_.clear, in_packs_of(count), kFar);
+    beside_tool(first, count);
+    if (heap_.finger != nullptr && heap_.up) beside_finger(*heap_.finger, first, count);
+  }
+
+  void beside_tool(std::size_t first, std::size_t count) noexcept {
     const double low = (hip_y_ + tool_.low()) / h_, high = (hip_y_ + tool_.high()) / h_;
     const double from = std::max(low - 1.0, static_cast<double>(first));
     const double to = std::min(high + 1.0, static_cast<double>(first + count));
@@ -238,6 +243,17 @@ class Heaving {
         store(to + k, floats(Doubles<n>(radius < 0.0 ? far : greater(near, 0.0))));
       }
     });
+  }
+
+  /// Nothing is laid into a finger. A part of a finger leaves some room, the more the less it is.
+  void beside_finger(const Cone& finger, std::size_t first, std::size_t count) noexcept {
+    const double end = finger.from_mm + finger.reach_mm, room = 1.0 / finger.finger - 1.0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double middle = (static_cast<double>(first + k) + 0.5) * h_;
+      if (middle < finger.from_mm || middle > end) continue;
+      const double near = -finger.excess(middle, static_cast<double>(*walls_.inner(first + k)));
+      block_.clear[k] = lesser(block_.clear[k], static_cast<float>(greater(near, 0.0) + room));
+    }
   }
 
   /// Places on ring i the part of the carried clay for which there is room, the same part on both

@@ -5,6 +5,7 @@
 #include "claystack/engine/tick.hpp"
 #include "engine/clay/stack_writer.hpp"
 #include "engine/tick/band.hpp"
+#include "engine/tick/relief.hpp"
 #include "engine/tick/wall_radii.hpp"
 
 namespace clay {
@@ -15,8 +16,9 @@ inline constexpr Quanta kLargestHeap = Quanta{1} << 50;
 /// An amount to lay on the wall from one end of a band, at most `kLargestHeap`.
 struct Heap {
   Quanta inside = 0, outside = 0;
-  bool up = true;         ///< from the upper end upward
-  double reach_mm = 1.0;  ///< `heave_reach`
+  bool up = true;                ///< from the upper end upward
+  double reach_mm = 1.0;         ///< `heave_reach`
+  const Cone* finger = nullptr;  ///< in the bore above the tool; nothing is laid into it
 };
 
 /// How far from the band clay is heaved: 0.8 (c + min(w, width of the tool)) [mm].

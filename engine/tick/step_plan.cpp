@@ -48,6 +48,7 @@ Result<void> check(const SceneSpec& s) {
       {"force.friction", force.friction, 0.0, 2.0},
       {"clay.wheel_rpm", s.clay.value_or(ClaySpec{}).wheel_rpm, 0.0, 1e3},
       {"clay.floor_mm", s.clay.value_or(ClaySpec{}).floor_mm, 0.0, 1e6},
+      {"clay.finger_mm", s.clay.value_or(ClaySpec{}).finger_mm.value_or(0.0), 0.0, 200.0},
       {"stability.max_stress_kpa", stability.max_stress_kpa, std::numeric_limits<double>::min(),
        1e6},
   });
@@ -76,6 +77,10 @@ unsigned rules_of(const SceneSpec& s) {
          (clay.smear && clay.wheel_rpm > 0.0 ? kSmear : 0u);
 }
 
+double finger_mm(const SceneSpec& s) {
+  return s.clay && s.tool.mode == ToolMode::press ? s.clay->finger_mm.value_or(0.0) : 0.0;
+}
+
 RulesPlan rules_plan(const SceneSpec& s) {
   if (!s.clay) return {};
   // Rings whose middle is below the floor's height. A foot may be trimmed until the floor is as
@@ -85,7 +90,7 @@ RulesPlan rules_plan(const SceneSpec& s) {
                                                           : s.clay->floor_mm / h + 0.5;
   constexpr double kTurn = 2.0 * std::numbers::pi;
   return {rules_of(s), static_cast<std::size_t>(std::fmin(rings, static_cast<double>(kMaxRings))),
-          kTurn * s.clay->wheel_rpm / 60.0};
+          kTurn * s.clay->wheel_rpm / 60.0, finger_mm(s)};
 }
 
 ForcePlan force_plan(const SceneSpec& s) {
@@ -127,6 +132,11 @@ void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
   line("heave", kHeave, "displaced clay leaves no steep slope", "off in the scene");
   line("smear", kSmear, "a wet finger evens out the surface",
        "off in the scene, or the wheel stands");
+  const bool finger = (rules & kHeave) && finger_mm(s) > 0.0;
+  lines.push_back({"finger", finger,
+                   finger ? "above a tool that opens a bore, no clay closes over it"
+                   : any  ? "no finger is set, or heave is off, or the tool does not press"
+                          : none});
 }
 
 std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {

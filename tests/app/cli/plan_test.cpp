@@ -28,7 +28,7 @@ TEST(Plan, LeavesOutUnneededStages) {
   const auto plan = run.json();
   EXPECT_EQ(stages(plan, "left_out"),
             (std::set<std::string>{"inner surface", "friction", "stability", "pinch", "lift",
-                                   "shift", "rim", "hoop", "heave", "smear"}));
+                                   "shift", "rim", "hoop", "heave", "smear", "finger"}));
   EXPECT_EQ(stages(plan, "in"), (std::set<std::string>{"tool state", "contact", "removal",
                                                        "outer surface", "growth", "force"}));
   for (const auto& line : plan.at("left_out")) {

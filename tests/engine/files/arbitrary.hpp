@@ -89,7 +89,15 @@ inline SceneSpec arbitrary_scene() {
   scene.stability = maybe<StabilitySpec>([] { return StabilitySpec{*number_in(1e-300, 1e6)}; });
   scene.clay = maybe<ClaySpec>([] {
     const auto on = [] { return *rc::gen::arbitrary<bool>(); };
-    return ClaySpec{on(), on(), on(), on(), on(), on(), *number_in(0, 1e3), *number_in(0, 1e6)};
+    return ClaySpec{on(),
+                    on(),
+                    on(),
+                    on(),
+                    on(),
+                    on(),
+                    *number_in(0, 1e3),
+                    *number_in(0, 1e6),
+                    maybe<double>([] { return *number_in(0, 200); })};
   });
   return scene;
 }

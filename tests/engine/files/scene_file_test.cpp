@@ -55,7 +55,8 @@ constexpr std::string_view kText = R"({
     "heave": "off",
     "smear": "off",
     "wheel_rpm": 90,
-    "floor_mm": 7
+    "floor_mm": 7,
+    "finger_mm": 80
   }
 }
 )";

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace clay {
@@ -122,6 +123,72 @@ TEST(ClayShapes, NoStrokeLeavesASteepUndercut) {
   EXPECT_LT(largest_ledge(pinched, &Ring::outer_mm), 1.0);
   expect_balanced(pressed);
   expect_balanced(pinched);
+}
+
+/// A solid lump, opened by a ball that goes down the axis to 15 mm, and out.
+Wheel opened_lump(double out_mm, std::optional<double> finger_mm) {
+  SceneSpec scene;
+  scene.lump = {.rings = 200,
+                .ring_height_mm = kH,
+                .outer_radius_mm = 48.0,
+                .inner_radius_mm = 0.0,
+                .max_rings = 1000,
+                .density_g_cm3 = 1.9};
+  scene.tool = {SphereSpec{10.0}, ToolMode::press, {}};
+  scene.removal = {20.0, 2.0, 2.0, {}};
+  scene.force.reset();
+  scene.clay = ClaySpec{.floor_mm = 5.0, .finger_mm = finger_mm};
+  Wheel wheel = Wheel::build(scene).value();
+  Hand hand(wheel);
+  hand.place_at(0.0, 60.0);
+  hand.move_to(0.0, 15.0, 20.0);
+  hand.move_to(out_mm, 15.0, 16.0);
+  expect_balanced(wheel);
+  return wheel;
+}
+
+double narrowest_bore(const Wheel& wheel) {
+  double least = 1e9;
+  for (const Ring& ring : wheel.stack().rings())
+    if (ring.inner2 > 0) least = std::min(least, ring.inner_mm());
+  return least;
+}
+
+/// The rest of the finger stands in the bore above the ball, from where the ball is steeper than
+/// 2 : 1, at r / sqrt(5), and draws back by 1 : 8 from there.
+TEST(ClayShapes, AFingerKeepsTheBoreOpen) {
+  const Wheel wheel = opened_lump(20.0, 90.0);
+  const double shoulder = 15.0 + 20.0 / std::sqrt(5.0), base = 20.0 + 10.0 / std::sqrt(5.0);
+  const auto rings = wheel.stack().rings();
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const double up = (static_cast<double>(i) + 0.5) * kH;
+    if (up > shoulder) {
+      EXPECT_GT(rings[i].inner_mm(), base - (up - shoulder) / 8.0 - 0.2) << up;
+    }
+  }
+}
+
+/// A ball alone goes into the wall below the clay that heaves up over it. A finger gets shorter as
+/// the wall becomes thin.
+TEST(ClayShapes, ClayClosesOverABallAloneButNotOverAFinger) {
+  EXPECT_LT(narrowest_bore(opened_lump(42.0, {})), 10.0);
+  EXPECT_GT(narrowest_bore(opened_lump(42.0, 90.0)), 25.0);
+}
+
+/// Through a narrow neck into a wall of 0.1 R: a belly becomes wider than the neck, as without one.
+TEST(ClayShapes, AFingerSparesTheNeckOverABelly) {
+  SceneSpec scene = cylinder_scene({});
+  const auto bellied = [&](std::optional<double> finger_mm) {
+    scene.clay = ClaySpec{.finger_mm = finger_mm};
+    const auto inner = [](double up) { return up < 50.0 ? 40.0 : 20.0; };
+    Wheel wheel = wheel_with(
+        scene, 60.0, [&](double up) { return inner(up) + 4.0; }, inner);
+    Hand hand(wheel);
+    hand.place_at(0.0, 25.0);
+    hand.move_to(36.0, 25.0, 20.0);
+    return ring_at(wheel, 55.0);
+  };
+  EXPECT_EQ(bellied(90.0), bellied({}));
 }
 
 /// A plate's wall is laid out, and the solid bottom holds it.

@@ -157,6 +157,7 @@ struct RulesPlan {
   /// The solid rings that no tool opens: the lowest, or below the bore if the tool trims the foot.
   std::size_t floor_rings = 0;
   double surface_per_s = 0.0;  ///< speed of a surface of radius 1 under a tool
+  double finger_mm = 0.0;      ///< above a tool in a bore; 0: none
 };
 
 /// One line of `claystack plan`.
