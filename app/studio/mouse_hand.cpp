@@ -9,6 +9,13 @@ namespace {
 
 // Time constant of the hand. It turns sixty positions a second into one smooth motion.
 constexpr double kLagS = 0.025;
+// A wall that does not give way, as one at its minimum, stops the hand where the tool is this deep
+// in it, in the mean over the tool's height. A floor does where the tool has sunk in so far. Clay
+// that yields to a bite is far from both.
+constexpr double kDeepestMm = 0.3, kSunkMm = 1.0;
+// The rings make the area of a tool that slides along the clay uneven by less than this.
+constexpr double kUnevenMm2 = 0.2;
+constexpr int kTries = 5;
 constexpr double kLongestStepS = 0.01;
 constexpr double kSPerUs = 1e-6;
 
@@ -28,45 +35,90 @@ void MouseDevice::begin_at(const glm::dvec3& place_mm) noexcept {
   resistance_ = {};
   stretch_mm_.store(0.0, std::memory_order_relaxed);
   last_us_ = -1;
+  permitted_mm2_ = 0.0;
   aim_.write({place_mm, kPressingMmPerS});
 }
 
 falcon::DeviceResult<void> MouseDevice::open() { return {}; }
 
-/// The area of the section in which the tool would overlap the clay.
-double MouseDevice::overlap_mm2(const glm::dvec3& place_mm) const noexcept {
+/// Where the tool would overlap the clay.
+MouseDevice::Overlap MouseDevice::overlap(const glm::dvec3& place_mm) const noexcept {
   const ClayStack& clay = *resistance_.clay;
   const Tool& tool = *resistance_.tool;
   const double h = clay.ring_height_mm(), rho = std::hypot(place_mm.x, place_mm.z);
   const auto rings = clay.rings();
   const auto first = static_cast<std::size_t>(std::clamp(std::floor((place_mm.y + tool.low()) / h),
                                                          0.0, static_cast<double>(rings.size())));
-  double area_mm2 = 0.0;
+  Overlap sum;
   for (std::size_t i = first; i < rings.size(); ++i) {
     const double t = (static_cast<double>(i) + 0.5) * h - place_mm.y;
     if (t > tool.high()) break;
     if (t < tool.low()) continue;
     const double width = tool.radius(t);
     const double inner = std::max(rings[i].inner_mm(), rho - width);
-    area_mm2 += h * std::max(0.0, std::min(rings[i].outer_mm(), rho + width) - inner);
+    const double depth = std::max(0.0, std::min(rings[i].outer_mm(), rho + width) - inner);
+    sum.area_mm2 += h * depth;
+    sum.energy_mm3 += 0.5 * h * depth * depth;
   }
-  return area_mm2;
+  return sum;
 }
 
-/// The part of a step that the strength of the hand permits. Along the clay and away from it the
-/// hand is free.
-double MouseDevice::yielding_part(const glm::dvec3& step_mm, double step_s,
-                                  double bite_mm) const noexcept {
-  if (resistance_.clay == nullptr) return 1.0;
-  const Tool& tool = *resistance_.tool;
-  const double bite_mm_s = bite_mm * resistance_.wheel_rpm / 60.0;
-  const double permitted = bite_mm_s * step_s * (tool.high() - tool.low());
-  const double now = overlap_mm2(place_mm_);
+/// How far the lower end of the tool is below the clay that it stands on.
+double MouseDevice::sunk_mm(const glm::dvec3& place_mm) const noexcept {
+  const double h = resistance_.clay->ring_height_mm(), rho = std::hypot(place_mm.x, place_mm.z);
+  const auto rings = resistance_.clay->rings();
+  const double low_mm = std::max(place_mm.y + resistance_.tool->low(), 0.0);
+  auto i = static_cast<std::size_t>(std::min(low_mm / h, static_cast<double>(rings.size())));
+  while (i < rings.size() && rings[i].inner_mm() <= rho && rho < rings[i].outer_mm()) ++i;
+  return static_cast<double>(i) * h - (place_mm.y + resistance_.tool->low());
+}
+
+/// The part of a step against which no wall and no floor stands firm.
+glm::dvec3 MouseDevice::unstopped(const glm::dvec3& step_mm, const Overlap& now) const noexcept {
+  glm::dvec3 way{0.0, step_mm.y, 0.0};
+  if (step_mm.y < 0.0 && sunk_mm(place_mm_) > kSunkMm) way.y = 0.0;
   double part = 1.0;
-  constexpr int kHalvings = 5;
-  for (int k = 0; k < kHalvings; ++k, part *= 0.5)
-    if (overlap_mm2(place_mm_ + part * step_mm) - now <= permitted) return part;
-  return part;
+  for (int k = 0; k < kTries; ++k, part *= 0.5) {
+    const glm::dvec3 out{part * step_mm.x, 0.0, part * step_mm.z};
+    if (overlap(place_mm_ + out).energy_mm3 <=
+        now.energy_mm3 + kDeepestMm * tool_height_mm() * glm::length(out))
+      return way + out;
+  }
+  return way;
+}
+
+/// What the strength of the hand permits of a step. Along the clay and away from it the hand is
+/// free: where the whole step is too much, the tool slides, out or up as far as that goes.
+glm::dvec3 MouseDevice::permitted(const glm::dvec3& step_mm, double step_s,
+                                  double bite_mm) noexcept {
+  if (resistance_.clay == nullptr) return step_mm;
+  Overlap now = overlap(place_mm_);
+  const glm::dvec3 wanted = unstopped(step_mm, now);
+  const double bite_mm2 = bite_mm * resistance_.wheel_rpm / 60.0 * step_s * tool_height_mm();
+  permitted_mm2_ =
+      std::clamp(permitted_mm2_ + bite_mm2, now.area_mm2, now.area_mm2 + bite_mm2 + kUnevenMm2);
+  glm::dvec3 moved{0.0};
+  const auto bite = [&](const glm::dvec3& way) {
+    constexpr double kLeastPart = 1.0 / 64.0;
+    double part = 1.0;
+    for (int k = 0; k < kTries; ++k) {
+      const Overlap then = overlap(place_mm_ + moved + part * way);
+      if (then.area_mm2 <= permitted_mm2_) {
+        moved += part * way;
+        now = then;
+        return;
+      }
+      // About in proportion to the way, if not quite.
+      const double growth = then.area_mm2 - now.area_mm2;
+      part *= std::max(0.8 * (permitted_mm2_ - now.area_mm2) / growth, kLeastPart);
+    }
+  };
+  bite(wanted);
+  if (moved == wanted) return moved;
+  const glm::dvec3 rest = wanted - moved;
+  bite({rest.x, 0.0, rest.z});
+  bite({0.0, rest.y, 0.0});
+  return moved;
 }
 
 falcon::DeviceSample MouseDevice::read(std::int64_t) noexcept {
@@ -78,8 +130,7 @@ falcon::DeviceSample MouseDevice::read(std::int64_t) noexcept {
     const double far = glm::length(way);
     const double step = std::min({far, aim.speed_mm_s * step_s, far * step_s / kLagS});
     if (far > 0.0 && step > 0.0) {
-      const glm::dvec3 wanted = way * (step / far);
-      place_mm_ += yielding_part(wanted, step_s, aim.bite_mm) * wanted;
+      place_mm_ += permitted(way * (step / far), step_s, aim.bite_mm);
     }
     stretch_mm_.store(glm::distance(aim.place_mm, place_mm_), std::memory_order_relaxed);
   }

@@ -1,8 +1,8 @@
 #pragma once
 // The mouse as a device without motors, in the frame of the wheel. The window sets a target for the
 // tool; a spring pulls the tool there, no faster than a hand, and into the clay no further in a
-// turn of the wheel than the bite of the hand. So the tool stops at clay that is too much for the
-// hand, or bends the wall; it never jumps through.
+// turn of the wheel than the bite of the hand, nor deeper than clay gives way. So the tool stops at
+// clay that is too much for the hand, or bends the wall; it never jumps through.
 
 #include "app/servo/clock.hpp"
 #include "claystack/engine/clay.hpp"
@@ -70,15 +70,26 @@ class MouseDevice final : public falcon::HapticDevice {
                            .force_limit_n = 0.0,
                            .half_workspace_mm = glm::dvec3(1000.0),
                            .rate_hz = 1000.0};
-  [[nodiscard]] double overlap_mm2(const glm::dvec3& place_mm) const noexcept;
-  [[nodiscard]] double yielding_part(const glm::dvec3& step_mm, double step_s,
-                                     double bite_mm) const noexcept;
+  /// Of tool and clay in the section: its area, and the integral of depth^2 / 2 over the height,
+  /// whose slope along a motion outward or inward is the clay against it.
+  struct Overlap {
+    double area_mm2 = 0.0, energy_mm3 = 0.0;
+  };
+  [[nodiscard]] Overlap overlap(const glm::dvec3& place_mm) const noexcept;
+  [[nodiscard]] double tool_height_mm() const noexcept {
+    return resistance_.tool->high() - resistance_.tool->low();
+  }
+  [[nodiscard]] glm::dvec3 unstopped(const glm::dvec3& step_mm, const Overlap& now) const noexcept;
+  [[nodiscard]] double sunk_mm(const glm::dvec3& place_mm) const noexcept;
+  [[nodiscard]] glm::dvec3 permitted(const glm::dvec3& step_mm, double step_s,
+                                     double bite_mm) noexcept;
 
   Snapshot<MouseAim> aim_;
   Resistance resistance_;
   std::atomic<double> stretch_mm_{0.0};
   glm::dvec3 place_mm_{0.0};
-  std::int64_t last_us_ = -1;  // of the last sample; below 0: none since begin_at
+  double permitted_mm2_ = 0.0;  // overlap, by the bites up to now
+  std::int64_t last_us_ = -1;   // of the last sample; below 0: none since begin_at
 };
 
 }  // namespace clay::studio

@@ -92,7 +92,7 @@ TEST(StrokeController, LosingTheArmEndsTheStrokeAndTheForce) {
   const std::uint64_t writes = wire.writes;
   const std::size_t strokes = document.work().size();
   ASSERT_TRUE(stroke.press({document.scene().tool, 20.0, {60.0, 30.0, 0.0}}));
-  stroke.aim({{40.0, 30.0, 0.0}});
+  stroke.aim({{40.0, 30.0, 0.0}, kPressingMmPerS, 8.0});
   frames_until([&] { return stroke.status().contact; }, "the mouse to touch the clay");
   stroke.release();
   EXPECT_GT(document.work().size(), strokes);
