@@ -39,6 +39,13 @@ Result<void> set_walls(const ExportChoices& choices, solid::ExportOptions& optio
   });
 }
 
+void set_finish(const ExportChoices& choices, solid::ExportOptions& options) {
+  if (choices.foot_width_mm > 0.0)
+    options.finish.foot = solid::FootRing{choices.foot_width_mm, choices.foot_depth_mm, {}};
+  options.finish.floor_fillet_mm = choices.floor_fillet_mm;
+  if (choices.lip_fillet_mm > 0.0) options.lip_fillet_mm = choices.lip_fillet_mm;
+}
+
 }  // namespace
 
 std::vector<std::string> paths_of(const ExportChoices& choices) {
@@ -83,8 +90,10 @@ Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot&
   options.name = options.source = choices.name;
   options.material = choices.material;
   const bool solid = !choices.meshes.empty() || choices.step;
-  if (solid || choices.section || choices.dxf || choices.pdf || choices.report)
+  if (solid || choices.section || choices.dxf || choices.pdf || choices.report) {
     options.shrinkage = 0.01 * choices.shrinkage_percent;
+    if (!pot.collapse) set_finish(choices, options);
+  }
   if (!solid && !choices.report) return request;
   return set_walls(choices, options).map([&] { return std::move(request); });
 }

@@ -22,6 +22,7 @@ namespace clay::studio {
 inline constexpr double kFinestMm = 0.001, kCoarsestMm = 1.0;  // tolerance [mm]
 inline constexpr double kThickestDemandMm = 20.0;
 inline constexpr double kLongestFairingMm = 50.0;
+inline constexpr double kWidestFootMm = 20.0, kDeepestFootMm = 20.0, kLargestFilletMm = 20.0;
 
 /// The settings of the export dialog.
 struct ExportChoices {
@@ -37,6 +38,9 @@ struct ExportChoices {
   double min_wall_mm = 0.0;                  ///< 0: the limit of the process, if there is one
   double shrinkage_percent = 0.0;
   std::string material{kWet.id};  ///< of a GLB, as for --material
+  /// As for --foot, --floor-fillet and --lip-fillet, as thrown; 0: none.
+  double foot_width_mm = 0.0, foot_depth_mm = 4.0;
+  double floor_fillet_mm = 0.0, lip_fillet_mm = 0.0;  ///< of the lip also: that of the process
   friend bool operator==(const ExportChoices&, const ExportChoices&) = default;
 };
 

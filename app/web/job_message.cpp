@@ -108,9 +108,11 @@ auto members(Like<studio::PotCheck> auto& of) {
 }
 auto members(Like<studio::ExportChoices> auto& of) {
   auto& [meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm, smoothing,
-         smooth_length_mm, process, min_wall_mm, shrinkage_percent, material] = of;
+         smooth_length_mm, process, min_wall_mm, shrinkage_percent, material, foot_width_mm,
+         foot_depth_mm, floor_fillet_mm, lip_fillet_mm] = of;
   return std::tie(meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm,
-                  smoothing, smooth_length_mm, process, min_wall_mm, shrinkage_percent, material);
+                  smoothing, smooth_length_mm, process, min_wall_mm, shrinkage_percent, material,
+                  foot_width_mm, foot_depth_mm, floor_fillet_mm, lip_fillet_mm);
 }
 auto members(Like<ExportQuestion> auto& of) {
   auto& [kind, choices, pot] = of;

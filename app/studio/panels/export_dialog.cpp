@@ -89,6 +89,28 @@ void choose_smooth_length(const Pot& pot, LengthUnit unit, ExportChoices& choice
   tip("Marks that are shorter along the height are smoothed away.");
 }
 
+/// Tenths of a millimetre, as shown, so that the command line gives the same file.
+void choose_tenths(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
+                   const char* none) {
+  if (form_length(label, mm, low_mm, high_mm, unit, none)) mm = std::round(10.0 * mm) / 10.0;
+}
+
+/// What is cut and filled after throwing; nothing at first.
+void draw_finish(const ViewModel& model, ExportChoices& choices) {
+  const LengthUnit unit = model.settings.unit;
+  choose_tenths("Foot ring", choices.foot_width_mm, 0.0, kWidestFootMm, unit, "none");
+  tip("The width of a ring on which the pot stands. Inside it the foot is cut away.");
+  if (choices.foot_width_mm > 0.0) {
+    choose_tenths("Depth of the foot", choices.foot_depth_mm, 0.1, kDeepestFootMm, unit, nullptr);
+    choices.foot_depth_mm = std::max(choices.foot_depth_mm, 0.1);
+  }
+  choose_tenths("Fillet at the floor", choices.floor_fillet_mm, 0.0, kLargestFilletMm, unit,
+                "none");
+  tip("The radius where wall and floor meet inside, filled with clay.");
+  choose_tenths("Fillet at the lip", choices.lip_fillet_mm, 0.0, kLargestFilletMm, unit,
+                choices.process.empty() ? "none" : "by the process");
+}
+
 void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actions) {
   const LengthUnit unit = model.settings.unit;
   form_length("Tolerance", choices.tolerance_mm, kFinestMm, kCoarsestMm, unit);
@@ -115,6 +137,7 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
     // number.
     choices.shrinkage_percent = std::round(10.0 * static_cast<double>(percent)) / 10.0;
   tip("How much shorter each length becomes in firing. The file is larger by as much.");
+  if (!model.document.pot().collapse) draw_finish(model, choices);
 }
 
 std::string size_text(const ExportFigures& figures, double factor, LengthUnit unit) {
@@ -155,7 +178,7 @@ float draw_problems(const ExportFigures& figures, const Palette& colours) {
 /// Progress, figures or the problem.
 void draw_preview(const ViewModel& model) {
   const ExportState& exporting = model.ui.exporting;
-  constexpr float kHeightEm = 12.5f, kLeastEm = 4.0f;
+  constexpr float kHeightEm = 9.5f, kLeastEm = 4.0f;
   const float em = ImGui::GetFontSize();
   const bool shown = exporting.preview && exporting.problem.empty();
   const float problems = shown ? draw_problems(*exporting.preview, model.colours()) : 0.0f;

@@ -8,9 +8,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <utility>
+#include <vector>
 
 namespace clay::studio {
 namespace {
@@ -26,6 +29,18 @@ history::SharedPot thrown() {
   for (const std::uint64_t seed : {3u, 4u})
     EXPECT_TRUE(work.add(test::small_scene(), test::press_stroke(seed)));
   return work.pot().value();
+}
+
+/// A cup with a wall of 8 mm on a floor of 10 mm.
+history::SharedPot standing_cup() {
+  constexpr double kRingMm = 0.5;
+  std::vector<Ring> rings;
+  for (double up = 0.5 * kRingMm; up < 60.0; up += kRingMm)
+    rings.push_back({quanta_from_radius(40.0), up < 10.0 ? 0 : quanta_from_radius(32.0)});
+  Pot pot;
+  pot.stack = ClayStack::from_rings(kRingMm, rings, 0, rings.size()).value();
+  pot.ledger.initial = pot.stack.volume();
+  return std::make_shared<const Pot>(std::move(pot));
 }
 
 class Exporting : public ::testing::Test {
@@ -99,6 +114,27 @@ TEST_F(Exporting, WritesTheBytesOfTheCommand) {
   EXPECT_NE(page(base + ".report.html").find("Size, weight, capacity and surface"),
             std::string::npos);
   EXPECT_EQ(claystack("check " + folder.file("two.stl")).status, 0);
+}
+
+TEST_F(Exporting, WritesTheFinishOfTheCommand) {
+  pot = standing_cup();
+  choices = {};
+  choices.meshes = {solid::MeshFormat::stl_binary};
+  choices.folder = folder.path().string();
+  choices.name = "cup";
+  choices.foot_width_mm = 6.0;
+  choices.foot_depth_mm = 2.5;
+  choices.floor_fillet_mm = 3.0;
+  choices.lip_fillet_mm = 1.5;
+  exporter.write(pot, choices);
+  const auto done = outcome();
+  ASSERT_TRUE(done.done) << done.done.error().message;
+  const std::string pot_path = folder.file("given.pot.json"), stl = folder.file("command.stl");
+  write_text(pot_path, write_pot(*pot, PotEncoding::json));
+  const auto ran = claystack("export -q " + pot_path + " " + stl +
+                             " --foot 6x2.5 --floor-fillet 3 --lip-fillet 1.5");
+  ASSERT_LE(ran.status, 1) << ran.err;
+  EXPECT_EQ(read_text(folder.file("cup.stl")), read_text(stl));
 }
 
 TEST_F(Exporting, PreviewReportsTheFilesInAdvance) {

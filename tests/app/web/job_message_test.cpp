@@ -128,7 +128,11 @@ TEST(JobMessage, CarriesTheWholeExport) {
                    .process = "porcelain",
                    .min_wall_mm = 1.1,
                    .shrinkage_percent = 12.5,
-                   .material = "celadon"};
+                   .material = "celadon",
+                   .foot_width_mm = 6.1,
+                   .foot_depth_mm = 3.2,
+                   .floor_fillet_mm = 2.3,
+                   .lip_fillet_mm = 1.4};
   const Question received = question_in(message_of(asked));
   ASSERT_TRUE(received.exporting);
   EXPECT_FALSE(received.check);
