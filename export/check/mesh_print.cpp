@@ -1,10 +1,9 @@
 #include "claystack/export/check.hpp"
 
-#include "core/compensated_sum.hpp"
 #include "export/solid/mesh_topology.hpp"
+#include "export/solid/shell_volumes.hpp"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 #include <vector>
 
 namespace clay::solid::inline check {
@@ -12,16 +11,11 @@ namespace {
 
 /// A shell turned inward is a cavity, or no clay at all.
 bool all_outward(const TriangleMesh& mesh, const MeshTopology& topology) {
-  std::vector<CompensatedSum> six_volumes(mesh.triangles.size());
-  const glm::dvec3 origin = mesh.points[mesh.triangles.front()[0]];
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const std::size_t shell = topology.components > 1 ? topology.component_of[t] : 0;
-    six_volumes[shell].add(glm::dot(mesh.points[a] - origin,
-                                    glm::cross(mesh.points[b] - origin, mesh.points[c] - origin)));
-  }
-  return std::ranges::none_of(six_volumes,
-                              [](const CompensatedSum& six) { return six.value() < 0.0; });
+  const auto volumes_mm3 =
+      volumes_of_shells(mesh, mesh.triangles.size(), [&](std::size_t t) -> std::size_t {
+        return topology.components > 1 ? topology.component_of[t] : 0;
+      });
+  return std::ranges::none_of(volumes_mm3, [](double mm3) { return mm3 < 0.0; });
 }
 
 }  // namespace

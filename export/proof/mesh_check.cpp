@@ -7,6 +7,7 @@
 #include "export/solid/bounded_volume.hpp"
 #include "export/solid/mesh_geometry.hpp"
 #include "export/solid/mesh_topology.hpp"
+#include "export/solid/shell_volumes.hpp"
 
 #include <cmath>
 #include <exception>
@@ -128,18 +129,12 @@ class Inspection {
   }
 
   void count_cavities(const MeshTopology& topology, const std::vector<std::uint32_t>& enclosed) {
-    std::vector<CompensatedSum> six_volumes(mesh_.triangles.size());
-    const glm::dvec3 origin = mesh_.points[mesh_.triangles.front()[0]];
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto& [a, b, c] = mesh_.triangles[t];
-      six_volumes[topology.component_of[t]].add(
-          glm::dot(mesh_.points[a] - origin,
-                   glm::cross(mesh_.points[b] - origin, mesh_.points[c] - origin)));
-    }
+    const auto volumes_mm3 = volumes_of_shells(
+        mesh_, mesh_.triangles.size(), [&](std::size_t t) { return topology.component_of[t]; });
     // A cavity has a negative volume, and a body in it a positive one.
     for (const std::uint32_t shell : enclosed) {
-      if (six_volumes[shell].value() < 0.0) ++report_.cavities;
-      report_.trapped_mm3 -= six_volumes[shell].value() / 6.0;
+      if (volumes_mm3[shell] < 0.0) ++report_.cavities;
+      report_.trapped_mm3 -= volumes_mm3[shell];
     }
   }
 

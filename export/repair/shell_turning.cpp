@@ -2,6 +2,7 @@
 
 #include "export/repair/surface_making.hpp"
 #include "export/repair/winding_ray.hpp"
+#include "export/solid/shell_volumes.hpp"
 
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <algorithm>
@@ -19,31 +20,27 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 class OrientedShells {
  public:
   OrientedShells(TriangleMesh mesh, const Shells& shells)
-      : mesh_(std::move(mesh)), shells_(shells), volumes_(shells.count, 0.0) {
-    const glm::dvec3 origin = mesh_.points[mesh_.triangles.front()[0]];
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto& [a, b, c] = mesh_.triangles[t];
-      volumes_[shells.of_face[t]] += glm::dot(
-          mesh_.points[a] - origin, glm::cross(mesh_.points[b] - origin, mesh_.points[c] - origin));
-    }
-  }
+      : mesh_(std::move(mesh)),
+        shells_(shells),
+        volumes_mm3_(volumes_of_shells(mesh_, shells.count,
+                                       [&](std::size_t t) { return shells.of_face[t]; })) {}
 
   std::vector<bool> to_turn() {
-    const bool all = std::accumulate(volumes_.begin(), volumes_.end(), 0.0) < 0.0;
+    const bool all = std::accumulate(volumes_mm3_.begin(), volumes_mm3_.end(), 0.0) < 0.0;
     std::vector<bool> turn(shells_.count, all);
     if (all) reverse_all();
     if (shells_.count == 1) return turn;
     const WindingRay ray(mesh_);
     const std::vector<std::uint32_t> tops = top_triangles();
     for (std::size_t shell = 0; shell < shells_.count; ++shell)
-      if (volumes_[shell] < 0.0 && winding_behind(ray, tops[shell]) <= 0) turn[shell] = !all;
+      if (volumes_mm3_[shell] < 0.0 && winding_behind(ray, tops[shell]) <= 0) turn[shell] = !all;
     return turn;
   }
 
  private:
   void reverse_all() {
     for (Triangle& t : mesh_.triangles) std::swap(t[1], t[2]);
-    for (double& volume : volumes_) volume = -volume;
+    for (double& volume : volumes_mm3_) volume = -volume;
   }
 
   /// For each shell, the triangle at its highest vertex that is seen best from above.
@@ -74,7 +71,7 @@ class OrientedShells {
 
   TriangleMesh mesh_;
   const Shells& shells_;
-  std::vector<double> volumes_;  ///< six times
+  std::vector<double> volumes_mm3_;
 };
 
 }  // namespace
