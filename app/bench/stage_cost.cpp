@@ -36,7 +36,10 @@ std::optional<SceneSpec> with_rule(SceneSpec scene, std::string_view rule) {
     clay.heave = true;
   else if (rule == "smear")
     clay.smear = true;
-  else
+  else if (rule == "finger" && scene.tool.mode == ToolMode::press) {
+    clay.heave = true;
+    clay.finger_mm = 90.0;
+  } else
     return std::nullopt;
   return scene;
 }

@@ -6,7 +6,8 @@
 namespace clay::history {
 namespace {
 
-constexpr double kFloorMm = 5.0;  // usual for a pot that is not trimmed on its foot
+constexpr double kFloorMm = 5.0;    // usual for a pot that is not trimmed on its foot
+constexpr double kFingerMm = 90.0;  // about as long as one
 
 }  // namespace
 
@@ -17,7 +18,7 @@ SceneSpec usual_scene(double height_mm) {
   scene.flow = {.sigma_mm = 0.12 * height_mm, .reach_mm = 0.5 * height_mm, .inside_share = 0.25};
   scene.force->stiffness_n_per_mm2 = 0.03;
   scene.force->friction = 0.2;
-  scene.clay = ClaySpec{.floor_mm = kFloorMm, .finger_mm = 90.0};
+  scene.clay = ClaySpec{.floor_mm = kFloorMm, .finger_mm = kFingerMm};
   return scene;
 }
 
