@@ -99,7 +99,7 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
     };
     if constexpr (rules & kHeave) {
       if (work.cones[k][0].meets) widen(kReliefMm, 0.0);
-      if (work.cones[k][1].meets) widen(0.0, work.cones[k][1].reach_mm);
+      if (work.cones[k][1].meets) widen(0.0, kReliefMm);
     }
     if (press.trim) continue;
     if constexpr (rules & kSmear) widen(band.height_mm(), band.height_mm());
@@ -110,6 +110,8 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
       }
     }
   }
+  if constexpr (rules & kHeave)
+    if (work.finger.stands()) high_mm = std::max(high_mm, work.finger.to_mm);
   const double h = stack.ring_height_mm(), top = static_cast<double>(stack.size() - 1);
   const auto ring_at = [=](double level) {
     return static_cast<std::size_t>(std::clamp(level, 0.0, top));
@@ -145,16 +147,6 @@ void bend(const RulePress& press, const ClayStack& stack, Contact& contact, bool
                  });
 }
 
-/// The part of a finger that stands above a tool in the bore of a ring: all of it where the wall is
-/// thicker than 0.35 R, as of a lump that is opened; none below 0.15 R, where a belly may be wider
-/// than the neck over it.
-double finger_part(const StepPlan& plan, const Ring& ring) noexcept {
-  if (!(plan.clay.finger_mm > 0.0)) return 0.0;
-  const double bore =
-      std::sqrt(static_cast<double>(ring.inner2) / static_cast<double>(ring.outer2));
-  return std::clamp(5.0 * (0.85 - bore), 0.0, 1.0);
-}
-
 template <unsigned rules>
 void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> removals,
                 RuleWork& work) noexcept {
@@ -183,15 +175,16 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
     if ((rules & kShift) && !press.trim) bend(press, stack, contact, (rules & kHoop) != 0, work);
     squeeze_out(squeeze, stack, contact, removals[0].removed);
   }
-  const double finger =
-      two || press.trim ? 0.0 : finger_part(plan, stack.rings()[work.bands[0].ring]);
-  if constexpr (rules & kHeave)
+  if constexpr (rules & kHeave) {
     for (std::size_t k = 0; k < removals.size(); ++k)
       if (!removals[k].contact.rings.empty())
         make_in_place(work.cones[k], [&] {
           return relieve_touched(plan, work.shoulders, stack, press.tool, work.bands[k], squeeze,
-                                 removals, k, press.trim, finger);
+                                 removals, k, press.trim);
         });
+    work.finger = {};
+    if (!two && !press.trim) work.finger = finger_of(plan, press.tool, removals[0].contact);
+  }
   reach_of<rules>(press, stack, removals, work);
 }
 
@@ -244,7 +237,7 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
         const Quanta over =
             heave(plan.tool, stack, work.walls, press.tool.hip_mm.y, contact, work.bands[at],
                   {inside, piece - inside, up, work.reach_mm[at],
-                   work.cones[at][1].finger > 0.0 ? &work.cones[at][1] : nullptr},
+                   work.finger.stands() ? &work.finger : nullptr},
                   writer);
         writer.gain(piece - over);
         rest += over;
@@ -270,6 +263,9 @@ WideQuanta relieve(const RulePress& press, std::span<const ToolRemoval> removals
         if (cone.meets)
           removed +=
               relieve_beyond(press.plan, cone, stack, press.tool.dt_s, removals[k].contact, writer);
+  if (work.finger.stands())
+    removed += relieve_finger(press.plan, work.finger, stack, press.tool.dt_s, removals[0].contact,
+                              writer);
   return removed;
 }
 

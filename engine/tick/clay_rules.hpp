@@ -32,6 +32,7 @@ struct RuleWork {
   std::array<Band, 2> bands;                 ///< of each tool
   Shoulders shoulders;                       ///< of the tool
   std::array<std::array<Cone, 2>, 2> cones;  ///< of each tool: at its lower end, at its upper end
+  Finger finger;                             ///< of one tool
   std::array<double, 2> reach_mm{};          ///< of what each tool heaves
   std::size_t lowest = 0, highest = 0;       ///< rings that the flow may change
 

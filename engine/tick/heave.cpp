@@ -245,14 +245,17 @@ class Heaving {
     });
   }
 
-  /// Nothing is laid into a finger. A part of a finger leaves some room, the more the less it is.
-  void beside_finger(const Cone& finger, std::size_t first, std::size_t count) noexcept {
-    const double end = finger.from_mm + finger.reach_mm, room = 1.0 / finger.finger - 1.0;
+  /// Nothing is laid into a finger. Where a wall yields to it in part, there is some room.
+  void beside_finger(const Finger& finger, std::size_t first, std::size_t count) noexcept {
     for (std::size_t k = 0; k < count; ++k) {
       const double middle = (static_cast<double>(first + k) + 0.5) * h_;
-      if (middle < finger.from_mm || middle > end) continue;
-      const double near = -finger.excess(middle, static_cast<double>(*walls_.inner(first + k)));
-      block_.clear[k] = lesser(block_.clear[k], static_cast<float>(greater(near, 0.0) + room));
+      const double bore = finger.bore_at(middle);
+      if (middle < finger.from_mm || middle > finger.to_mm || !(bore > 0.0)) continue;
+      const double part = finger.part(static_cast<double>(*walls_.thickness(first + k)));
+      if (!(part > 0.0)) continue;
+      const double near = static_cast<double>(*walls_.inner(first + k)) - bore;
+      const double room = greater(near, 0.0) + 1.0 / part - 1.0;
+      block_.clear[k] = lesser(block_.clear[k], static_cast<float>(room));
     }
   }
 

@@ -16,9 +16,9 @@ inline constexpr Quanta kLargestHeap = Quanta{1} << 50;
 /// An amount to lay on the wall from one end of a band, at most `kLargestHeap`.
 struct Heap {
   Quanta inside = 0, outside = 0;
-  bool up = true;                ///< from the upper end upward
-  double reach_mm = 1.0;         ///< `heave_reach`
-  const Cone* finger = nullptr;  ///< in the bore above the tool; nothing is laid into it
+  bool up = true;                  ///< from the upper end upward
+  double reach_mm = 1.0;           ///< `heave_reach`
+  const Finger* finger = nullptr;  ///< in the bore above the tool; nothing is laid into it
 };
 
 /// How far from the band clay is heaved: 0.8 (c + min(w, width of the tool)) [mm].

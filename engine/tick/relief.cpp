@@ -92,7 +92,7 @@ Shoulders shoulders_of(const Tool& tool) { return {end_of(tool, false), end_of(t
 std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoulders,
                                     const ClayStack& stack, const ToolState& tool, const Band& band,
                                     const Squeeze& squeeze, std::span<ToolRemoval> removals,
-                                    std::size_t which, bool trim, double finger) noexcept {
+                                    std::size_t which, bool trim) noexcept {
   Contact& contact = removals[which].contact;
   TouchedRings& rings = contact.rings;
   const double h = stack.ring_height_mm(), d = contact.axis_distance_mm, hip_y = tool.hip_mm.y;
@@ -102,11 +102,6 @@ std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoul
     make_in_place(cone, [&] {
       return cone_of(plan.tool, shoulders, h, hip_y, band, contact, up, trim ? kCutStepMm : 0.0);
     });
-    if (finger > 0.0 && up && !cone.outside) {
-      cone.finger = finger;
-      cone.slope += finger * (kFingerSlope - kReliefSlope);
-      cone.reach_mm += finger * std::max(plan.clay.finger_mm - kReliefMm, 0.0);
-    }
     std::size_t i = cone.beside;
     while (next(i, up, stack.size()) && rings.has(i)) {
       double& depth = rings.depth(i);
@@ -122,34 +117,48 @@ std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoul
       depth = std::max(depth - out, 0.0);
     }
     cone.meets =
-        !rings.has(i) && (cone.finger > 0.0 ||
-                          excess(cone, stack.rings()[i], (static_cast<double>(i) + 0.5) * h) > 0.0);
+        !rings.has(i) && excess(cone, stack.rings()[i], (static_cast<double>(i) + 0.5) * h) > 0.0;
   }
   return cones;
 }
 
+Finger finger_of(const StepPlan& plan, const ToolState& tool, const Contact& contact) noexcept {
+  if (!(plan.clay.finger_mm > 0.0) || contact.side != Side::expansive) return {};
+  const double from = tool.hip_mm.y, widest = plan.tool.widest();
+  return {from, from + plan.clay.finger_mm, contact.axis_distance_mm - Finger::kBehind * widest,
+          widest};
+}
+
+WideQuanta relieve_finger(const StepPlan& plan, const Finger& finger, const ClayStack& stack,
+                          double dt_s, const Contact& contact, StackWriter& writer) noexcept {
+  const double h = stack.ring_height_mm();
+  WideQuanta total = 0;
+  for (std::size_t i = contact.rings.to(); i < stack.size(); ++i) {
+    const Ring& ring = stack.rings()[i];
+    const double middle = (static_cast<double>(i) + 0.5) * h, bore = finger.bore_at(middle);
+    if (!(middle < finger.to_mm && bore > 0.0) || ring.inner2 == 0) break;
+    // Most rings are clear of it, which needs no root.
+    if (static_cast<double>(ring.inner2) * kMm2PerQuantum >= bore * bore) continue;
+    double out = bore - ring.inner_mm();
+    const Quanta all = yielded(plan.removal, dt_s, ring, false, out);
+    const double part = finger.part(wall_mm(ring));
+    const auto amount = static_cast<Quanta>(part * static_cast<double>(all));
+    writer.take_inside(i, amount);
+    total += amount;
+  }
+  return total;
+}
+
 WideQuanta relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack,
                           double dt_s, const Contact& contact, StackWriter& writer) noexcept {
-  const double h = stack.ring_height_mm(), reach = cone.reach_mm / h;
+  const double h = stack.ring_height_mm(), reach = kReliefMm / h;
   std::size_t i = cone.up ? contact.rings.to() - 1 : contact.rings.from();
   WideQuanta total = 0;
-  double part = 1.0;  // of what a ring yields
   for (double k = 1.0; k <= reach && next(i, cone.up, stack.size()); k += 1.0) {
     const Ring& ring = stack.rings()[i];
-    const double middle = (static_cast<double>(i) + 0.5) * h;
-    if (cone.finger > 0.0) {
-      // A finger goes on behind a gap. Most rings are clear of it, which needs no root.
-      const double bore = cone.base_mm - cone.recess(middle);
-      if (!(bore > 0.0) || ring.inner2 == 0) break;
-      if (static_cast<double>(ring.inner2) * kMm2PerQuantum >= bore * bore) {
-        part = cone.finger;
-        continue;
-      }
-    }
-    double out = excess(cone, ring, middle);
+    double out = excess(cone, ring, (static_cast<double>(i) + 0.5) * h);
     if (!(out > 0.0)) break;
-    const Quanta all = yielded(plan.removal, dt_s, ring, cone.outside, out);
-    const Quanta amount = part < 1.0 ? static_cast<Quanta>(part * static_cast<double>(all)) : all;
+    const Quanta amount = yielded(plan.removal, dt_s, ring, cone.outside, out);
     if (cone.outside)
       writer.take_outside(i, amount);
     else

@@ -8,6 +8,7 @@
 #include "engine/tick/removal.hpp"
 #include "engine/tool/tool_state.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -18,9 +19,6 @@ namespace clay {
 inline constexpr double kReliefMm = 12.0;
 
 inline constexpr double kReliefSlope = 2.0;
-
-/// Of a finger that stands nearly upright in a bore.
-inline constexpr double kFingerSlope = 0.125;
 
 /// Where a tool's surface becomes steeper than 2 : 1 toward its ends, measured from the HIP [mm];
 /// of a tool with flat ends: its ends. A shaft that widens from there as a cone stands for the rest
@@ -37,31 +35,47 @@ struct Cone {
   std::size_t beside = 0;  ///< the last touched ring before it
   bool outside = true, up = true;
   bool meets = false;  ///< clay beyond the contact
-  /// The part of a finger, 0 to 1, that stands in the bore above the tool and makes the cone steep
-  /// and long.
-  double finger = 0.0;
-  double slope = kReliefSlope, reach_mm = kReliefMm;
 
-  /// How far the cone has drawn back from its base at a height.
-  [[nodiscard]] double recess(double up_mm) const noexcept {
-    return slope * (up ? up_mm - from_mm : from_mm - up_mm);
-  }
   /// How far a surface at a height stands out into the cone.
   [[nodiscard]] double excess(double up_mm, double surface_mm) const noexcept {
-    return (outside ? surface_mm - base_mm : base_mm - surface_mm) - recess(up_mm);
+    const double way = up ? up_mm - from_mm : from_mm - up_mm;
+    return (outside ? surface_mm - base_mm : base_mm - surface_mm) - kReliefSlope * way;
   }
 };
 
 /// The cones at the lower and the upper end of one of the contacts, which has given way. What
 /// stands in them takes more from the rings that the tool touches, and lessens their depth. Those
 /// of a cutter begin 1 mm inside the clay: it leaves small steps of its own shape, at a lip.
-/// `finger`: of the cone above a tool in a bore.
 [[nodiscard]] std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoulders,
                                                   const ClayStack& stack, const ToolState& tool,
                                                   const Band& band, const Squeeze& squeeze,
                                                   std::span<ToolRemoval> removals,
-                                                  std::size_t which, bool trim,
-                                                  double finger) noexcept;
+                                                  std::size_t which, bool trim) noexcept;
+/// The rest of a finger, above a tool in a bore. It stands behind the tool, toward the axis, and
+/// leans away by 1 : 8. So clay may heave up over the tool, which takes it along on its way out,
+/// but does not close behind it. A wall that is thinner than the tool gets out of its way less, and
+/// none that is half as thick: a belly may be wider than the neck over it.
+struct Finger {
+  static constexpr double kLean = 0.125, kBehind = 2.0;  ///< of the tool's greatest radius
+  double from_mm = 0.0, to_mm = 0.0;
+  double bore_mm = 0.0;  ///< least radius of the bore at its lower end
+  double tool_mm = 1.0;  ///< greatest radius of the tool
+
+  [[nodiscard]] bool stands() const noexcept { return bore_mm > 0.0; }
+  [[nodiscard]] double bore_at(double up_mm) const noexcept {
+    return bore_mm - kLean * (up_mm - from_mm);
+  }
+  /// The part of what a wall of this thickness yields in its way.
+  [[nodiscard]] double part(double wall_mm) const noexcept {
+    return std::clamp(wall_mm / tool_mm - 1.0, 0.0, 1.0);
+  }
+};
+[[nodiscard]] Finger finger_of(const StepPlan& plan, const ToolState& tool,
+                               const Contact& contact) noexcept;
+/// Takes what stands in its way above the contact, as in `relieve_beyond`. Returns the clay.
+WideQuanta relieve_finger(const StepPlan& plan, const Finger& finger, const ClayStack& stack,
+                          double dt_s, const Contact& contact, StackWriter& writer) noexcept;
+
 /// Takes what stands in a cone beyond the contact, never through the minimum wall, nor where there
 /// is no bore. Returns the clay.
 WideQuanta relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack,

@@ -134,7 +134,7 @@ void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
        "off in the scene, or the wheel stands");
   const bool finger = (rules & kHeave) && finger_mm(s) > 0.0;
   lines.push_back({"finger", finger,
-                   finger ? "above a tool that opens a bore, no clay closes over it"
+                   finger ? "in a bore, no clay closes behind the tool"
                    : any  ? "no finger is set, or heave is off, or the tool does not press"
                           : none});
 }
