@@ -183,7 +183,7 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
                                  removals, k, press.trim);
         });
     work.finger = {};
-    if (!two && !press.trim) work.finger = finger_of(plan, press.tool, removals[0].contact);
+    if (!two && !press.trim) work.finger = finger_of(plan, press.tool, stack, removals[0].contact);
   }
   reach_of<rules>(press, stack, removals, work);
 }

@@ -122,11 +122,25 @@ std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoul
   return cones;
 }
 
-Finger finger_of(const StepPlan& plan, const ToolState& tool, const Contact& contact) noexcept {
+Finger finger_of(const StepPlan& plan, const ToolState& tool, const ClayStack& stack,
+                 const Contact& contact) noexcept {
   if (!(plan.clay.finger_mm > 0.0) || contact.side != Side::expansive) return {};
-  const double from = tool.hip_mm.y, widest = plan.tool.widest();
-  return {from, from + plan.clay.finger_mm, contact.axis_distance_mm - Finger::kBehind * widest,
-          widest};
+  const double from = tool.hip_mm.y, to = from + plan.clay.finger_mm;
+  const double widest = plan.tool.widest();
+  const double bore = contact.axis_distance_mm - Finger::kBehind * widest;
+  if (!(bore > 0.0)) return {};
+  // No tick lays more on a wall than this, so most bores are wide enough.
+  constexpr double kNearMm = 5.0;
+  const Quanta near = quanta_from_radius(bore + kNearMm);
+  const auto rings = stack.rings();
+  const double above = std::max(to / stack.ring_height_mm(), 0.0);
+  const auto end = static_cast<std::size_t>(std::min(above, static_cast<double>(rings.size())));
+  const std::size_t begin = std::min(contact.rings.to(), end);
+  if (std::none_of(rings.begin() + static_cast<std::ptrdiff_t>(begin),
+                   rings.begin() + static_cast<std::ptrdiff_t>(end),
+                   [near](const Ring& ring) { return ring.inner2 < near; }))
+    return {};
+  return {from, to, bore, widest};
 }
 
 WideQuanta relieve_finger(const StepPlan& plan, const Finger& finger, const ClayStack& stack,

@@ -70,7 +70,8 @@ struct Finger {
     return std::clamp(wall_mm / tool_mm - 1.0, 0.0, 1.0);
   }
 };
-[[nodiscard]] Finger finger_of(const StepPlan& plan, const ToolState& tool,
+/// None where all of the bore is far wider than it.
+[[nodiscard]] Finger finger_of(const StepPlan& plan, const ToolState& tool, const ClayStack& stack,
                                const Contact& contact) noexcept;
 /// Takes what stands in its way above the contact, as in `relieve_beyond`. Returns the clay.
 WideQuanta relieve_finger(const StepPlan& plan, const Finger& finger, const ClayStack& stack,
