@@ -6,8 +6,7 @@
 namespace clay::history {
 namespace {
 
-constexpr double kFloorMm = 5.0;    // usual for a pot that is not trimmed on its foot
-constexpr double kFingerMm = 90.0;  // about as long as one
+constexpr double kFloorMm = 5.0;  // usual for a pot that is not trimmed on its foot
 
 }  // namespace
 

@@ -8,6 +8,9 @@
 
 namespace clay::history {
 
+/// The usual length of a finger, for `ClaySpec::finger_mm`.
+inline constexpr double kFingerMm = 90.0;
+
 /// The usual settings of the clay, for a lump or a pot of this height.
 [[nodiscard]] SceneSpec usual_scene(double height_mm);
 

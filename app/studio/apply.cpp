@@ -96,7 +96,11 @@ struct Performer {
     if (!begin.source.empty()) state.log("imported: " + begin.source.string());
   }
   void operator()(const BeginSample& sample) const {
-    if (auto scene = scene_of(samples().at(sample.index))) (*this)(BeginWork{*scene, nullptr, {}});
+    auto scene = scene_of(samples().at(sample.index));
+    if (!scene) return;
+    // New works have a finger; the session of the sample was thrown without one.
+    if (scene->clay) scene->clay->finger_mm = history::kFingerMm;
+    (*this)(BeginWork{*scene, nullptr, {}});
   }
   void operator()(const BeginLesson& lesson) const {
     (*this)(BeginSample{lesson.index});
