@@ -47,18 +47,18 @@ MouseDevice::Overlap MouseDevice::overlap(const glm::dvec3& place_mm) const noex
   const Tool& tool = *resistance_.tool;
   const double h = clay.ring_height_mm(), rho = std::hypot(place_mm.x, place_mm.z);
   const auto rings = clay.rings();
-  const auto first = static_cast<std::size_t>(std::clamp(std::floor((place_mm.y + tool.low()) / h),
-                                                         0.0, static_cast<double>(rings.size())));
+  const double low_mm = place_mm.y + tool.low(), high_mm = place_mm.y + tool.high();
   Overlap sum;
-  for (std::size_t i = first; i < rings.size(); ++i) {
-    const double t = (static_cast<double>(i) + 0.5) * h - place_mm.y;
-    if (t > tool.high()) break;
-    if (t < tool.low()) continue;
-    const double width = tool.radius(t);
+  for (auto i = static_cast<std::size_t>(std::max(low_mm / h, 0.0)); i < rings.size(); ++i) {
+    // The part of the ring beside the tool, so that flat ends do not enter a ring all at once.
+    const double bottom = std::max(static_cast<double>(i) * h, low_mm);
+    const double top = std::min(static_cast<double>(i + 1) * h, high_mm);
+    if (!(bottom < top)) break;
+    const double width = tool.radius(0.5 * (bottom + top) - place_mm.y);
     const double inner = std::max(rings[i].inner_mm(), rho - width);
     const double depth = std::max(0.0, std::min(rings[i].outer_mm(), rho + width) - inner);
-    sum.area_mm2 += h * depth;
-    sum.energy_mm3 += 0.5 * h * depth * depth;
+    sum.area_mm2 += (top - bottom) * depth;
+    sum.energy_mm3 += 0.5 * (top - bottom) * depth * depth;
   }
   return sum;
 }
@@ -70,7 +70,7 @@ double MouseDevice::sunk_mm(const glm::dvec3& place_mm) const noexcept {
   const double low_mm = std::max(place_mm.y + resistance_.tool->low(), 0.0);
   auto i = static_cast<std::size_t>(std::min(low_mm / h, static_cast<double>(rings.size())));
   while (i < rings.size() && rings[i].inner_mm() <= rho && rho < rings[i].outer_mm()) ++i;
-  return static_cast<double>(i) * h - (place_mm.y + resistance_.tool->low());
+  return static_cast<double>(i) * h - low_mm;
 }
 
 /// The part of a step against which no wall and no floor stands firm.

@@ -142,6 +142,18 @@ TEST(MouseHand, StandsOnAFloorThatDoesNotGiveWay) {
   EXPECT_NEAR(hand.tick().position_mm.y, 69.0, 0.6);
 }
 
+/// Beside the clay the tool goes down to the wheel, and its lower half below it.
+TEST(MouseHand, IsFreeDownBesideTheClay) {
+  const Lump lump;
+  Hand hand;
+  hand.device.begin_at({50.5, 30.0, 0.0});
+  hand.device.meet({&lump.wheel->stack(), &lump.wheel->plan().tool, kRpm});
+  hand.tick();
+  hand.device.aim({{50.5, 2.0, 0.0}, kPressingMmPerS, 8.0});
+  for (int i = 0; i < 1000; ++i) hand.tick();
+  EXPECT_NEAR(hand.tick().position_mm.y, 2.0, 0.1);
+}
+
 TEST(MouseHand, ItsBiteMayChangeDuringAStroke) {
   const Lump lump;
   Hand hand;
