@@ -4,7 +4,7 @@
 # build/release.
 set -eu
 cd "$(dirname "$0")/.."
-native=${1:-$PWD/build/release/app/claystack}
+native=$(realpath "${1:-build/release/app/claystack}")
 module=$PWD/build/web/app/claystack.js
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
