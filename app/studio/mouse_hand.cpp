@@ -35,7 +35,7 @@ void MouseDevice::begin_at(const glm::dvec3& place_mm) noexcept {
   resistance_ = {};
   stretch_mm_.store(0.0, std::memory_order_relaxed);
   last_us_ = -1;
-  permitted_mm2_ = 0.0;
+  unbitten_mm2_ = 0.0;
   aim_.write({place_mm, kPressingMmPerS});
 }
 
@@ -95,22 +95,22 @@ glm::dvec3 MouseDevice::permitted(const glm::dvec3& step_mm, double step_s,
   Overlap now = overlap(place_mm_);
   const glm::dvec3 wanted = unstopped(step_mm, now);
   const double bite_mm2 = bite_mm * resistance_.wheel_rpm / 60.0 * step_s * tool_height_mm();
-  permitted_mm2_ =
-      std::clamp(permitted_mm2_ + bite_mm2, now.area_mm2, now.area_mm2 + bite_mm2 + kUnevenMm2);
+  unbitten_mm2_ = std::min(unbitten_mm2_ + bite_mm2, bite_mm2 + kUnevenMm2);
   glm::dvec3 moved{0.0};
   const auto bite = [&](const glm::dvec3& way) {
     constexpr double kLeastPart = 1.0 / 64.0;
     double part = 1.0;
     for (int k = 0; k < kTries; ++k) {
       const Overlap then = overlap(place_mm_ + moved + part * way);
-      if (then.area_mm2 <= permitted_mm2_) {
+      const double growth = then.area_mm2 - now.area_mm2;
+      if (growth <= unbitten_mm2_) {
         moved += part * way;
+        unbitten_mm2_ -= growth;
         now = then;
         return;
       }
       // About in proportion to the way, if not quite.
-      const double growth = then.area_mm2 - now.area_mm2;
-      part *= std::max(0.8 * (permitted_mm2_ - now.area_mm2) / growth, kLeastPart);
+      part *= std::max(0.8 * unbitten_mm2_ / growth, kLeastPart);
     }
   };
   bite(wanted);

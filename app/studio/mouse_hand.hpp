@@ -88,8 +88,8 @@ class MouseDevice final : public falcon::HapticDevice {
   Resistance resistance_;
   std::atomic<double> stretch_mm_{0.0};
   glm::dvec3 place_mm_{0.0};
-  double permitted_mm2_ = 0.0;  // overlap, by the bites up to now
-  std::int64_t last_us_ = -1;   // of the last sample; below 0: none since begin_at
+  double unbitten_mm2_ = 0.0;  // of the bites up to now: by which the overlap may still grow
+  std::int64_t last_us_ = -1;  // of the last sample; below 0: none since begin_at
 };
 
 }  // namespace clay::studio

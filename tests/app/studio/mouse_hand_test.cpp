@@ -112,6 +112,29 @@ TEST(MouseHand, DigsNoFasterThanItsBite) {
   EXPECT_NEAR(hand.device.stretch_mm(), x, 1e-9) << "the spring, from the tool to the axis";
 }
 
+/// Clay that yields at once does not let the hand dig faster.
+TEST(MouseHand, ItsBiteLimitsItInSoftClay) {
+  Lump lump;
+  Hand hand;
+  hand.device.begin_at({50.5, 30.0, 0.0});
+  hand.device.meet({&lump.wheel->stack(), &lump.wheel->plan().tool, kRpm});
+  hand.tick();
+  constexpr double kBiteMm = 1.0, kHeightMm = 20.0;
+  hand.device.aim({{0.0, 30.0, 0.0}, kPressingMmPerS, kBiteMm});
+  double from_s = 0.0, to_s = 0.0;
+  for (int i = 1; i <= 5000; ++i) {
+    const glm::dvec3 place = hand.tick().position_mm;
+    lump.wheel->step({1000 * i, place});
+    if (from_s == 0.0 && place.x < 47.0) from_s = 1e-3 * i;
+    if (to_s == 0.0 && place.x < 45.0) to_s = 1e-3 * i;
+  }
+  ASSERT_GT(to_s, 0.0);
+  // From 3 to 5 mm deep the tool meets the clay with a chord of 14.3 mm or more, up to all of it.
+  const double area_mm2_s = kBiteMm * kRpm / 60.0 * kHeightMm;
+  EXPECT_LT(2.0 / (to_s - from_s), 1.05 * area_mm2_s / 14.3);
+  EXPECT_GT(2.0 / (to_s - from_s), 0.75 * area_mm2_s / kHeightMm);
+}
+
 /// A wall at its minimum, a lump that is too stiff: the hand stops, however long it pushes.
 TEST(MouseHand, StopsWhereClayDoesNotGiveWay) {
   const Lump lump;
