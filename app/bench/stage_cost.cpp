@@ -1,6 +1,7 @@
 #include "app/bench/stage_cost.hpp"
 
 #include "app/bench/thread_clock.hpp"
+#include "app/history/pot_scene.hpp"
 #include "claystack/engine/tool.hpp"
 #include "claystack/engine/wheel.hpp"
 
@@ -38,7 +39,7 @@ std::optional<SceneSpec> with_rule(SceneSpec scene, std::string_view rule) {
     clay.smear = true;
   else if (rule == "finger" && scene.tool.mode == ToolMode::press) {
     clay.heave = true;
-    clay.finger_mm = 90.0;
+    clay.finger_mm = history::kFingerMm;
   } else
     return std::nullopt;
   return scene;

@@ -63,20 +63,21 @@ MouseDevice::Overlap MouseDevice::overlap(const glm::dvec3& place_mm) const noex
   return sum;
 }
 
-/// How far the lower end of the tool is below the clay that it stands on.
-double MouseDevice::sunk_mm(const glm::dvec3& place_mm) const noexcept {
+/// Whether the lower end of the tool is too far below the clay that it stands on.
+bool MouseDevice::sunk(const glm::dvec3& place_mm) const noexcept {
   const double h = resistance_.clay->ring_height_mm(), rho = std::hypot(place_mm.x, place_mm.z);
   const auto rings = resistance_.clay->rings();
   const double low_mm = std::max(place_mm.y + resistance_.tool->low(), 0.0);
   auto i = static_cast<std::size_t>(std::min(low_mm / h, static_cast<double>(rings.size())));
-  while (i < rings.size() && rings[i].inner_mm() <= rho && rho < rings[i].outer_mm()) ++i;
-  return static_cast<double>(i) * h - low_mm;
+  while (i < rings.size() && rings[i].inner_mm() <= rho && rho < rings[i].outer_mm())
+    if (static_cast<double>(++i) * h - low_mm > kSunkMm) return true;
+  return false;
 }
 
 /// The part of a step against which no wall and no floor stands firm.
 glm::dvec3 MouseDevice::unstopped(const glm::dvec3& step_mm, const Overlap& now) const noexcept {
   glm::dvec3 way{0.0, step_mm.y, 0.0};
-  if (step_mm.y < 0.0 && sunk_mm(place_mm_) > kSunkMm) way.y = 0.0;
+  if (step_mm.y < 0.0 && sunk(place_mm_)) way.y = 0.0;
   double part = 1.0;
   for (int k = 0; k < kTries; ++k, part *= 0.5) {
     const glm::dvec3 out{part * step_mm.x, 0.0, part * step_mm.z};
@@ -129,9 +130,7 @@ falcon::DeviceSample MouseDevice::read(std::int64_t) noexcept {
     const glm::dvec3 way = aim.place_mm - place_mm_;
     const double far = glm::length(way);
     const double step = std::min({far, aim.speed_mm_s * step_s, far * step_s / kLagS});
-    if (far > 0.0 && step > 0.0) {
-      place_mm_ += permitted(way * (step / far), step_s, aim.bite_mm);
-    }
+    if (far > 0.0 && step > 0.0) place_mm_ += permitted(way * (step / far), step_s, aim.bite_mm);
     stretch_mm_.store(glm::distance(aim.place_mm, place_mm_), std::memory_order_relaxed);
   }
   const bool fresh = now_us > last_us_;

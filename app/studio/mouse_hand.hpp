@@ -80,7 +80,7 @@ class MouseDevice final : public falcon::HapticDevice {
     return resistance_.tool->high() - resistance_.tool->low();
   }
   [[nodiscard]] glm::dvec3 unstopped(const glm::dvec3& step_mm, const Overlap& now) const noexcept;
-  [[nodiscard]] double sunk_mm(const glm::dvec3& place_mm) const noexcept;
+  [[nodiscard]] bool sunk(const glm::dvec3& place_mm) const noexcept;
   [[nodiscard]] glm::dvec3 permitted(const glm::dvec3& step_mm, double step_s,
                                      double bite_mm) noexcept;
 

@@ -129,7 +129,8 @@ Finger finger_of(const StepPlan& plan, const ToolState& tool, const ClayStack& s
   const double widest = plan.tool.widest();
   const double bore = contact.axis_distance_mm - Finger::kBehind * widest;
   if (!(bore > 0.0)) return {};
-  // No tick lays more on a wall than this, so most bores are wide enough.
+  // A hand's tick lays far less on a wall than this, so most bores are clear of the finger. What a
+  // longer tick lays into it, the next one takes.
   constexpr double kNearMm = 5.0;
   const Quanta near = quanta_from_radius(bore + kNearMm);
   const auto rings = stack.rings();

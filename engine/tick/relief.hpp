@@ -51,15 +51,16 @@ struct Cone {
                                                   const Band& band, const Squeeze& squeeze,
                                                   std::span<ToolRemoval> removals,
                                                   std::size_t which, bool trim) noexcept;
+
 /// The rest of a finger, above a tool in a bore. It stands behind the tool, toward the axis, and
 /// leans away by 1 : 8. So clay may heave up over the tool, which takes it along on its way out,
 /// but does not close behind it. A wall that is thinner than the tool gets out of its way less, and
 /// none that is half as thick: a belly may be wider than the neck over it.
 struct Finger {
   static constexpr double kLean = 0.125, kBehind = 2.0;  ///< of the tool's greatest radius
-  double from_mm = 0.0, to_mm = 0.0;
-  double bore_mm = 0.0;  ///< least radius of the bore at its lower end
-  double tool_mm = 1.0;  ///< greatest radius of the tool
+  double from_mm = 0.0, to_mm = 0.0;  ///< heights of its ends above the wheel head
+  double bore_mm = 0.0;               ///< least radius of the bore at its lower end
+  double tool_mm = 1.0;               ///< greatest radius of the tool
 
   [[nodiscard]] bool stands() const noexcept { return bore_mm > 0.0; }
   [[nodiscard]] double bore_at(double up_mm) const noexcept {

@@ -100,10 +100,8 @@ void draw_finish(const ViewModel& model, ExportChoices& choices) {
   const LengthUnit unit = model.settings.unit;
   choose_tenths("Foot ring", choices.foot_width_mm, 0.0, kWidestFootMm, unit, "none");
   tip("The width of a ring on which the pot stands. Inside it the foot is cut away.");
-  if (choices.foot_width_mm > 0.0) {
+  if (choices.foot_width_mm > 0.0)
     choose_tenths("Depth of the foot", choices.foot_depth_mm, 0.1, kDeepestFootMm, unit, nullptr);
-    choices.foot_depth_mm = std::max(choices.foot_depth_mm, 0.1);
-  }
   choose_tenths("Fillet at the floor", choices.floor_fillet_mm, 0.0, kLargestFilletMm, unit,
                 "none");
   tip("The radius where wall and floor meet inside, filled with clay.");

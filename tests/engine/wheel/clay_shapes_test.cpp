@@ -127,17 +127,11 @@ TEST(ClayShapes, NoStrokeLeavesASteepUndercut) {
 
 /// A solid lump, opened by a ball that goes down the axis to 15 mm, and out.
 Wheel opened_lump(double out_mm, std::optional<double> finger_mm) {
-  SceneSpec scene;
-  scene.lump = {.rings = 200,
-                .ring_height_mm = kH,
-                .outer_radius_mm = 48.0,
-                .inner_radius_mm = 0.0,
-                .max_rings = 1000,
-                .density_g_cm3 = 1.9};
-  scene.tool = {SphereSpec{10.0}, ToolMode::press, {}};
+  SceneSpec scene = cylinder_scene({.floor_mm = 5.0, .finger_mm = finger_mm});
+  scene.lump.rings = 200;
+  scene.lump.outer_radius_mm = 48.0;
+  scene.lump.inner_radius_mm = 0.0;
   scene.removal = {20.0, 2.0, 2.0, {}};
-  scene.force.reset();
-  scene.clay = ClaySpec{.floor_mm = 5.0, .finger_mm = finger_mm};
   Wheel wheel = Wheel::build(scene).value();
   Hand hand(wheel);
   hand.place_at(0.0, 60.0);
@@ -172,20 +166,20 @@ TEST(ClayShapes, ClayClosesOverABallAloneButNotOverAFinger) {
   EXPECT_GT(narrowest_bore(opened_lump(42.0, 90.0)), 15.0);
 }
 
-/// Through a narrow neck with a wall of 4 mm: a belly becomes wider than the neck, as without one.
+/// A neck of 8 mm radius with a wall of 4 mm over a belly: the finger would stand at 12 mm there.
 TEST(ClayShapes, AFingerSparesTheNeckOverABelly) {
-  SceneSpec scene = cylinder_scene({});
-  const auto bellied = [&](std::optional<double> finger_mm) {
-    scene.clay = ClaySpec{.finger_mm = finger_mm};
-    const auto inner = [](double up) { return up < 50.0 ? 40.0 : 20.0; };
+  const auto neck = [](std::optional<double> finger_mm) {
+    const auto inner = [](double up) { return std::clamp(40.0 - 3.2 * (up - 40.0), 8.0, 40.0); };
     Wheel wheel = wheel_with(
-        scene, 60.0, [&](double up) { return inner(up) + 4.0; }, inner);
+        cylinder_scene({.finger_mm = finger_mm}), 60.0, [&](double up) { return inner(up) + 4.0; },
+        inner);
     Hand hand(wheel);
-    hand.place_at(0.0, 25.0);
-    hand.move_to(36.0, 25.0, 20.0);
+    hand.place_at(20.0, 20.0);
+    hand.move_to(36.0, 20.0, 20.0);
+    EXPECT_GT(ring_at(wheel, 20.0).inner_mm(), 43.0);
     return ring_at(wheel, 55.0);
   };
-  EXPECT_EQ(bellied(90.0), bellied({}));
+  EXPECT_EQ(neck(90.0), neck({}));
 }
 
 /// A plate's wall is laid out, and the solid bottom holds it.

@@ -123,7 +123,7 @@ struct ClaySpec {
   bool smear = true;         ///< a wet finger evens out the surface below it
   double wheel_rpm = 120.0;  ///< for smear
   double floor_mm = 0.0;     ///< no tool opens the solid bottom below this height; 0: no stop
-  /// Length of the finger above a tool that opens a bore in a thick wall; absent: the tool alone.
+  /// Length of the finger in a bore, behind which no thick wall closes; absent: the tool alone.
   std::optional<double> finger_mm = std::nullopt;
   friend bool operator==(const ClaySpec&, const ClaySpec&) = default;
 };
