@@ -58,10 +58,4 @@ std::int64_t Histogram::quantile_ns(double part) const noexcept {
   return most_;
 }
 
-std::uint64_t Histogram::count_from(std::int64_t ns) const noexcept {
-  std::uint64_t count = 0;
-  for (std::size_t bucket = bucket_of(ns); bucket < kBuckets; ++bucket) count += counts_[bucket];
-  return count;
-}
-
 }  // namespace clay

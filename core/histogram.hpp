@@ -30,10 +30,6 @@ class Histogram {
   /// and at most most_ns. 0 when empty.
   [[nodiscard]] std::int64_t quantile_ns(double part) const noexcept;
 
-  /// The number of times of at least `ns`, to the resolution of a bucket: all times in the bucket
-  /// of `ns` count.
-  [[nodiscard]] std::uint64_t count_from(std::int64_t ns) const noexcept;
-
  private:
   // Octave 0 holds 0 to 31 ns; an int64 has 63 - kBits more.
   static constexpr std::size_t kBuckets = std::size_t{64 - kBits} << kBits;

@@ -65,6 +65,5 @@ inline constexpr std::array kMaterials = {
 
 inline constexpr const Material& kWet = kMaterials[0];
 inline constexpr const Material& kLeatherHard = kMaterials[1];
-inline constexpr const Material& kTerracotta = kMaterials[2];
 
 }  // namespace clay

@@ -271,6 +271,11 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
   HalfSection section;
   if (auto placed = place_axis(section, drawing, settings, name); !placed)
     return tl::make_unexpected(placed.error());
+  if (drawing.lines.empty())
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected an outline beside the axis, found only lines on the "
+                               "axis at x = {:g} mm",
+                               name, section.axis_mm));
   turn_to_the_right(drawing.lines, section.axis_mm);
   const auto with_hint = [&, drawn = drawing.lines](Error error) {
     error.message += hint_about(drawn, section, settings.axis != AxisRule::by_itself);

@@ -37,6 +37,20 @@ std::vector<glm::dvec3> outline_points(const PotView& pot) {
 
 }  // namespace
 
+const Row* row_at(const PotView& pot, double y_mm) {
+  if (pot.rows.empty() || !(y_mm >= 0.0 && y_mm < pot.height_mm)) return nullptr;
+  const double rows = static_cast<double>(pot.rows.size());
+  return &pot.rows[static_cast<std::size_t>(std::min(y_mm / pot.height_mm * rows, rows - 1.0))];
+}
+
+std::optional<double> floor_mm(const PotView& pot) {
+  const auto open = std::ranges::find_if(
+      pot.rows, [](const Row& row) { return static_cast<double>(row.inner_mm) > kBoreMm; });
+  if (open == pot.rows.end()) return std::nullopt;
+  return pot.height_mm * static_cast<double>(open - pot.rows.begin()) /
+         static_cast<double>(pot.rows.size());
+}
+
 double wheel_radius_mm(const PotView& pot) noexcept {
   double reach = 0.0;
   for (const glm::dvec3& p : outline_points(pot)) reach = std::max(reach, std::hypot(p.x, p.z));

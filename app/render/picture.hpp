@@ -44,6 +44,13 @@ struct PotView {
   friend bool operator==(const PotView&, const PotView&) = default;
 };
 
+/// The row at a height, of a pot that stands; null below and above it.
+[[nodiscard]] const Row* row_at(const PotView& pot, double y_mm);
+/// A bore begins at this radius: a narrower one is a dimple.
+inline constexpr double kBoreMm = 2.0;
+/// Thickness of the floor under the bore; empty: no bore.
+[[nodiscard]] std::optional<double> floor_mm(const PotView& pot);
+
 /// A body of revolution about a vertical axis through the HIP; two of them for a pinch.
 struct ToolView {
   std::vector<glm::vec2> half_profile_mm;  ///< (f, t): radius at a height from the HIP; t ascending

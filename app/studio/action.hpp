@@ -44,7 +44,7 @@ struct BeginLesson {
 /// The user throws what was shown: from the start again.
 struct YourTurn {};
 struct NextStep {};
-/// Plays the stroke of the present step, or stops playing.
+/// Plays the stroke of the present step; StopShowing ends it.
 struct ShowStep {};
 struct StopShowing {};
 struct EndLesson {};

@@ -141,10 +141,10 @@ struct Performer {
   }
   void operator()(const RecoverWork& recover) const {
     const std::filesystem::path path = state.recoverable.at(recover.index).path;
-    forget(recover.index);
     state.stroke.release();
     auto work = history::recover(path);
     if (!work) return report(state, work.error());
+    forget(recover.index);
     state.document.begin(std::move(*work));
     show_own_wheel();
     show_work();
@@ -152,8 +152,9 @@ struct Performer {
   }
   void operator()(const DiscardRecoverable& discard) const {
     const std::filesystem::path path = state.recoverable.at(discard.index).path;
+    if (!succeeded(state, history::discard(path))) return;
     forget(discard.index);
-    if (succeeded(state, history::discard(path))) state.log("discarded: " + path.string());
+    state.log("discarded: " + path.string());
   }
   void operator()(const Quit&) const { state.done = true; }
   void operator()(const SaveFile& save) const {
@@ -163,7 +164,7 @@ struct Performer {
     if (!confirmed && state.document.replaces_other(path)) {
       state.log("prompt: replace");
       const std::string reason =
-          path != state.document.file()  ? " exists. It holds another work or pot."
+          !state.document.has_file(path) ? " exists. It holds another work or pot."
           : state.document.file_in_use() ? " is open in another window."
                                          : " was changed by another program.";
       state.ui.dialog =

@@ -152,7 +152,12 @@ void Document::keep_file(const std::filesystem::path& path) {
 
 bool Document::replaces_other(const std::filesystem::path& path) const {
   const auto found = FileStamp::of(path);
-  return found && (path != file_ || *found != stamp_ || file_in_use());
+  return found && (!has_file(path) || *found != stamp_ || file_in_use());
+}
+
+bool Document::has_file(const std::filesystem::path& path) const {
+  std::error_code ignored;
+  return !file_.empty() && (path == file_ || std::filesystem::equivalent(path, file_, ignored));
 }
 
 std::string Document::name() const {

@@ -26,7 +26,7 @@ struct Moment {
 /// Wheel speed at which clay without rules yields at the rate of its scene.
 inline constexpr double kNominalRpm = 120.0;
 
-/// Tells whether a file is still the one that was read or written.
+/// Identifies the version of a file that was read or written.
 struct FileStamp {
   std::int64_t changed_ns = 0;
   std::uint64_t bytes = 0, inode = 0;  ///< a file that was replaced has another inode
@@ -67,6 +67,8 @@ class Document {
   /// Whether a file of that name exists that this document has neither read nor written last:
   /// another one, or its own if another program has changed it or has it open.
   [[nodiscard]] bool replaces_other(const std::filesystem::path& path) const;
+  /// Whether the path is that of the document's file, however it is spelled.
+  [[nodiscard]] bool has_file(const std::filesystem::path& path) const;
   /// Whether another window has the file open.
   [[nodiscard]] bool file_in_use() const noexcept { return lock_ && lock_->in_use(); }
   /// The file of the work; empty: none yet.

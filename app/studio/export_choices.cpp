@@ -15,11 +15,6 @@
 namespace clay::studio {
 namespace {
 
-/// The view keeps the pot as it is on the wheel; the solid in the file is larger.
-glm::dvec2 on_pot(const solid::ProfilePoint& place, double shrinkage) {
-  return glm::dvec2(place.rho, place.y) / solid::enlargement(shrinkage);
-}
-
 constexpr std::string_view kReportEnding = ".report.html";
 
 std::vector<cli::PotCopy> copies_in(const solid::ExportRequest& request, const Pot& pot) {
@@ -43,7 +38,109 @@ void set_finish(const ExportChoices& choices, solid::ExportOptions& options) {
   if (choices.foot_width_mm > 0.0)
     options.finish.foot = solid::FootRing{choices.foot_width_mm, choices.foot_depth_mm, {}};
   options.finish.floor_fillet_mm = choices.floor_fillet_mm;
+  options.finish.glaze_mm = choices.glaze_mm;
   if (choices.lip_fillet_mm > 0.0) options.lip_fillet_mm = choices.lip_fillet_mm;
+}
+
+Result<solid::ExportOptions> options_of(const ExportChoices& choices, const Pot& pot) {
+  solid::ExportOptions options;
+  options.tolerance_mm = choices.tolerance_mm;
+  options.smoothing = choices.smoothing;
+  if (choices.smoothing == solid::Smoothing::fair && !pot.collapse)
+    options.smooth_length_mm = choices.smooth_length_mm;
+  options.name = options.source = choices.name;
+  options.material = choices.material;
+  const bool solid = !choices.meshes.empty() || choices.step;
+  if (solid || choices.section || choices.dxf || choices.pdf || choices.report) {
+    options.shrinkage = 0.01 * choices.shrinkage_percent;
+    if (!pot.collapse) set_finish(choices, options);
+  }
+  if (!solid && !choices.report) return options;
+  return set_walls(choices, options).map([&] { return std::move(options); });
+}
+
+solid::Goal goal_of(const ExportChoices& choices) {
+  solid::Goal goal;
+  goal.fired = choices.shrinkage_percent > 0.0;
+  if (choices.size == ExportSize::capacity) goal.holds_ml = choices.holds_ml;
+  if (choices.size == ExportSize::height) goal.height_mm = choices.height_mm;
+  if (choices.size == ExportSize::diameter) goal.diameter_mm = choices.diameter_mm;
+  return goal;
+}
+
+Result<void> add_files(const ExportChoices& choices, const Pot& pot,
+                       solid::ExportRequest& request) {
+  for (const std::string& path : paths_of(choices)) {
+    if (path.ends_with(kReportEnding)) {
+      request.report_path = path;
+      continue;
+    }
+    if (const auto encoding = cli::pot_encoding_of(path)) {
+      if (auto room = cli::expect_room_to_write(pot.stack.size(), *encoding, path); !room)
+        return room;
+      request.files.push_back(
+          {.path = path, .kind = solid::FileKind::given, .bytes = write_pot(pot, *encoding)});
+      continue;
+    }
+    auto file = solid::file_request(path);
+    if (!file) return tl::make_unexpected(file.error());
+    request.files.push_back(std::move(*file));
+  }
+  return {};
+}
+
+/// The view keeps the pot as it is on the wheel; the solid in the file is larger, and may have
+/// another size.
+glm::dvec2 on_pot(const solid::ProfilePoint& place, double shrinkage,
+                  const std::optional<solid::MetGoal>& met) {
+  const glm::dvec2 scaled = glm::dvec2(place.rho, place.y) / solid::enlargement(shrinkage);
+  return met ? scaled / glm::dvec2(met->radius_factor, met->height_factor) : scaled;
+}
+
+/// To the brim, fired and glazed if it shrinks [ml].
+double capacity_of(const std::optional<solid::MakerNumbers>& numbers) {
+  if (!numbers) return 0.0;
+  return (numbers->fired && numbers->glazed ? *numbers->glazed : numbers->in_use()).capacity_ml;
+}
+
+ExportFigures figures_of(const solid::ExportReport& report, const solid::ExportOptions& options,
+                         const ClayStack& thrown) {
+  const double shrinkage = report.prepared.shrinkage;
+  const auto place_of = [&](const solid::ProfilePoint& place) {
+    return on_pot(place, shrinkage, options.met_goal);
+  };
+  const solid::Wall& thinnest = report.walls.thinnest;
+  // The width is that of the section, as in the table of the command; a mesh has its corners
+  // farther out.
+  ExportFigures figures{
+      .has_solid = report.has_solid(),
+      .triangles = report.size.triangles,
+      .meshes = {},
+      .diameter_mm = report.maker ? report.maker->thrown.size.diameter_mm : report.size.diameter_mm,
+      .height_mm = report.size.height_mm,
+      .shrinkage = shrinkage,
+      .capacity_ml = capacity_of(report.maker),
+      .fallen = report.collapsed.has_value(),
+      .thinnest_mm = report.thinnest_mm(),
+      .thinnest_at_mm = thinnest.from.y,
+      .thinnest_in_floor =
+          in_floor(form_of(thrown), place_of(thinnest.from), place_of(thinnest.to)),
+      .faired_mm = report.section.smoothed.fairing.length_mm,
+      .moved_mm = report.section.smoothed.fairing.moved_mm,
+      .moved_at_mm = report.section.smoothed.fairing.moved_at_mm,
+      .problems = {},
+      .failed = 0,
+      .marks = {}};
+  for (const solid::FileReport& file : report.files)
+    if (file.kind == solid::FileKind::mesh) figures.meshes.push_back({file.format, file.bytes});
+  std::vector<solid::Problem> problems = solid::problems_of(report);
+  const auto warnings = std::ranges::stable_partition(problems, &solid::Problem::fails);
+  figures.failed = static_cast<std::size_t>(warnings.begin() - problems.begin());
+  for (const solid::Problem& problem : problems) {
+    figures.problems.push_back(problem.text);
+    if (problem.at) figures.marks.push_back({place_of(*problem.at), problem.text});
+  }
+  return figures;
 }
 
 }  // namespace
@@ -64,38 +161,18 @@ std::vector<std::string> paths_of(const ExportChoices& choices) {
   return paths;
 }
 
-Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot& pot) {
-  solid::ExportRequest request;
-  for (const std::string& path : paths_of(choices)) {
-    if (path.ends_with(kReportEnding)) {
-      request.report_path = path;
-      continue;
-    }
-    if (const auto encoding = cli::pot_encoding_of(path)) {
-      if (auto room = cli::expect_room_to_write(pot.stack.size(), *encoding, path); !room)
-        return tl::make_unexpected(room.error());
-      request.files.push_back(
-          {.path = path, .kind = solid::FileKind::given, .bytes = write_pot(pot, *encoding)});
-      continue;
-    }
-    auto file = solid::file_request(path);
-    if (!file) return tl::make_unexpected(file.error());
-    request.files.push_back(std::move(*file));
+Result<ExportJob> job_of(const ExportChoices& choices, const Pot& pot) {
+  auto options = options_of(choices, pot);
+  if (!options) return tl::make_unexpected(options.error());
+  ExportJob job{pot, {}};
+  job.request.options = std::move(*options);
+  if (choices.size != ExportSize::as_thrown && !pot.collapse) {
+    auto scaled = solid::scaled_to(pot, goal_of(choices), job.request.options);
+    if (!scaled) return tl::make_unexpected(scaled.error());
+    job.pot = std::move(scaled->pot);
+    job.request.options.met_goal = scaled->met;
   }
-  solid::ExportOptions& options = request.options;
-  options.tolerance_mm = choices.tolerance_mm;
-  options.smoothing = choices.smoothing;
-  if (choices.smoothing == solid::Smoothing::fair && !pot.collapse)
-    options.smooth_length_mm = choices.smooth_length_mm;
-  options.name = options.source = choices.name;
-  options.material = choices.material;
-  const bool solid = !choices.meshes.empty() || choices.step;
-  if (solid || choices.section || choices.dxf || choices.pdf || choices.report) {
-    options.shrinkage = 0.01 * choices.shrinkage_percent;
-    if (!pot.collapse) set_finish(choices, options);
-  }
-  if (!solid && !choices.report) return request;
-  return set_walls(choices, options).map([&] { return std::move(request); });
+  return add_files(choices, job.pot, job.request).map([&] { return std::move(job); });
 }
 
 std::vector<std::string> standing_files(const ExportChoices& choices) {
@@ -109,56 +186,25 @@ std::vector<std::string> standing_files(const ExportChoices& choices) {
 
 std::string failed_text(std::size_t count) { return counted(count, "limit") + " failed"; }
 
-ExportFigures figures_of(const solid::ExportReport& report, const ClayStack& stack) {
-  const double shrinkage = report.prepared.shrinkage;
-  const solid::Wall& thinnest = report.walls.thinnest;
-  // The width is that of the section, as in the table of the command; a mesh has its corners
-  // farther out.
-  ExportFigures figures{
-      .has_solid = report.has_solid(),
-      .triangles = report.size.triangles,
-      .meshes = {},
-      .diameter_mm = report.maker ? report.maker->thrown.size.diameter_mm : report.size.diameter_mm,
-      .height_mm = report.size.height_mm,
-      .shrinkage = shrinkage,
-      .fallen = report.collapsed.has_value(),
-      .thinnest_mm = report.thinnest_mm(),
-      .thinnest_at_mm = thinnest.from.y,
-      .thinnest_in_floor = in_floor(form_of(stack), on_pot(thinnest.from, shrinkage),
-                                    on_pot(thinnest.to, shrinkage)),
-      .faired_mm = report.section.smoothed.fairing.length_mm,
-      .moved_mm = report.section.smoothed.fairing.moved_mm,
-      .moved_at_mm = report.section.smoothed.fairing.moved_at_mm,
-      .problems = {},
-      .failed = 0,
-      .marks = {}};
-  for (const solid::FileReport& file : report.files)
-    if (file.kind == solid::FileKind::mesh) figures.meshes.push_back({file.format, file.bytes});
-  std::vector<solid::Problem> problems = solid::problems_of(report);
-  const auto warnings = std::ranges::stable_partition(problems, &solid::Problem::fails);
-  figures.failed = static_cast<std::size_t>(warnings.begin() - problems.begin());
-  for (const solid::Problem& problem : problems) {
-    figures.problems.push_back(problem.text);
-    if (problem.at) figures.marks.push_back({on_pot(*problem.at, shrinkage), problem.text});
-  }
-  return figures;
-}
-
 Result<ExportFigures> run_export(const Pot& pot, const ExportChoices& choices, ExportKind kind,
                                  cli::Thumbnail& thumbnail, const std::function<bool()>& cancelled,
                                  const std::function<void(std::string_view)>& show_stage) {
-  return request_of(choices, pot)
-      .and_then([&](solid::ExportRequest request) {
-        request.options.cancelled = cancelled;
-        request.options.expect_memory = [](std::uint64_t bytes) {
-          return cli::expect_room("writing meshes", bytes);
-        };
-        cli::pack_pot(pot, request, thumbnail);
-        if (kind == ExportKind::files) cli::set_report(pot, request, copies_in(request, pot));
-        return kind == ExportKind::files ? solid::export_files(pot, request, show_stage)
-                                         : solid::preview_export(pot, request, show_stage);
-      })
-      .map([&](const solid::ExportReport& report) { return figures_of(report, pot.stack); });
+  return job_of(choices, pot).and_then([&](ExportJob job) {
+    job.request.options.cancelled = cancelled;
+    job.request.options.expect_memory = [](std::uint64_t bytes) {
+      return cli::expect_room("writing meshes", bytes);
+    };
+    cli::Thumbnail of_scaled;
+    cli::pack_pot(job.pot, job.request, job.request.options.met_goal ? of_scaled : thumbnail);
+    if (kind == ExportKind::files)
+      cli::set_report(job.pot, job.request, copies_in(job.request, job.pot));
+    const auto report = kind == ExportKind::files
+                            ? solid::export_files(job.pot, job.request, show_stage)
+                            : solid::preview_export(job.pot, job.request, show_stage);
+    return report.map([&](const solid::ExportReport& done) {
+      return figures_of(done, job.request.options, pot.stack);
+    });
+  });
 }
 
 }  // namespace clay::studio

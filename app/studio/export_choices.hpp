@@ -23,6 +23,10 @@ inline constexpr double kFinestMm = 0.001, kCoarsestMm = 1.0;  // tolerance [mm]
 inline constexpr double kThickestDemandMm = 20.0;
 inline constexpr double kLongestFairingMm = 50.0;
 inline constexpr double kWidestFootMm = 20.0, kDeepestFootMm = 20.0, kLargestFilletMm = 20.0;
+inline constexpr double kThickestGlazeMm = 2.0;
+
+/// The size of the finished pot: fired, if it shrinks.
+enum class ExportSize { as_thrown, capacity, height, diameter };
 
 /// The settings of the export dialog.
 struct ExportChoices {
@@ -41,6 +45,10 @@ struct ExportChoices {
   /// As for --foot, --floor-fillet and --lip-fillet, as thrown; 0: none.
   double foot_width_mm = 0.0, foot_depth_mm = 4.0;
   double floor_fillet_mm = 0.0, lip_fillet_mm = 0.0;  ///< of the lip also: that of the process
+  double glaze_mm = 0.0;                              ///< as for --glaze-allowance
+  /// As for --holds, --height and --diameter, with --fired if there is a shrinkage.
+  ExportSize size = ExportSize::as_thrown;
+  double holds_ml = 350.0, height_mm = 100.0, diameter_mm = 100.0;
   friend bool operator==(const ExportChoices&, const ExportChoices&) = default;
 };
 
@@ -60,7 +68,8 @@ struct ExportFigures {
   std::size_t triangles = 0;
   std::vector<Mesh> meshes;
   double diameter_mm = 0.0, height_mm = 0.0, shrinkage = 0.0;
-  bool fallen = false;  ///< walls are not measured
+  double capacity_ml = 0.0;  ///< of the finished pot, to the brim; 0: it holds nothing
+  bool fallen = false;       ///< walls are not measured
   double thinnest_mm = 0.0, thinnest_at_mm = 0.0;
   bool thinnest_in_floor = false;  ///< then the height is that of no wall
   double faired_mm = 0.0, moved_mm = 0.0, moved_at_mm = 0.0;  ///< of the fairing, if there is one
@@ -68,12 +77,17 @@ struct ExportFigures {
   std::size_t failed = 0;   ///< problems that fail a limit; they come first
   std::vector<Mark> marks;  ///< problems with a place
 };
-[[nodiscard]] ExportFigures figures_of(const solid::ExportReport& report, const ClayStack& stack);
-/// "1 limit failed", as the command says.
+/// "1 limit failed", as the command prints.
 [[nodiscard]] std::string failed_text(std::size_t count);
 
-/// The request for this pot. Errors: an unknown or unreadable process.
-[[nodiscard]] Result<solid::ExportRequest> request_of(const ExportChoices& choices, const Pot& pot);
+/// A request and the pot that it is for.
+struct ExportJob {
+  Pot pot;
+  solid::ExportRequest request;
+};
+/// The pot at the chosen size, and the request for it. Errors: an unknown or unreadable process; a
+/// size that the pot cannot have.
+[[nodiscard]] Result<ExportJob> job_of(const ExportChoices& choices, const Pot& pot);
 /// Paths of the output files, in the order of the request.
 [[nodiscard]] std::vector<std::string> paths_of(const ExportChoices& choices);
 /// Those of the output files that exist already.

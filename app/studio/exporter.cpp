@@ -18,6 +18,7 @@ struct Exporter::State {
   };
   State() : thread([this] { run(); }) {}
   void put(Job job);
+  [[nodiscard]] std::optional<Kind> at_work() const;  ///< see `running`
   void run();
   Outcome done(const Job& job);
 
@@ -56,12 +57,16 @@ void Exporter::write(history::SharedPot pot, const ExportChoices& choices) {
   state_->put({Kind::files, std::move(pot), choices, {}});
 }
 
-/// A preview does not cancel a job that writes files.
+std::optional<ExportKind> Exporter::State::at_work() const {
+  if (outcome && outcome->kind == Kind::files) return Kind::files;
+  return running ? running : next ? std::optional(next->kind) : std::nullopt;
+}
+
+/// A preview neither cancels a job that writes files nor drops its outcome.
 void Exporter::State::put(Job job) {
   {
     const std::lock_guard lock(mutex);
-    const bool writes = running == Kind::files || (next && next->kind == Kind::files);
-    if (job.kind == Kind::preview && writes) return;
+    if (job.kind == Kind::preview && at_work() == Kind::files) return;
     stop.request_stop();
     outcome.reset();
     next = std::move(job);
@@ -87,10 +92,7 @@ std::string Exporter::stage() const {
 
 std::optional<Exporter::Kind> Exporter::running() const {
   const std::lock_guard lock(state_->mutex);
-  const State& state = *state_;
-  return state.running ? state.running
-         : state.next  ? std::optional(state.next->kind)
-                       : std::nullopt;
+  return state_->at_work();
 }
 
 std::optional<Exporter::Outcome> Exporter::take() {

@@ -29,7 +29,8 @@ class Exporter {
   Exporter(const Exporter&) = delete;
   Exporter& operator=(const Exporter&) = delete;
 
-  /// Computes the figures without writing. A newer preview cancels an older one.
+  /// Computes the figures without writing. A newer preview cancels an older one. Does nothing while
+  /// files are `running`.
   void preview(history::SharedPot pot, const ExportChoices& choices);
   void write(history::SharedPot pot, const ExportChoices& choices);
   /// Cancels soon after the call; no output file remains.
@@ -38,6 +39,7 @@ class Exporter {
   [[nodiscard]] bool busy() const;
   /// Stage of the running job; empty: no job.
   [[nodiscard]] std::string stage() const;
+  /// Of the job that runs or waits, or of files whose outcome has not been taken.
   [[nodiscard]] std::optional<Kind> running() const;
   /// The newest outcome; returned once.
   [[nodiscard]] std::optional<Outcome> take();

@@ -90,12 +90,10 @@ glm::dvec2 free_place(const render::PotView& pot, const Tool& tool, glm::dvec2 p
 }
 
 std::optional<WallPlace> wall_at(const render::PotView& pot, const Tool& tool, double y_mm) {
-  if (pot.rows.empty() || y_mm < 0.0 || y_mm >= pot.height_mm) return std::nullopt;
+  const render::Row* row = row_at(pot, y_mm);
+  if (row == nullptr || row->inner_mm <= 0.0f) return std::nullopt;
   const Sides sides = sides_at(pot, tool, y_mm);
-  const double rows = static_cast<double>(pot.rows.size());
-  const render::Row& row =
-      pot.rows[static_cast<std::size_t>(std::min(y_mm / pot.height_mm * rows, rows - 1.0))];
-  if (row.inner_mm <= 0.0f || sides.inside_mm < 0.0) return std::nullopt;
+  if (sides.inside_mm < 0.0) return std::nullopt;
   // The gap of a pinch is measured between the widest points of the two tools.
   const double outer = sides.outside_mm - tool.widest(), inner = sides.inside_mm + tool.widest();
   return WallPlace{0.5 * (outer + inner), std::max(0.0, outer - inner), y_mm};
@@ -110,12 +108,11 @@ std::optional<WallPlace> wall_above(const render::PotView& pot, const Tool& tool
 }
 
 bool inside(const render::PotView& pot, const glm::dvec3& place_mm) {
-  if (pot.rows.empty() || pot.height_mm <= 0.0) return false;
-  const double rows = static_cast<double>(pot.rows.size());
-  const render::Row& row = pot.rows[static_cast<std::size_t>(
-      std::clamp(place_mm.y / pot.height_mm * rows, 0.0, rows - 1.0))];
-  const double middle = 0.5 * static_cast<double>(row.outer_mm + row.inner_mm);
-  return row.inner_mm > 0.0f && std::hypot(place_mm.x, place_mm.z) < middle;
+  const render::Row* row =
+      row_at(pot, std::clamp(place_mm.y, 0.0, std::nextafter(pot.height_mm, 0.0)));
+  if (row == nullptr) return false;
+  const double middle = 0.5 * static_cast<double>(row->outer_mm + row->inner_mm);
+  return row->inner_mm > 0.0f && std::hypot(place_mm.x, place_mm.z) < middle;
 }
 
 }  // namespace clay::studio

@@ -127,6 +127,7 @@ void GlfwHost::run(Studio& studio, double seconds) {
       seconds > 0.0 ? next_ns + static_cast<std::int64_t>(1e9 * seconds) : INT64_MAX;
   while (!studio.done() && servo::ForceSignals::asked_to_stop() == 0 && clock_.now_ns() < end_ns) {
     wait_for_events();
+    frame_ns_ = clock_.now_ns();
     const glm::ivec2 size = size_px();
     if (size.x > 0 && size.y > 0) {
       const bool damaged = std::exchange(damaged_, false) || size != std::exchange(shown_, size);

@@ -27,7 +27,7 @@ class GlfwHost final : public Host {
   [[nodiscard]] float content_scale() const override;
   [[nodiscard]] servo::Clock& clock() override { return clock_; }
   [[nodiscard]] bool real_time() const override { return true; }
-  [[nodiscard]] std::int64_t frame_ns() override { return clock_.now_ns(); }
+  [[nodiscard]] std::int64_t frame_ns() override { return frame_ns_; }
   void set_title(const std::string& title) override;
   void set_clipboard(const std::string& text) override;
   [[nodiscard]] std::string clipboard() override;
@@ -40,6 +40,7 @@ class GlfwHost final : public Host {
 
   GLFWwindow* window_;
   servo::MonotonicClock clock_;
+  std::int64_t frame_ns_ = clock_.now_ns();
   GlfwGamepad gamepad_;
   Studio* studio_ = nullptr;
   bool damaged_ = true;  // the screen has lost the last frame

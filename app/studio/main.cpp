@@ -96,7 +96,7 @@ Result<void> run_window(const StudioOptions& options, const LogLine& log) {
   auto studio = Studio::create(**host, loaded.settings, log);
   if (!studio) return tl::make_unexpected(studio.error());
   AppState& state = (*studio)->state();
-  state.settings_file = SettingsFile(settings_path(), state.settings);
+  if (loaded.may_save) state.settings_file = SettingsFile(settings_path(), state.settings);
   state.document.keep_journals();
   state.recoverable = history::recoverable();
   if (options.device != "none")

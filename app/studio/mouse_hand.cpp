@@ -10,8 +10,8 @@ namespace {
 // Time constant of the hand. It turns sixty positions a second into one smooth motion.
 constexpr double kLagS = 0.025;
 // A wall that does not give way, as one at its minimum, stops the hand where the tool is this deep
-// in it, in the mean over the tool's height. A floor does where the tool has sunk in so far. Clay
-// that yields to a bite is far from both.
+// in it, in the mean over the tool's height. A floor stops it when the tool is `kSunkMm` below its
+// surface. Clay that yields to a bite reaches neither limit.
 constexpr double kDeepestMm = 0.3, kSunkMm = 1.0;
 // The rings make the area of a tool that slides along the clay uneven by less than this.
 constexpr double kUnevenMm2 = 0.2;

@@ -88,7 +88,7 @@ class MouseDevice final : public falcon::HapticDevice {
   Resistance resistance_;
   std::atomic<double> stretch_mm_{0.0};
   glm::dvec3 place_mm_{0.0};
-  double unbitten_mm2_ = 0.0;  // of the bites up to now: by which the overlap may still grow
+  double unbitten_mm2_ = 0.0;  // by which the bites so far let the overlap grow
   std::int64_t last_us_ = -1;  // of the last sample; below 0: none since begin_at
 };
 

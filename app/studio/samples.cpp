@@ -29,11 +29,6 @@ const std::array<Sample, 4>& samples() {
   return all;
 }
 
-const Sample* find_sample(std::string_view name) {
-  const auto found = std::ranges::find(samples(), name, &Sample::name);
-  return found == samples().end() ? nullptr : &*found;
-}
-
 Result<SceneSpec> scene_of(const Sample& sample) {
   return parse_scene(sample.scene_text, sample.name);
 }

@@ -19,7 +19,6 @@ struct Sample {
 };
 
 [[nodiscard]] const std::array<Sample, 4>& samples();
-[[nodiscard]] const Sample* find_sample(std::string_view name);
 
 Result<SceneSpec> scene_of(const Sample& sample);
 /// The pot that the session of the sample makes; takes about 0.1 s.

@@ -16,8 +16,7 @@ namespace {
 
 constexpr double kRoomForTool = 1.35;   // size of the view relative to the whole pot
 constexpr double kSizingPerPx = 0.006;  // drag: change of the logarithm of the size per pixel
-constexpr double kLessonRad = 0.22, kGrowth = 2.4;   // a pot that is pulled grows to that
-constexpr double kSoftest = 1e-4, kStiffest = 10.0;  // N/mm^2
+constexpr double kLessonRad = 0.22, kGrowth = 2.4;  // a pot that is pulled grows to that
 
 std::optional<Tool> chosen_tool(const ViewModel& view) {
   auto tool = Tool::build(tool_of(view.settings.tool).shape);
@@ -174,8 +173,8 @@ void SceneView::drag(const ViewModel& view, glm::vec2 by_px, Actions& actions) {
       actions.emplace_back(ScaleTool{factor});
       break;
     case Drag::stiffness:
-      actions.emplace_back(
-          SetStiffness{std::clamp(view.document.stiffness() * factor, kSoftest, kStiffest)});
+      actions.emplace_back(SetStiffness{
+          std::clamp(view.document.stiffness() * factor, kSoftestClay, kStiffestClay)});
       break;
     case Drag::shape:
       if (const auto place = pointed_mm()) shape_to(view, *place, {.strength = pen_}, actions);
@@ -255,16 +254,6 @@ bool SceneView::pinch_from(const ViewModel& view, const Tool& tool, glm::dvec2& 
 
 namespace {
 
-/// The height of the floor of the bore; 0: no bore.
-double floor_mm(const render::PotView& pot) {
-  constexpr float kBoreMm = 2.0f;
-  const auto open =
-      std::ranges::find_if(pot.rows, [](const render::Row& row) { return row.inner_mm > kBoreMm; });
-  if (open == pot.rows.end()) return 0.0;
-  return pot.height_mm * static_cast<double>(open - pot.rows.begin()) /
-         static_cast<double>(pot.rows.size());
-}
-
 /// Two fingers follow the wall that they hold, go no lower than the floor, and carry on over the
 /// rim. A pointer beside the wall leans on it.
 glm::dvec2 along_wall(const ViewModel& view, glm::dvec2 aim_mm) {
@@ -272,7 +261,7 @@ glm::dvec2 along_wall(const ViewModel& view, glm::dvec2 aim_mm) {
   const auto tool = chosen_tool(view);
   const render::PotView& pot = view.stroke.view();
   if (!tool) return aim_mm;
-  aim_mm.y = std::max(aim_mm.y, floor_mm(pot) - tool->low());
+  aim_mm.y = std::max(aim_mm.y, floor_mm(pot).value_or(0.0) - tool->low());
   const auto wall = wall_at(pot, *tool, std::min(aim_mm.y, pot.height_mm - kRimMm));
   if (!wall) return aim_mm;
   // The foot stands still: a wall that is led out over it tears off there.

@@ -63,7 +63,7 @@ class SceneView {
   void set_over_panel(bool over) noexcept { over_panel_ = over; }
   /// Another hand than the mouse leads the pointer until the mouse moves.
   void lead(glm::dvec2 place_mm) noexcept { led_mm_ = place_mm; }
-  /// Such a point nearby at which the tool is clear of the clay.
+  /// The nearest point of the section plane at which the tool does not touch the clay.
   [[nodiscard]] glm::dvec2 free_at(const ViewModel& view, glm::dvec2 place_mm) const;
   [[nodiscard]] bool turning() const noexcept { return drag_ == Drag::orbit || drag_ == Drag::pan; }
 

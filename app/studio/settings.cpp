@@ -137,17 +137,21 @@ std::string write_settings(const Settings& settings) {
   return write_fields(kSchema, [&](PlainFields& io) { describe(io, copy); });
 }
 
+constexpr const char* kNotSaved = "; settings will not be saved";
+
 LoadedSettings load_settings(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return {};
   if (!std::filesystem::is_regular_file(path, ignored))
-    return {{}, not_regular(path).value().message};
+    return {{}, not_regular(path).value().message + kNotSaved, false};
   const auto text = read_file(path, kMostBytes);
-  if (!text) return {{}, text.error().message};
+  if (!text) return {{}, text.error().message + kNotSaved, false};
   auto settings = parse_settings(*text, path.string());
   if (settings) return {std::move(*settings), {}};
   const auto aside = std::filesystem::path(path.string() + ".broken");
-  std::filesystem::rename(path, aside, ignored);
+  std::error_code failed;
+  std::filesystem::rename(path, aside, failed);
+  if (failed) return {{}, settings.error().message + kNotSaved, false};
   return {{}, fmt::format("{}; it was renamed to {}", settings.error().message, aside.string())};
 }
 

@@ -18,6 +18,8 @@ namespace clay::studio {
 
 inline constexpr double kSlowestHandMmPerS = 10.0, kFastestHandMmPerS = 200.0;
 /// How far the mouse digs the tool into the clay per turn of the wheel at most [mm].
+/// Stiffness of the contact [N/mm^2].
+inline constexpr double kSoftestClay = 1e-4, kStiffestClay = 10.0;
 inline constexpr double kSoftestBiteMm = 0.5, kFirmestBiteMm = 20.0, kUsualBiteMm = 8.0;
 /// The bite of a press of this strength, 0 (soft) to 1 (firm).
 [[nodiscard]] double bite_at(double strength) noexcept;
@@ -36,7 +38,7 @@ struct Settings {
   bool full_section = false;   ///< show both halves of the section
   std::string process;         ///< process for walls and exports: a name or a file; empty: none
   std::vector<std::string> processes;  ///< custom process files, newest first
-  PotGoal goal;                        ///< what the pot shall become
+  PotGoal goal;                        ///< the size and the capacity that the pot is to have
   bool hints = true;                   ///< the first-run hint has not been closed yet
   std::map<std::string, bool> open;    ///< unfolded panels by id; others have their default
   std::string folder;                  ///< folder of the last file; empty: none yet
@@ -60,7 +62,8 @@ Result<Settings> parse_settings(std::string_view text, std::string_view name);
 
 struct LoadedSettings {
   Settings settings;
-  std::string note;  ///< a message for the user; empty: none
+  std::string note;      ///< a message for the user; empty: none
+  bool may_save = true;  ///< no file is there that could be neither read nor renamed
 };
 /// A broken file is renamed, never overwritten. Without a file all settings have their defaults.
 [[nodiscard]] LoadedSettings load_settings(const std::filesystem::path& path);

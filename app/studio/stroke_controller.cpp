@@ -160,6 +160,7 @@ void StrokeController::hold(const ToolSpec& tool, double wheel_rpm) {
 /// After its servo has ended, a device must be opened again before it can exert force.
 void StrokeController::begin_with_device() {
   device_waits_ = false;
+  closed_gap_mm_ = gap_mm_ = device_settings_.gap_mm;
   if (!device_->open()) return lose_device();
   const SceneSpec& wanted = document_.scene();
   auto scene =
@@ -174,7 +175,9 @@ void StrokeController::advance(std::int64_t now_ns) {
     begin_with_device();
   if (!live_) return;
   if (gap_mm_ != closed_gap_mm_) {
-    const double step_mm = kClosingMmPerS * 1e-9 * static_cast<double>(now_ns - last_ns_);
+    // A stroke may have begun after the frame.
+    const auto passed_ns = static_cast<double>(std::max<std::int64_t>(0, now_ns - last_ns_));
+    const double step_mm = kClosingMmPerS * 1e-9 * passed_ns;
     gap_mm_ = std::clamp(closed_gap_mm_, gap_mm_ - step_mm, gap_mm_ + step_mm);
     command({servo::CommandKind::gap, gap_mm_});
   }

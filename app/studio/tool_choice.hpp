@@ -31,7 +31,7 @@ inline constexpr double kLeastGapShare = 0.3, kMostGapShare = 0.95;
 [[nodiscard]] const char* name_of(ToolMode mode) noexcept;
 
 /// The tool for a scene. A needle and a wire are as thin as tools can be. `inverted`: press instead
-/// of trim, and trim instead of the other modes.
+/// of trim, and trim instead of the other modes; needle, wire and foot trimming stay.
 [[nodiscard]] ToolSpec tool_of(const ToolChoice& choice, bool inverted = false);
 
 /// The tool of a scene; shapes that the scene does not use keep their sizes.

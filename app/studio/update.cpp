@@ -94,8 +94,8 @@ void update_strokes(AppState& state) {
   }
   if (news.ring_limit)
     state.ui.notices.show(Grade::warning,
-                          "The pot has reached the maximum height of this lump: more clay waits "
-                          "above the rim.");
+                          "The pot has reached the maximum height for this lump: the rest of the "
+                          "clay cannot rise above the rim.");
 }
 
 /// A new step selects its tool.

@@ -39,12 +39,14 @@ struct Exporter::State {
   std::optional<Job> running, next;
   std::optional<Outcome> outcome;
 
-  [[nodiscard]] bool writes() const {
-    return (running && running->kind == Kind::files) || (next && next->kind == Kind::files);
+  [[nodiscard]] std::optional<Kind> at_work() const {
+    const auto writes = [](const auto& job) { return job && job->kind == Kind::files; };
+    if (writes(running) || writes(next) || writes(outcome)) return Kind::files;
+    return running || next ? std::optional(Kind::preview) : std::nullopt;
   }
-  /// A preview does not cancel a job that writes files.
+  /// A preview neither cancels a job that writes files nor drops its outcome.
   void put(Job job) {
-    if (job.kind == Kind::preview && writes()) return;
+    if (job.kind == Kind::preview && at_work() == Kind::files) return;
     outcome.reset();
     next = std::move(job);
     post_next();
@@ -91,9 +93,7 @@ bool Exporter::busy() const { return state_->running || state_->next; }
 
 std::string Exporter::stage() const { return state_->worker.stage(); }
 
-std::optional<Exporter::Kind> Exporter::running() const {
-  return state_->running ? std::optional(state_->running->kind) : std::nullopt;
-}
+std::optional<Exporter::Kind> Exporter::running() const { return state_->at_work(); }
 
 std::optional<Exporter::Outcome> Exporter::take() {
   state_->receive();

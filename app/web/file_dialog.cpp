@@ -22,7 +22,7 @@ FileDialog::~FileDialog() {
 }
 
 bool FileDialog::begin(Kind kind, const std::filesystem::path&) {
-  if (open() || (kind != Kind::open && kind != Kind::process)) return false;
+  if (open() || kind == Kind::save || kind == Kind::folder) return false;
   kind_ = kind;
   child_ = 1;
   waiting = this;

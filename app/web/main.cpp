@@ -78,7 +78,8 @@ void begin(std::string_view theme, bool fingers) {
   if (!made) return page_fail(made.error().message.c_str());
   window = std::move(*made);
   studio::AppState& state = window->state();
-  state.settings_file = studio::SettingsFile(studio::settings_path(), state.settings);
+  if (loaded.may_save)
+    state.settings_file = studio::SettingsFile(studio::settings_path(), state.settings);
   state.document.keep_journals();
   state.devices = std::make_unique<studio::DeviceWatch>(look_for_hid(host->clock()));
   state.recoverable = history::recoverable();

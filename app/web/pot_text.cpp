@@ -18,7 +18,7 @@ struct Report {
   }
 };
 
-void tell_pot(Report& report, const studio::AppState& state) {
+void add_pot(Report& report, const studio::AppState& state) {
   const studio::LengthUnit unit = state.settings.unit;
   report.section("Pot");
   report.row("Name", state.document.name());
@@ -32,7 +32,7 @@ void tell_pot(Report& report, const studio::AppState& state) {
                studio::capacity_text(state.readings.account().capacity_mm3));
 }
 
-void tell_check(Report& report, const studio::PotCheck& check, studio::LengthUnit unit) {
+void add_check(Report& report, const studio::PotCheck& check, studio::LengthUnit unit) {
   report.section("Walls");
   report.line(studio::wall_text(check, unit));
   for (const studio::Stretch& thin : thin_stretches(check))
@@ -51,7 +51,7 @@ void tell_check(Report& report, const studio::PotCheck& check, studio::LengthUni
     report.line(fmt::format("At {}: {}", length_text(remark.from_mm, unit), remark.text));
 }
 
-void tell_clay(Report& report, const studio::ClayAccount& account) {
+void add_clay(Report& report, const studio::ClayAccount& account) {
   report.section("Clay balance");
   report.row("At the start", studio::mass_text(account.initial_g));
   report.row("Added", studio::mass_text(account.added_g));
@@ -83,9 +83,9 @@ std::string report_of(const studio::AppState& state) {
   if (!state.document.has_work() || state.readings.stack() == nullptr)
     return "No clay on the wheel\n";
   Report report;
-  tell_pot(report, state);
-  if (state.readings.check()) tell_check(report, *state.readings.check(), state.settings.unit);
-  tell_clay(report, state.readings.account());
+  add_pot(report, state);
+  if (state.readings.check()) add_check(report, *state.readings.check(), state.settings.unit);
+  add_clay(report, state.readings.account());
   return report.text;
 }
 

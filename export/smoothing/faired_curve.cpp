@@ -1,6 +1,7 @@
 #include "export/smoothing/faired_curve.hpp"
 
 #include "core/cancel.hpp"
+#include "export/solid/banded_system.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,57 +21,6 @@ std::array<double, kBand + 1> basis(double t) {
   return {s * s * s / 6.0, (3.0 * t * t * (t - 2.0) + 4.0) / 6.0,
           (3.0 * s * s * (s - 2.0) + 4.0) / 6.0, t * t * t / 6.0};
 }
-
-/// A symmetric positive definite system whose matrix has kBand diagonals beside the main one.
-class BandedSystem {
- public:
-  explicit BandedSystem(std::size_t size) : rows_(size), right_(size, 0.0) {}
-
-  /// Adds weight (sum of factors times the unknowns from `first` on - value)^2 to what is
-  /// minimised.
-  void add(std::size_t first, const std::array<double, kBand + 1>& factors, double weight,
-           double value) {
-    for (std::size_t a = 0; a <= kBand; ++a) {
-      for (std::size_t b = 0; b <= a; ++b)
-        rows_[first + a][a - b] += weight * factors[a] * factors[b];
-      right_[first + a] += weight * factors[a] * value;
-    }
-  }
-
-  /// By L D L^T.
-  std::vector<double> solved() && {
-    const std::size_t n = rows_.size();
-    for (std::size_t i = 0; i < n; ++i) eliminate(i);
-    for (std::size_t i = n; i-- > 0;)
-      for (std::size_t d = 1; d <= kBand && i + d < n; ++d)
-        right_[i] -= rows_[i + d][d] * right_[i + d];
-    return std::move(right_);
-  }
-
- private:
-  /// Leaves D in [i][0], L in [i][1..] and D^-1 L^-1 of the right side.
-  void eliminate(std::size_t i) {
-    step_of_loop();
-    const std::size_t reach = std::min(kBand, i);
-    std::array<double, kBand + 1>& row = rows_[i];
-    for (std::size_t d = reach; d > 0; --d) {
-      double sum = row[d];  // of L times D
-      for (std::size_t e = reach; e > d; --e) sum -= row[e] * rows_[i - d][e - d];
-      row[d] = sum;
-    }
-    double right = right_[i];
-    for (std::size_t d = reach; d > 0; --d) {
-      const double scaled = row[d], pivot = rows_[i - d][0];
-      row[d] = scaled / pivot;
-      row[0] -= row[d] * scaled;
-      right -= scaled * right_[i - d];
-    }
-    right_[i] = right / row[0];
-  }
-
-  std::vector<std::array<double, kBand + 1>> rows_;  ///< [i][d]: the entry (i, i - d)
-  std::vector<double> right_;
-};
 
 }  // namespace
 
@@ -126,15 +76,15 @@ std::vector<double> FairedCurve::stiffness(const std::vector<double>& lengths_mm
 }
 
 void FairedCurve::fit(const std::vector<double>& stiffness) {
-  BandedSystem system(intervals_ + kBand);
+  BandedSystem<kBand, 1> system(intervals_ + kBand);
   const double weight = run_.piece.ring_height_mm / spacing_mm_;
   for (std::size_t i = run_.first; i < run_.end; ++i) {
     step_of_loop();
     const Place place = place_of(run_.middle_mm(i));
-    system.add(place.interval, basis(place.t), weight, run_.wall.radius[i] - base_mm_);
+    system.add(place.interval, basis(place.t), weight, {run_.wall.radius[i] - base_mm_});
   }
-  for (std::size_t j = 0; j < intervals_; ++j) system.add(j, kThirdDifference, stiffness[j], 0.0);
-  coeffs_ = std::move(system).solved();
+  for (std::size_t j = 0; j < intervals_; ++j) system.add(j, kThirdDifference, stiffness[j], {0.0});
+  for (const auto& [coeff] : std::move(system).solved()) coeffs_.push_back(coeff);
 }
 
 /// The number of chords in each interval: u'' is linear between knots, and a chord of height d is

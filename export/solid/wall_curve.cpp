@@ -2,6 +2,7 @@
 
 #include "core/cancel.hpp"
 #include "core/compensated_sum.hpp"
+#include "export/solid/banded_system.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,52 +79,6 @@ std::array<double, 4> basis(const std::vector<double>& knots, std::size_t span, 
   return value;
 }
 
-/// A symmetric positive definite system of half bandwidth 3 with two right sides.
-class BandedSystem {
- public:
-  explicit BandedSystem(std::size_t size) : rows_(size), right_(size) {}
-
-  /// Adds to the element in row `i` and column `j`, which lies up to 3 to its left.
-  void add(std::size_t i, std::size_t j, double value) { rows_[i][i - j] += value; }
-  void add_right(std::size_t i, double factor, const ProfilePoint& p) {
-    right_[i].rho += factor * p.rho;
-    right_[i].y += factor * p.y;
-  }
-
-  /// By Cholesky's decomposition.
-  std::vector<ProfilePoint> solve() {
-    const std::size_t n = rows_.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = i - std::min<std::size_t>(i, 3); j <= i; ++j) {
-        double sum = rows_[i][i - j];
-        for (std::size_t k = i - std::min<std::size_t>(i, 3); k < j; ++k)
-          if (j - k <= 3) sum -= rows_[i][i - k] * rows_[j][j - k];
-        rows_[i][i - j] = i == j ? std::sqrt(sum) : sum / rows_[j][0];
-      }
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 1; j <= std::min<std::size_t>(i, 3); ++j)
-        add_right(i, -rows_[i][j], right_[i - j]);
-      scale(i);
-    }
-    for (std::size_t i = n; i-- > 0;) {
-      for (std::size_t j = 1; j <= 3 && i + j < n; ++j)
-        add_right(i, -rows_[i + j][j], right_[i + j]);
-      scale(i);
-    }
-    return std::move(right_);
-  }
-
- private:
-  void scale(std::size_t i) {
-    right_[i].rho /= rows_[i][0];
-    right_[i].y /= rows_[i][0];
-  }
-
-  std::vector<std::array<double, 4>> rows_;  ///< the diagonal, then what is left of it
-  std::vector<ProfilePoint> right_;
-};
-
 /// Nodes and weights of Gauss' rule on [0, 1]; exact up to degree 9.
 struct GaussPoint {
   double at = 0.0, weight = 0.0;
@@ -134,33 +89,31 @@ constexpr std::array<GaussPoint, 5> kGauss{{{0.046910077030668004, 0.11846344252
                                             {0.76923465505284155, 0.23931433524968324},
                                             {0.95308992296933200, 0.11846344252809454}}};
 
+/// The first and the last control point are those given.
 WallCurve least_squares(const LineByLength& line, const std::vector<double>& knots,
                         const ProfilePoint& first, const ProfilePoint& last) {
-  const std::size_t count = knots.size() + 2, inner = count - 2;
-  BandedSystem system(inner);
+  const std::size_t spans = knots.size() - 1;
+  BandedSystem<3, 2> system(spans + 3);
+  const auto add = [&](std::size_t span, std::array<double, 4> factors, double weight,
+                       ProfilePoint value) {
+    const auto replace = [&value](double& factor, const ProfilePoint& given) {
+      value = {value.rho - factor * given.rho, value.y - factor * given.y};
+      factor = 0.0;
+    };
+    if (span == 0) replace(factors[0], first);
+    if (span + 1 == spans) replace(factors[3], last);
+    system.add(span, factors, weight, {value.rho, value.y});
+  };
   line.for_each_part(knots, [&](std::size_t span, double a, double b, const ProfilePoint& from,
                                 const ProfilePoint& to) {
-    for (const GaussPoint& node : kGauss) {
-      const auto value = basis(knots, span, a + node.at * (b - a));
-      const ProfilePoint target = mix(from, to, node.at);
-      for (std::size_t r = 0; r < 4; ++r) {
-        const std::size_t i = span + r;
-        if (i == 0 || i == count - 1) continue;
-        const double weight = node.weight * (b - a) * value[r];
-        system.add_right(i - 1, weight, target);
-        for (std::size_t c = 0; c < 4; ++c) {
-          const std::size_t j = span + c;
-          if (j == 0 || j == count - 1)
-            system.add_right(i - 1, -weight * value[c], j == 0 ? first : last);
-          else if (j <= i)
-            system.add(i - 1, j - 1, weight * value[c]);
-        }
-      }
-    }
+    for (const GaussPoint& node : kGauss)
+      add(span, basis(knots, span, a + node.at * (b - a)), node.weight * (b - a),
+          mix(from, to, node.at));
   });
-  WallCurve curve{knots, {first}};
-  for (const ProfilePoint& p : system.solve()) curve.control.push_back(p);
-  curve.control.push_back(last);
+  system.add(0, {1.0, 0.0, 0.0, 0.0}, 1.0, {first.rho, first.y});
+  system.add(spans - 1, {0.0, 0.0, 0.0, 1.0}, 1.0, {last.rho, last.y});
+  WallCurve curve{knots, {}};
+  for (const auto& [rho, y] : std::move(system).solved()) curve.control.push_back({rho, y});
   return curve;
 }
 

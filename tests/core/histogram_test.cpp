@@ -78,14 +78,9 @@ TEST(Histogram, ReturnsMaximumOfExtremeTimes) {
   EXPECT_EQ(histogram.count(), 0u);
 }
 
-TEST(Histogram, CountsTimesFromABound) {
+TEST(Histogram, HasTheMeanOfItsTimes) {
   Histogram histogram;
   for (std::int64_t ns = 1; ns <= 1000; ++ns) histogram.add(ns * 1'000'000);
-  EXPECT_EQ(histogram.count_from(0), 1000u);
-  // 512 ms is not a power of two in ns; its bucket begins up to 1/32 lower.
-  EXPECT_GE(histogram.count_from(512'000'000), 489u);
-  EXPECT_LE(histogram.count_from(512'000'000), 489u + 16u);
-  EXPECT_EQ(histogram.count_from(2'000'000'000), 0u);
   EXPECT_EQ(histogram.mean_ns(), 500'500'000.0);
 }
 

@@ -84,6 +84,7 @@ void Guide::receive(LessonPlan plan) {
       state_.start_mm2 > 0.0 ? std::clamp(1.0 - plan.left_mm2 / state_.start_mm2, 0.0, 1.0) : 0.0;
   new_step_ = true;
   plan_ = std::move(plan);
+  ++plan_number_;
 }
 
 void Guide::update(const Document& document, const StrokeController& stroke) {

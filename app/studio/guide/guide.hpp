@@ -27,7 +27,10 @@ class Guide {
 
   /// Starts with the first step of a sample.
   Result<void> begin(const Sample& sample, Demonstration demonstration);
-  void end() { script_.reset(); }
+  void end() {
+    script_.reset();
+    demonstration_ = Demonstration::none;
+  }
   /// The user goes on to the next step.
   void next();
   /// Plays the stroke of the step, or those of all steps that are left.
@@ -51,6 +54,8 @@ class Guide {
   [[nodiscard]] const ToolSpec& tool() const noexcept { return scene_.tool; }
   /// The path to follow, of the pot on the wheel; null while it is planned, and at the end.
   [[nodiscard]] const LessonPlan* plan() const noexcept { return plan_ ? &*plan_ : nullptr; }
+  /// Counts the plans, to tell one from the next; 0: none yet.
+  [[nodiscard]] std::size_t plan_number() const noexcept { return plan_number_; }
   /// How far the clay has come in this step, from 0 to 1.
   [[nodiscard]] double progress() const noexcept { return progress_; }
   [[nodiscard]] Demonstration demonstration() const noexcept { return demonstration_; }
@@ -78,6 +83,7 @@ class Guide {
   history::NodeId node_ = 0;
   std::map<history::NodeId, State> visited_;  // so that undo goes back to the step
   std::optional<LessonPlan> plan_;
+  std::size_t plan_number_ = 0;
   bool asked_ = false, new_step_ = false;
   double progress_ = 0.0;
   render::PotView seen_;  // of `progress_`

@@ -14,11 +14,10 @@ constexpr double kSampleMm = 0.5;  // spacing of the slices that are compared
 constexpr std::size_t kPosesPerPoint = 6;
 constexpr double kLowestMm = -6.0;
 
-/// The row at a height; no clay above the rim.
-render::Row row_at(const render::PotView& pot, double y_mm) {
-  if (pot.rows.empty() || y_mm >= pot.height_mm) return {};
-  const double rows = static_cast<double>(pot.rows.size());
-  return pot.rows[static_cast<std::size_t>(std::min(y_mm / pot.height_mm * rows, rows - 1.0))];
+/// No clay above the rim.
+render::Row clay_at(const render::PotView& pot, double y_mm) {
+  const render::Row* row = row_at(pot, y_mm);
+  return row != nullptr ? *row : render::Row{};
 }
 
 double width_mm(const render::Row& row) {
@@ -43,7 +42,7 @@ double difference_mm2(const render::PotView& a, const render::PotView& b) {
   const double top_mm = std::max(a.height_mm, b.height_mm);
   double area_mm2 = 0.0;
   for (double y_mm = 0.5 * kSampleMm; y_mm < top_mm; y_mm += kSampleMm) {
-    const render::Row p = row_at(a, y_mm), q = row_at(b, y_mm);
+    const render::Row p = clay_at(a, y_mm), q = clay_at(b, y_mm);
     const double both = std::max(0.0, static_cast<double>(std::min(p.outer_mm, q.outer_mm)) -
                                           static_cast<double>(std::max(p.inner_mm, q.inner_mm)));
     area_mm2 += kSampleMm * (width_mm(p) + width_mm(q) - 2.0 * both);
@@ -55,7 +54,7 @@ double width_difference_mm2(const render::PotView& a, const render::PotView& b) 
   const double top_mm = std::max(a.height_mm, b.height_mm);
   double area_mm2 = 0.0;
   for (double y_mm = 0.5 * kSampleMm; y_mm < top_mm; y_mm += kSampleMm)
-    area_mm2 += kSampleMm * std::abs(width_mm(row_at(a, y_mm)) - width_mm(row_at(b, y_mm)));
+    area_mm2 += kSampleMm * std::abs(width_mm(clay_at(a, y_mm)) - width_mm(clay_at(b, y_mm)));
   return area_mm2;
 }
 
@@ -69,7 +68,7 @@ void keep_clear_of_bore(strokes::Stroke& stroke, const render::PotView& pot) {
     const double y_mm = stroke.outline_in_mm ? point.y : point.y * pot.height_mm;
     double bore_mm = 0.0;
     for (double y = y_mm - kCornerMm; y <= y_mm + kCornerMm; y += kStepMm)
-      if (y >= 0.0) bore_mm = std::max(bore_mm, static_cast<double>(row_at(pot, y).inner_mm));
+      bore_mm = std::max(bore_mm, static_cast<double>(clay_at(pot, y).inner_mm));
     if (bore_mm > 0.0) point.x = std::max(point.x, bore_mm + kSpareMm);
   }
 }

@@ -30,7 +30,7 @@ void Play::advance(AppState& state) {
   const double now_s = state.now_s();
   if (guide.demonstration() == Demonstration::none) {
     playing_ = false;
-    read_ = nullptr;
+    read_plan_ = 0;
     return;
   }
   const LessonPlan* plan = guide.plan();
@@ -38,8 +38,8 @@ void Play::advance(AppState& state) {
   if (!state.stroke.throwing()) {
     playing_ = false;
     if (plan == nullptr || plan->path.empty() || !state.ui.shows<NoDialog>()) return;
-    if (read_ != plan->path.data()) {
-      read_ = plan->path.data();
+    if (read_plan_ != guide.plan_number()) {
+      read_plan_ = guide.plan_number();
       rest_until_s_ = now_s + kReadS;
     }
     if (now_s < rest_until_s_) return;

@@ -18,26 +18,10 @@
 namespace clay::studio {
 namespace {
 
-constexpr double kBoreMm = 2.0;       // a bore begins at this radius
 constexpr double kHardPullMm = 15.0;  // way of the spring at which the hand pulls with its strength
 constexpr double kSlackMm = 2.0;
 constexpr double kFiguresMm = 20.0;  // a tool so near the clay has figures
 constexpr float kGaugeEm = 1.3f;     // radius of the gauge of a pull
-
-const render::Row* row_at(const render::PotView& pot, double y_mm) {
-  if (pot.rows.empty() || y_mm < 0.0 || y_mm >= pot.height_mm) return nullptr;
-  const double rows = static_cast<double>(pot.rows.size());
-  return &pot.rows[static_cast<std::size_t>(std::min(y_mm / pot.height_mm * rows, rows - 1.0))];
-}
-
-/// The thickness of the floor; empty: no bore yet.
-std::optional<double> floor_mm(const render::PotView& pot) {
-  const auto open = std::ranges::find_if(
-      pot.rows, [](const render::Row& row) { return static_cast<double>(row.inner_mm) > kBoreMm; });
-  if (open == pot.rows.end()) return std::nullopt;
-  return pot.height_mm * static_cast<double>(open - pot.rows.begin()) /
-         static_cast<double>(pot.rows.size());
-}
 
 /// The clay between the foot and the bore at this radius; empty: no bore is above it.
 std::optional<double> floor_at(const render::PotView& pot, double rho_mm) {
@@ -79,7 +63,7 @@ std::vector<std::string> figures_upright(const ViewModel& model, const render::T
   const double rho = std::hypot(tool.place_mm.x, tool.place_mm.z);
   std::vector<std::string> lines;
   const render::Row* row = row_at(pot, tool.place_mm.y);
-  if (row != nullptr && static_cast<double>(row->inner_mm) > kBoreMm)
+  if (row != nullptr && static_cast<double>(row->inner_mm) > render::kBoreMm)
     lines.push_back("wall " + thickness_text(wall_mm(model, *row, tool.place_mm.y), unit));
   if (const auto floor = floor_mm(pot); floor && tool.inside)
     lines.push_back("floor " + thickness_text(*floor, unit));
@@ -217,7 +201,7 @@ void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
       row_at(pot, turned ? pot.height_mm - tool->place_mm.y : tool->place_mm.y);
   const double widest = row != nullptr ? static_cast<double>(row->outer_mm) : 0.0;
   const bool near = model.stroke.throwing() || rho < widest + kFiguresMm;
-  if (near && !turned && (tool->inside || rho < kBoreMm + 20.0))
+  if (near && !turned && (tool->inside || rho < render::kBoreMm + 20.0))
     draw_floor(model, draw, rect.corner_px.x);
   if (cuts_level(model.settings.tool.mode)) draw_cut_level(model, draw, tool->place_mm.y, widest);
   draw_pull(model, draw, at);

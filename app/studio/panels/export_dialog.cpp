@@ -107,6 +107,48 @@ void draw_finish(const ViewModel& model, ExportChoices& choices) {
   tip("The radius where wall and floor meet inside, filled with clay.");
   choose_tenths("Fillet at the lip", choices.lip_fillet_mm, 0.0, kLargestFilletMm, unit,
                 choices.process.empty() ? "none" : "by the process");
+  choose_tenths("Glaze allowance", choices.glaze_mm, 0.0, kThickestGlazeMm, unit, "none");
+  tip("The thickness of the glaze. The pot is thinner by as much, except at its foot.");
+}
+
+/// Begins with the goal of the panel, or with the size of the pot.
+void begin_size(const ViewModel& model, ExportChoices& choices) {
+  const PotGoal& goal = model.settings.goal;
+  const auto& preview = model.ui.exporting.preview;
+  const auto begin = [](double& value, double wanted, double present) {
+    if (wanted > 0.0 || present > 0.0) value = std::round(wanted > 0.0 ? wanted : present);
+  };
+  const ExportFigures present = preview.value_or(ExportFigures{});
+  const double fired = 1.0 - present.shrinkage;
+  if (choices.size == ExportSize::capacity)
+    begin(choices.holds_ml, goal.holds_ml, present.capacity_ml);
+  if (choices.size == ExportSize::height)
+    begin(choices.height_mm, goal.height_mm, fired * present.height_mm);
+  if (choices.size == ExportSize::diameter)
+    begin(choices.diameter_mm, goal.diameter_mm, fired * present.diameter_mm);
+}
+
+/// Scales the pot, in whole millimetres or millilitres, as shown.
+void draw_size(const ViewModel& model, ExportChoices& choices) {
+  constexpr std::array kTitles = {"As thrown", "Capacity", "Height", "Diameter"};
+  constexpr double kLeastMm = 10.0, kLeastMl = 10.0;
+  form_row("Scale to");
+  if (const int chosen = choice_row("##size", kTitles, static_cast<int>(choices.size));
+      chosen >= 0) {
+    choices.size = static_cast<ExportSize>(chosen);
+    begin_size(model, choices);
+  }
+  tip("The finished pot has this capacity or size: fired, if a shrinkage is set.");
+  const auto length = [&](const char* label, double& mm) {
+    if (form_length(label, mm, kLeastMm, kMostGoalMm, model.settings.unit)) mm = std::round(mm);
+  };
+  if (choices.size == ExportSize::height) length("Height", choices.height_mm);
+  if (choices.size == ExportSize::diameter) length("Diameter", choices.diameter_mm);
+  if (choices.size != ExportSize::capacity) return;
+  float ml = static_cast<float>(choices.holds_ml);
+  if (form_slider("Capacity", ml, static_cast<float>(kLeastMl), static_cast<float>(kMostGoalMl),
+                  capacity_text(1e3 * choices.holds_ml), ImGuiSliderFlags_Logarithmic))
+    choices.holds_ml = std::round(static_cast<double>(ml));
 }
 
 void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actions) {
@@ -135,7 +177,9 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
     // number.
     choices.shrinkage_percent = std::round(10.0 * static_cast<double>(percent)) / 10.0;
   tip("How much shorter each length becomes in firing. The file is larger by as much.");
-  if (!model.document.pot().collapse) draw_finish(model, choices);
+  if (model.document.pot().collapse) return;
+  draw_size(model, choices);
+  draw_finish(model, choices);
 }
 
 std::string size_text(const ExportFigures& figures, double factor, LengthUnit unit) {
@@ -153,6 +197,10 @@ void draw_figures(const ViewModel& model, const ExportFigures& figures) {
   value_row(colours, "Size in the file", size_text(figures, 1.0, unit));
   if (figures.shrinkage > 0.0)
     value_row(colours, "Fired size", size_text(figures, 1.0 - figures.shrinkage, unit));
+  if (figures.capacity_ml > 0.0)
+    value_row(
+        colours, "Capacity to the brim",
+        capacity_text(1e3 * figures.capacity_ml) + (figures.shrinkage > 0.0 ? ", fired" : ""));
   if (!figures.fallen)
     value_row(colours, "Thinnest wall",
               length_text(figures.thinnest_mm, unit, 1) +

@@ -65,7 +65,7 @@ void draw_sample(std::size_t index, float width, const ViewModel& model, Actions
 }
 
 void draw_lump(const ViewModel& model, Actions& actions) {
-  // Static, so that the sliders keep their values while the dialog is closed.
+  // In ImGui's storage, so that the sliders keep their values while the dialog is closed.
   ImGuiStorage& kept = *ImGui::GetStateStorage();
   const ImGuiID kg_id = ImGui::GetID("kg"), radius_id = ImGui::GetID("radius");
   float kg = kept.GetFloat(kg_id, 1.0f);

@@ -28,7 +28,8 @@ const char* name_of_tool(ToolMode mode) {
                                     : "Tool: ball";
 }
 
-/// One dot for each step: full if done, or present; hollow if skipped, or to come.
+/// One dot for each step. A full dot is a step that is done or in progress; a hollow one was
+/// skipped or comes later.
 void draw_steps(const Guide& guide, const Palette& colours) {
   const float em = ImGui::GetFontSize(), radius = 0.22f * em;
   ImDrawList* draw = ImGui::GetWindowDrawList();

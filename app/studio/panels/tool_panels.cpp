@@ -16,7 +16,6 @@ namespace clay::studio {
 namespace {
 
 constexpr std::array kShapes = {"Sphere", "Ellipse", "Rib", "Custom"};
-constexpr double kSoftest = 1e-3, kStiffest = 1.0;  // N/mm2
 constexpr double kUsualLimitN = 5.0;
 
 const char* help_text(ToolMode mode) {
@@ -128,8 +127,9 @@ void draw_wheel(const ViewModel& model, Actions& actions) {
   if (!model.document.has_work() || !model.document.scene().force) return;
   slider_label("Stiffness", fmt::format("{:.3g} N/mm\xc2\xb2", model.document.stiffness()));
   float stiffness = static_cast<float>(model.document.stiffness());
-  if (ImGui::SliderFloat("##stiffness", &stiffness, static_cast<float>(kSoftest),
-                         static_cast<float>(kStiffest), "", kSlider | ImGuiSliderFlags_Logarithmic))
+  if (ImGui::SliderFloat("##stiffness", &stiffness, static_cast<float>(kSoftestClay),
+                         static_cast<float>(kStiffestClay), "",
+                         kSlider | ImGuiSliderFlags_Logarithmic))
     actions.emplace_back(SetStiffness{static_cast<double>(stiffness)});
   faint_text(model.colours(), "Affects the force you feel, not the clay.");
 }

@@ -1,5 +1,5 @@
 #pragma once
-// How near a pot is to what it shall become: the figures of `claystack export --holds --height
+// The differences between a pot and its goal: the figures of `claystack export --holds --height
 // --diameter`.
 
 #include "app/studio/units.hpp"

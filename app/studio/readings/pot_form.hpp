@@ -1,5 +1,5 @@
 #pragma once
-// The form of a pot, from its rings: what no limit of a process covers.
+// The form of a pot, from its rings: figures for which a process sets no limit.
 
 #include "claystack/engine/clay.hpp"
 

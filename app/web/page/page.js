@@ -267,28 +267,35 @@ function worker(slot) {
   return workers[slot];
 }
 
+let checker = null;  // of the report on screen
+
+function stopChecker() {
+  checker?.terminate();
+  checker = null;
+}
+
 function showReport(title, verdict, text) {
+  stopChecker();
   by('report-title').textContent = title;
   by('report-verdict').textContent = verdict;
   by('report-text').textContent = text;
-  by('report').onclose = null;
+  by('report').onclose = stopChecker;
   by('report').showModal();
 }
 
 function checkMesh(file) {
   showReport(file.name, 'Checking on this machine; the file is not sent anywhere...', '');
   const done = (verdict, text) => {
-    made.terminate();
+    stopChecker();
     by('report-verdict').textContent = verdict;
     by('report-text').textContent = text;
   };
-  const made = newWorker(data => done(
+  checker = newWorker(data => done(
     data.status === 0 ? 'Sound: one closed solid without self-intersections'
       : data.status === 1 ? 'Not sound: the report says why' : 'The file could not be read',
     data.out || data.err),
   failure => done('The check stopped: the browser may have too little memory, or lacks a file', failure));
-  by('report').onclose = () => made.terminate();
-  made.postMessage({words: ['check', '--json', file.name], files: [file]}, [file.bytes.buffer]);
+  checker.postMessage({words: ['check', '--json', file.name], files: [file]}, [file.bytes.buffer]);
 }
 
 // ---- links -------------------------------------------------------------------------------------

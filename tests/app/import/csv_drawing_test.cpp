@@ -31,6 +31,11 @@ TEST(CsvDrawing, ErrorsNameTheLine) {
               HasSubstr("cup.csv:2: expected points within 1e+06 mm, found (1e+300, 5)"));
 }
 
+TEST(CsvDrawing, RefusesAxisLinesAlone) {
+  EXPECT_THAT(refusal_of(section_of("0,0\n0,10\n\n0,20\n0,30\n", "cup.csv")),
+              HasSubstr("found only lines on the axis at x = 0 mm"));
+}
+
 TEST(CsvDrawing, SkipsAByteOrderMark) {
   for (const char* title : {"", "radius,height\n"}) {
     const auto drawing =

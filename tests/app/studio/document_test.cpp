@@ -213,6 +213,16 @@ TEST_F(DocumentTest, AWorkOpenInTwoWindowsIsNotReplacedSilently) {
   EXPECT_FALSE(second.replaces_other(path)) << "now the second window has it";
 }
 
+TEST_F(DocumentTest, ItsFileIsItsFileUnderAnotherSpelling) {
+  const std::string path = folder.file("a.work");
+  ASSERT_TRUE(document.save(path));
+  std::filesystem::create_directory(folder.path() / "sub");
+  EXPECT_FALSE(document.replaces_other(folder.path() / "sub" / ".." / "a.work"));
+  EXPECT_FALSE(document.replaces_other(std::filesystem::relative(path)));
+  std::filesystem::copy(path, folder.file("b.work"));
+  EXPECT_TRUE(document.replaces_other(folder.file("b.work")));
+}
+
 TEST_F(DocumentTest, AWorkOpenedAgainInItsWindowIsNotInUse) {
   const std::string path = folder.file("a.work");
   ASSERT_TRUE(document.save(path));

@@ -31,12 +31,13 @@ history::SharedPot thrown() {
   return work.pot().value();
 }
 
-/// A cup with a wall of 8 mm on a floor of 10 mm.
-history::SharedPot standing_cup() {
+/// A cup with a wall of 8 mm on a floor of 10 mm. `step_mm`: its upper half is wider by as much.
+history::SharedPot standing_cup(double step_mm = 0.0) {
   constexpr double kRingMm = 0.5;
   std::vector<Ring> rings;
   for (double up = 0.5 * kRingMm; up < 60.0; up += kRingMm)
-    rings.push_back({quanta_from_radius(40.0), up < 10.0 ? 0 : quanta_from_radius(32.0)});
+    rings.push_back({quanta_from_radius(up < 30.0 ? 40.0 : 40.0 + step_mm),
+                     up < 10.0 ? 0 : quanta_from_radius(32.0)});
   Pot pot;
   pot.stack = ClayStack::from_rings(kRingMm, rings, 0, rings.size()).value();
   pot.ledger.initial = pot.stack.volume();
@@ -126,15 +127,84 @@ TEST_F(Exporting, WritesTheFinishOfTheCommand) {
   choices.foot_depth_mm = 2.5;
   choices.floor_fillet_mm = 3.0;
   choices.lip_fillet_mm = 1.5;
+  choices.glaze_mm = 0.3;
   exporter.write(pot, choices);
   const auto done = outcome();
   ASSERT_TRUE(done.done) << done.done.error().message;
   const std::string pot_path = folder.file("given.pot.json"), stl = folder.file("command.stl");
   write_text(pot_path, write_pot(*pot, PotEncoding::json));
-  const auto ran = claystack("export -q " + pot_path + " " + stl +
-                             " --foot 6x2.5 --floor-fillet 3 --lip-fillet 1.5");
+  const auto ran =
+      claystack("export -q " + pot_path + " " + stl +
+                " --foot 6x2.5 --floor-fillet 3 --lip-fillet 1.5 --glaze-allowance 0.3");
   ASSERT_LE(ran.status, 1) << ran.err;
   EXPECT_EQ(read_text(folder.file("cup.stl")), read_text(stl));
+}
+
+TEST_F(Exporting, WritesTheSizeOfTheCommand) {
+  pot = standing_cup();
+  choices = {};
+  choices.meshes = {solid::MeshFormat::stl_binary, solid::MeshFormat::three_mf};
+  choices.pot = true;
+  choices.folder = folder.path().string();
+  choices.holds_ml = 123.0;
+  choices.height_mm = 61.0;
+  choices.diameter_mm = 47.0;
+  for (const char* sub : {"command", "given"})
+    std::filesystem::create_directory(folder.path() / sub);
+  struct Case {
+    ExportSize size;
+    double shrinkage_percent;
+    std::string options;
+  };
+  for (const Case& c : {Case{ExportSize::capacity, 12.0, "--holds 123ml --fired --shrinkage 12%"},
+                        Case{ExportSize::height, 0.0, "--height 61mm"},
+                        Case{ExportSize::diameter, 0.0, "--diameter 47mm"}}) {
+    choices.name = "cup" + std::to_string(static_cast<int>(c.size));
+    choices.size = c.size;
+    choices.shrinkage_percent = c.shrinkage_percent;
+    exporter.write(pot, choices);
+    const auto done = outcome();
+    ASSERT_TRUE(done.done) << done.done.error().message;
+    if (c.size == ExportSize::capacity) {
+      EXPECT_NEAR(done.done->capacity_ml, 123.0, 1e-3);
+    }
+    const std::string pot_path = folder.file("given/" + choices.name + ".pot.json");
+    write_text(pot_path, write_pot(*pot, PotEncoding::json));
+    const std::string base = folder.file("command/" + choices.name);
+    const auto ran = claystack("export -q " + pot_path + " " + base + ".stl " + base + ".3mf " +
+                               base + ".pot.json " + c.options);
+    ASSERT_LE(ran.status, 1) << ran.err;
+    for (const char* ending : {".stl", ".3mf", ".pot.json"})
+      EXPECT_TRUE(read_text(folder.file(choices.name) + ending) == read_text(base + ending))
+          << choices.name << ending;
+  }
+}
+
+TEST_F(Exporting, MarksPlacesOnThePotAsItIsOnTheWheel) {
+  pot = standing_cup(20.0);
+  choices = {};
+  choices.process = "fdm";
+  choices.size = ExportSize::height;
+  choices.height_mm = 90.0;
+  choices.shrinkage_percent = 10.0;
+  exporter.preview(pot, choices);
+  const auto scaled = outcome();
+  ASSERT_TRUE(scaled.done) << scaled.done.error().message;
+  EXPECT_NEAR(scaled.done->height_mm, 100.0, 1e-3);
+  ASSERT_EQ(scaled.done->marks.size(), 1u) << "the overhang";
+  EXPECT_NEAR(scaled.done->marks[0].place_mm.y, 30.0, 0.5);
+  EXPECT_GT(scaled.done->marks[0].place_mm.x, 40.0);
+  EXPECT_LT(scaled.done->marks[0].place_mm.x, 60.0);
+}
+
+TEST_F(Exporting, ReportsASizeThatThePotCannotHave) {
+  choices = {};
+  choices.size = ExportSize::capacity;
+  exporter.preview(pot, choices);  // two parts, with nothing that holds water
+  const auto failed = outcome();
+  ASSERT_FALSE(failed.done);
+  EXPECT_NE(failed.done.error().message.find("capacity"), std::string::npos)
+      << failed.done.error().message;
 }
 
 TEST_F(Exporting, PreviewReportsTheFilesInAdvance) {
@@ -162,6 +232,15 @@ TEST_F(Exporting, NewestPreviewWins) {
   EXPECT_FALSE(exporter.take());
 }
 
+TEST_F(Exporting, APreviewDoesNotDropTheOutcomeOfFiles) {
+  exporter.write(pot, choices);
+  exporter.wait();
+  EXPECT_EQ(exporter.running(), Exporter::Kind::files) << "its outcome has not been taken";
+  exporter.preview(pot, choices);
+  EXPECT_EQ(outcome().kind, Exporter::Kind::files);
+  EXPECT_FALSE(exporter.running());
+}
+
 TEST_F(Exporting, CancelledExportLeavesNoFile) {
   choices.tolerance_mm = 0.001;
   exporter.write(pot, choices);
@@ -176,7 +255,7 @@ TEST_F(Exporting, CancelledExportLeavesNoFile) {
 
 TEST_F(Exporting, LeavesAllFilesOrNoneAtEveryCancellationPoint) {
   choices.step = choices.dxf = choices.pdf = choices.report = false;
-  solid::ExportRequest request = request_of(choices, *pot).value();
+  solid::ExportRequest request = job_of(choices, *pot).value().request;
   std::size_t checks = 0, all = 0;
   std::mutex mutex;
   for (std::size_t limit = 0; all == 0; ++limit) {

@@ -5,9 +5,11 @@
 
 #include "app/render/pot_view.hpp"
 #include "app/studio/app_state.hpp"
+#include "claystack/engine/files.hpp"
 #include "claystack/engine/wheel.hpp"
 #include "tests/app/studio/first_timer.hpp"
 #include "tests/app/studio/timed_host.hpp"
+#include "tests/support/run_program.hpp"
 
 #include <gtest/gtest.h>
 
@@ -93,6 +95,44 @@ TEST_F(Lesson, TheDemonstrationThrowsAPotThatIsReadyToPrint) {
   EXPECT_EQ(state.document.work().at(), 0u);
   EXPECT_EQ(state.document.work().size(), strokes);
   EXPECT_EQ(state.guide.step(), 0u);
+}
+
+TEST_F(Lesson, AnotherPotEndsTheDemonstration) {
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state, BeginLesson{kCylinder, true});
+  ASSERT_EQ(state.guide.demonstration(), Demonstration::all);
+  apply(state, BeginSample{kCylinder});
+  update(state);
+  EXPECT_FALSE(state.guide.active());
+  EXPECT_EQ(state.guide.demonstration(), Demonstration::none);
+}
+
+/// A frame of a real host is older than a stroke that begins in it.
+TEST_F(Lesson, FingersDoNotOpenInTheFrameInWhichTheyTakeTheWall) {
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state, BeginWork{scene_of(samples()[kCylinder]).value(),
+                         std::make_shared<const Pot>(finished_pot(samples()[kCylinder]).value()),
+                         {}});
+  apply(state, SetToolMode{ToolMode::pinch});
+  const std::int64_t frame_ns = host.frame_ns();
+  host.clock().sleep_until_ns(frame_ns + 50'000'000);
+  const double wide_mm = 9.0, closed_mm = 6.0;
+  ToolSpec fingers{SphereSpec{5.0}, ToolMode::pinch, closed_mm};
+  ASSERT_TRUE(state.stroke.press({fingers, 120.0, {30.0, 60.0, 0.0}, wide_mm}));
+  state.stroke.advance(frame_ns);
+  for (int i = 0; i < 30; ++i) {
+    host.advance();
+    update(state);
+  }
+  state.stroke.release();
+  const test::ScratchFolder folder;
+  ASSERT_TRUE(state.document.save(folder.file("pinch.work")));
+  const auto read = parse_work(test::read_text(folder.file("pinch.work")), "pinch.work");
+  ASSERT_TRUE(read) << read.error().message;
+  const std::vector<Pose>& poses = read->work.nodes.back().poses;
+  ASSERT_GT(poses.size(), 100u);
+  for (const Pose& pose : poses) ASSERT_LE(pose.gap_mm, wide_mm);
+  EXPECT_NEAR(poses.back().gap_mm, closed_mm, 1e-6);
 }
 
 TEST_F(Lesson, UndoGoesBackToTheStepOfThePot) {

@@ -145,6 +145,20 @@ TEST(Settings, RenamesABrokenFile) {
   EXPECT_EQ(write_settings(loaded.settings), write_settings(Settings()));
 }
 
+TEST(Settings, KeepsAFileThatItCanNeitherReadNorRename) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("studio.json");
+  test::write_text(path, "{ not json");
+  std::filesystem::create_directories(path + ".broken/full");
+  const LoadedSettings broken = load_settings(path);
+  EXPECT_FALSE(broken.may_save);
+  EXPECT_NE(broken.note.find("will not be saved"), std::string::npos) << broken.note;
+  test::write_text(path, std::string(20'000'000, ' '));
+  EXPECT_FALSE(load_settings(path).may_save) << "too large";
+  ASSERT_TRUE(save_settings(Settings(), path));
+  EXPECT_TRUE(load_settings(path).may_save);
+}
+
 TEST(Settings, AMissingFileIsNotAnError) {
   const test::ScratchFolder folder;
   EXPECT_EQ(load_settings(folder.file("none.json")).note, "");
