@@ -69,24 +69,70 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& comman
   return mesh;
 }
 
-/// The verdict is on the contents of the output file, so the bytes are decoded again before
-/// writing.
-Result<TriangleMesh> written(const TriangleMesh& mesh, const CheckCommand& command,
-                             RepairSummary& summary) {
-  const auto bytes = solid::encode_mesh(mesh, summary.format, {.name = "repaired"});
-  if (!bytes) return tl::make_unexpected(bytes.error());
-  auto reread = solid::decode_mesh(*bytes, summary.format, command.out);
-  if (!reread) return reread;
-  summary.bytes = bytes->size();
-  if (command.dry_run) return reread;
-  if (const auto done = publish(command.out, *bytes); !done)
-    return tl::make_unexpected(done.error());
-  summary.path = command.out;
-  return reread;
+/// A file and the mesh that a reader finds in it.
+struct WrittenMesh {
+  std::string bytes;
+  TriangleMesh mesh;
+  solid::MeshReport report;
+};
+
+Result<WrittenMesh> read_back(std::string bytes, MeshFormat format, const std::string& name) {
+  return solid::decode_mesh(bytes, format, name).and_then([&](TriangleMesh mesh) {
+    return checked(mesh).map([&](solid::MeshReport report) {
+      return WrittenMesh{std::move(bytes), std::move(mesh), std::move(report)};
+    });
+  });
 }
 
-Result<TriangleMesh> repair_and_write(TriangleMesh mesh, const CheckCommand& command,
-                                      RepairSummary& summary, Progress& progress) {
+/// In a format with a grid, on finer ones until the file is no worse than the mesh: two corners
+/// that meet on a coarse one may turn a face over. Errors: `unsound` if none is fine enough.
+Result<WrittenMesh> encoded(const TriangleMesh& mesh, MeshFormat format, const std::string& name) {
+  constexpr int kBitsStep = 2, kMostBits = 30;
+  const bool on_grid = format == MeshFormat::drc || format == MeshFormat::glb;
+  solid::FileContents contents{.name = "repaired"};
+  std::optional<MeshState> wanted;
+  std::string last;
+  while (true) {
+    auto bytes = solid::encode_mesh(mesh, format, contents);
+    if (!bytes) return tl::make_unexpected(bytes.error());
+    if (*bytes != last) {
+      last = *bytes;
+      auto written = read_back(std::move(*bytes), format, name);
+      if (!written) return written;
+      const MeshState state = state_of(written->mesh, written->report);
+      if (state != MeshState::sound && !wanted) {
+        const auto before = checked(mesh);
+        if (!before) return tl::make_unexpected(before.error());
+        wanted = state_of(mesh, *before);
+      }
+      if (state == MeshState::sound || state <= *wanted) return written;
+    }
+    contents.draco.min_bits += kBitsStep;
+    if (!on_grid || contents.draco.min_bits > kMostBits)
+      return failure(ErrorKind::unsound,
+                     "a sound mesh that is not sound any more when it is "
+                     "written as " +
+                         std::string(name_of(format)));
+  }
+}
+
+/// The verdict is on the contents of the output file, so they are decoded and checked before the
+/// file gets its name.
+Result<WrittenMesh> written(const TriangleMesh& mesh, const CheckCommand& command,
+                            RepairSummary& summary) {
+  return encoded(mesh, summary.format, command.out)
+      .and_then([&](WrittenMesh file) -> Result<WrittenMesh> {
+        summary.bytes = file.bytes.size();
+        if (command.dry_run) return file;
+        if (const auto done = publish(command.out, file.bytes); !done)
+          return tl::make_unexpected(done.error());
+        summary.path = command.out;
+        return file;
+      });
+}
+
+Result<WrittenMesh> repair_and_write(TriangleMesh mesh, const CheckCommand& command,
+                                     RepairSummary& summary, Progress& progress) {
   // Without a name, a dry run takes the format of the input, if it can be written.
   auto format = solid::mesh_format_of(command.out.empty() ? command.file : command.out,
                                       solid::FormatUse::write);
@@ -126,9 +172,9 @@ Result<void> check_packed_pot(const solid::PackedParts& parts, const TriangleMes
       .map([&](bool reads) {
         if (!reads) return;
         verdict.add("contents", Grade::pass, "carries the pot, to be thrown on with throw --from");
-        if (!pot->collapse)
-          verdict.notes.push_back("the pot inside is before shrinkage and finish: " +
-                                  sizes_text(mesh, *pot));
+        const auto sizes = pot->collapse ? std::nullopt : other_size(mesh, *pot);
+        if (sizes)
+          verdict.notes.push_back("the pot inside is before shrinkage and finish: " + *sizes);
         if (!parts.certificate.empty()) return;  // the mesh is compared with the certificate
         if (const auto difference = mesh_differs(mesh, *pot))
           verdict.add("contents", Grade::warn, *difference);
@@ -227,12 +273,21 @@ void check_standing(const TriangleMesh& mesh, Verdict& verdict) {
                   found->lowest_mm));
 }
 
+bool carries_pot(std::string_view bytes, const std::string& file) {
+  const auto parts = solid::parts_in_3mf(bytes, file);
+  return parts && !parts->pot.empty();
+}
+
 /// Cavities of the mesh, and the parts of the file besides the mesh.
 Result<void> check_contents(std::string_view bytes, const TriangleMesh& mesh, MeshFormat format,
                             const CheckCommand& command, Verdict& verdict) {
   check_cavities(command, verdict);
   check_standing(mesh, verdict);
-  if (command.changes_mesh()) return {};
+  if (command.changes_mesh()) {
+    if (format == MeshFormat::three_mf && carries_pot(bytes, command.file))
+      verdict.notes.push_back("the result has neither the pot nor the certificate of the file");
+    return {};
+  }
   if (format == MeshFormat::drc) check_claims(bytes, mesh, verdict);
   if (format != MeshFormat::three_mf) return {};
   return check_packed(bytes, mesh, command.file, verdict);
@@ -241,19 +296,22 @@ Result<void> check_contents(std::string_view bytes, const TriangleMesh& mesh, Me
 /// Repairs if requested, and gives its verdict on the mesh, or on the result.
 Result<TriangleMesh> judged(TriangleMesh mesh, const CheckCommand& command, bool slicer_reads_less,
                             Progress& progress, Verdict& verdict) {
+  const auto name = [&](const Error& error) {
+    return failure(error.kind, command.file + ": " + error.message);
+  };
   progress.stage("checking");
   if (command.changes_mesh()) {
     RepairSummary& summary = verdict.repair_summary.emplace();
     auto repaired = repair_and_write(std::move(mesh), command, summary, progress);
-    if (!repaired)
-      return failure(repaired.error().kind, command.file + ": " + repaired.error().message);
-    mesh = std::move(*repaired);
+    if (!repaired) return name(repaired.error());
+    mesh = std::move(repaired->mesh);
+    verdict.mesh = std::move(repaired->report);
     summary.before = as_sliced(summary.before, std::exchange(slicer_reads_less, false));
+  } else {
+    auto report = checked(mesh);
+    if (!report) return name(report.error());
+    verdict.mesh = std::move(*report);
   }
-  progress.stage("checking");
-  auto report = checked(mesh);
-  if (!report) return failure(report.error().kind, command.file + ": " + report.error().message);
-  verdict.mesh = std::move(*report);
   verdict.state = as_sliced(state_of(mesh, verdict.mesh), slicer_reads_less);
   return mesh;
 }

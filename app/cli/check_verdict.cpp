@@ -244,7 +244,23 @@ Json verdict_json(const std::string& file, const Verdict& verdict, bool accept_p
   return json;
 }
 
+namespace {
+
+/// With --quiet: what is wrong, on standard error.
+void print_faults(const Console& console, const std::string& file, const Verdict& verdict) {
+  for (const auto& problem : verdict.mesh.problems)
+    console.error(fmt::format("{}: {} ({}): {}", file, problem.what, problem.count, problem.where));
+  for (const auto& [check, grade, text] : verdict.findings) {
+    const std::string line = fmt::format("{}: {}: {}", file, check, text);
+    if (grade == Grade::fail) console.error(line);
+    if (grade == Grade::warn) console.warn(line);
+  }
+}
+
+}  // namespace
+
 void print_verdict(const Console& console, const std::string& file, const Verdict& verdict) {
+  if (console.quiet && !console.json) return print_faults(console, file, verdict);
   const solid::MeshReport& mesh = verdict.mesh;
   const bool was_repaired = verdict.repair_summary.has_value();
   const std::string found = headline(verdict.state, verdict.findings);

@@ -113,7 +113,7 @@ void print_clay(const Console& console, const Json& summary) {
   print_maker_table(console, summary["maker"],
                     summary["min_wall_mm"].is_null()
                         ? std::string()
-                        : fmt::format("at least {:.2f} mm", summary["min_wall_mm"].get<double>()),
+                        : at_least_mm(summary["min_wall_mm"].get<double>(), 2),
                     verdict_of(summary));
 }
 

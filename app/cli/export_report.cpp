@@ -347,8 +347,8 @@ std::string verdict_of(const ExportReport& report) {
 
 /// As precise as the line on the limit, if there is one.
 std::string wall_row(const ExportReport& report) {
-  return fmt::format("at least {:.{}f} mm, thinnest at {}", report.thinnest_mm(),
-                     report.walls.limit ? 3 : 2, thinnest_height(report));
+  return at_least_mm(report.thinnest_mm(), report.walls.limit ? 3 : 2) + ", thinnest at " +
+         thinnest_height(report);
 }
 
 Json goal_json(const std::optional<solid::MetGoal>& met) {

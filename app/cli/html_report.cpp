@@ -1,6 +1,7 @@
 #include "app/cli/html_report.hpp"
 
 #include "app/cli/export_report.hpp"
+#include "app/cli/maker_table.hpp"
 #include "core/base64.hpp"
 #include "core/colour_scale.hpp"
 #include "core/svg_writer.hpp"
@@ -133,7 +134,7 @@ class Page {
     pictures(picture);
     if (!json["maker"].is_null()) maker(json["maker"]);
     assumptions();
-    walls();
+    if (report.has_solid()) walls();
     if (report.maker) drawing();
     files();
     work();
@@ -163,8 +164,11 @@ class Page {
   void verdict() {
     const auto problems = solid::problems_of(report_);
     const bool limits = report_.walls.limit || report_.process.limits;
-    if (report_.collapsed) html_.element("p", {{"class", "bad"}}, "The pot collapsed.");
-    if (problems.empty())
+    if (report_.collapsed || report_.fallen)
+      html_.element("p", {{"class", "bad"}}, "The pot collapsed.");
+    if (!report_.has_solid())
+      html_.element("p", {}, "No solid was made, so nothing was proved or measured.");
+    else if (problems.empty())
       html_.element("p", {{"class", "good"}},
                     std::string("Closed and without self-intersections; ") +
                         (limits ? "all limits met." : "no limits were set."));
@@ -250,12 +254,12 @@ class Page {
   void walls() {
     table("Walls and making", [&] {
       row({"minimum wall of the files",
-           fmt::format("{:.{}f} mm at {}", report_.thinnest_mm(), report_.walls.limit ? 3 : 2,
-                       thinnest_height(report_))},
+           at_least_mm(report_.thinnest_mm(), report_.walls.limit ? 3 : 2) + ", at " +
+               thinnest_height(report_)},
           "td", false);
       for (const auto& [part, thickness_mm, at] : report_.walls.parts)
         row({fmt::format("{} of the round section", solid::name_of(part)),
-             fmt::format("{:.2f} mm or more, at a height of {:.1f} mm", thickness_mm, at.y)},
+             fmt::format("{}, at a height of {:.1f} mm", at_least_mm(thickness_mm, 2), at.y)},
             "td", false);
       if (const auto& limit = report_.walls.limit)
         row({"required", fmt::format("{:.2f} mm ({})", limit->min_wall_mm, limit->asked_by())},

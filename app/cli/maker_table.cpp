@@ -1,6 +1,7 @@
 #include "app/cli/maker_table.hpp"
 
 #include <fmt/format.h>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace clay::cli {
@@ -136,6 +137,13 @@ void print_maker_table(const Console& console, const Json& numbers, const std::s
   }
   row("wall", wall);
   row("verdict", verdict);
+}
+
+std::string at_least_mm(double bound_mm, int digits) {
+  const double scale = std::pow(10.0, digits);
+  // A bound that prints as itself stays, in spite of its rounding as a double.
+  return fmt::format("at least {:.{}f} mm", std::floor(bound_mm * scale * (1.0 + 1e-12)) / scale,
+                     digits);
 }
 
 }  // namespace clay::cli

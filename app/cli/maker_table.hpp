@@ -21,4 +21,7 @@ namespace clay::cli {
 void print_maker_table(const Console& console, const Json& numbers, const std::string& wall,
                        const std::string& verdict);
 
+/// "at least 4.97 mm", rounded down.
+[[nodiscard]] std::string at_least_mm(double bound_mm, int digits);
+
 }  // namespace clay::cli

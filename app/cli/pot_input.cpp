@@ -123,8 +123,10 @@ std::optional<std::string> mesh_differs(const solid::TriangleMesh& mesh, const P
                : "another program changed the mesh");
 }
 
-std::string sizes_text(const solid::TriangleMesh& mesh, const Pot& pot) {
+std::optional<std::string> other_size(const solid::TriangleMesh& mesh, const Pot& pot) {
   const Sizes sizes(mesh, pot);
+  if (std::abs(sizes.across() - 1.0) < 0.01 && std::abs(sizes.up() - 1.0) < 0.01)
+    return std::nullopt;
   return fmt::format(
       "{:.1f} mm wide and {:.1f} mm high; the mesh is {:.1f} mm and {:.1f} mm, {:.2f} and {:.2f} "
       "times as much",
@@ -140,9 +142,9 @@ Result<Pot> read_pot(const std::string& path, [[maybe_unused]] const Console& co
       return pot_from(bytes, path).map([&](Pot pot) {
         const auto mesh = solid::decode_3mf(bytes, path);
         if (!mesh || pot.collapse) return pot;
-        console.print(
-            fmt::format("note: {}: the pot inside is used, before shrinkage and finish: {}", path,
-                        sizes_text(*mesh, pot)));
+        if (const auto sizes = other_size(*mesh, pot))
+          console.print(fmt::format(
+              "note: {}: the pot inside is used, before shrinkage and finish: {}", path, *sizes));
         // Slicers drop the certificate when they write a package again.
         const auto parts = solid::parts_in_3mf(bytes, path);
         const bool foreign = parts && parts->certificate.empty();

@@ -362,7 +362,8 @@ void add_replay_options(CLI::App& command, ThrowOptions& options) {
   command.add_option("-o,--output", options.pot, "Pot to write: .pot.json, or .pot.cbor (compact)");
   command.add_option("--from", options.from,
                      "Pot to start from, instead of the scene's lump: " + std::string(kPotInputs));
-  command.add_option("--at", options.at, "Node of the work (default: the current one)");
+  command.add_option("--at", options.at, "Node of the work (default: the current one)")
+      ->check(in_whole_range(0, UINT32_MAX));
   command.add_flag("--list", options.list, "List the strokes of a work, including undone ones");
   command
       .add_option("--model", options.model,

@@ -3,6 +3,7 @@
 
 #include "app/cli/console.hpp"
 #include "app/cli/device_choice.hpp"
+#include "app/cli/output_files.hpp"
 #include "app/cli/replay.hpp"
 #include "app/cli/studio_options.hpp"
 #include "app/cli/window_report.hpp"
@@ -44,6 +45,10 @@ Result<void> run_script(const StudioOptions& options, const LogLine& log) {
     if (!parsed) return tl::make_unexpected(parsed.error());
     lines = std::move(*parsed);
   }
+  if (auto free =
+          cli::check_outputs({{options.screenshot, {".png"}}}, {options.file, options.script}, {});
+      !free)
+    return free;
   auto host = OffscreenHost::create(options.size_px,
                                     options.scale > 0.0 ? static_cast<float>(options.scale) : 1.0f);
   if (!host) return tl::make_unexpected(host.error());

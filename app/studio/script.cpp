@@ -1,5 +1,6 @@
 #include "app/studio/script.hpp"
 
+#include "app/cli/output_files.hpp"
 #include "app/render/image_file.hpp"
 #include "app/studio/commands.hpp"
 #include "claystack/core/atomic_file.hpp"
@@ -257,6 +258,7 @@ void ScriptRunner::drive(const GamepadState& to, double seconds) {
 }
 
 Result<void> ScriptRunner::screenshot(const std::string& path) {
+  if (auto free = cli::check_outputs({{path, {".png"}}}, {}, {}); !free) return free;
   host_.bind();
   studio_.frame(Painting::always);
   host_.bind();

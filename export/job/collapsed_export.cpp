@@ -117,14 +117,9 @@ class CollapsedExport {
   }
 
   void describe_solid(CollapsedSolid solid) {
-    const glm::dvec3 extent = extent_of(mesh_).size();
     report_.prepared = prepared_.done;
-    report_.size.diameter_mm = std::max(extent.x, extent.y);
-    report_.size.height_mm = extent.z;
-    report_.size.triangles = mesh_.triangles.size();
     report_.size.shells = solid.check.components;
-    report_.walls.limit =
-        options_.walls.for_size(2.0 * report_.size.diameter_mm + report_.size.height_mm);
+    describe_size();
     report_.process.limits = options_.walls.process;
     report_.collapsed = std::move(solid);
     describe_volume(report_.collapsed->volume_mm3);
@@ -133,6 +128,15 @@ class CollapsedExport {
     clay.shrinkage = options_.shrinkage;
     report_.fallen = fallen_numbers({report_.size.diameter_mm, report_.size.height_mm, 0.0},
                                     prepared_.done.counted_volume_mm3, clay, options_.fill_line_mm);
+  }
+
+  void describe_size() {
+    const glm::dvec3 extent = extent_of(mesh_).size();
+    report_.size.diameter_mm = std::max(extent.x, extent.y);
+    report_.size.height_mm = extent.z;
+    report_.size.triangles = mesh_.triangles.size();
+    report_.walls.limit =
+        options_.walls.for_size(2.0 * report_.size.diameter_mm + report_.size.height_mm);
   }
 
   void describe_volume(double volume_mm3) {
@@ -153,7 +157,10 @@ class CollapsedExport {
           if (!check.sound())
             return failure(ErrorKind::unsound,
                            "decimated: found " + describe(check.problems.front()));
-          report_.size.triangles = mesh_.triangles.size();
+          describe_size();
+          // Both sides of a wall may have moved.
+          report_.walls.min_wall_mm =
+              std::max(0.0, report_.walls.min_wall_mm - 2.0 * decimated.max_error_mm);
           report_.size.tolerance_mm += decimated.max_error_mm;
           report_.size.chordal_error_mm += decimated.max_error_mm;
           describe_volume(check.volume_mm3);

@@ -9,10 +9,13 @@
 #include "export/solid/mesh_topology.hpp"
 #include "export/solid/shell_volumes.hpp"
 
+#include <array>
 #include <cmath>
 #include <exception>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -27,6 +30,10 @@ std::string numbered(std::string_view noun, const std::vector<std::uint32_t>& nu
   return text;
 }
 
+std::string coordinates(const glm::dvec3& place) {
+  return std::string("(") + in_mm(place.x) + ", " + in_mm(place.y) + ", " + in_mm(place.z) + ") mm";
+}
+
 /// The middle of the faulty vertices; if none are listed, of the first triangle.
 std::string coordinates(const TriangleMesh& mesh, const Fault& fault) {
   const Triangle& triangle = mesh.triangles[fault.triangles.front()];
@@ -35,8 +42,37 @@ std::string coordinates(const TriangleMesh& mesh, const Fault& fault) {
   glm::dvec3 middle{0.0};
   for (const std::uint32_t v : vertices)
     middle += mesh.points[v] / static_cast<double>(vertices.size());
-  return std::string("(") + in_mm(middle.x) + ", " + in_mm(middle.y) + ", " + in_mm(middle.z) +
-         ") mm";
+  return coordinates(middle);
+}
+
+using Corners = std::array<glm::dvec3, 3>;
+
+/// Where a segment passes through a triangle; not if it lies in its plane.
+std::optional<glm::dvec3> pierced(const glm::dvec3& from, const glm::dvec3& to, const Corners& t) {
+  const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+  const double a = glm::dot(normal, from - t[0]), b = glm::dot(normal, to - t[0]);
+  if (a == b || a * b > 0.0) return std::nullopt;
+  const glm::dvec3 at = from + a / (a - b) * (to - from);
+  const double least = -1e-9 * glm::dot(normal, normal);
+  for (std::size_t i = 0; i < 3; ++i)
+    if (glm::dot(normal, glm::cross(t[(i + 1) % 3] - t[i], at - t[i])) < least) return std::nullopt;
+  return at;
+}
+
+/// The middle of the points where the edges of either triangle pass through the other. Of triangles
+/// in one plane: the place in the box of the second that is nearest to the middle of the first.
+glm::dvec3 crossing_place(const Corners& a, const Corners& b) {
+  glm::dvec3 sum{0.0};
+  int found = 0;
+  const auto add = [&](const Corners& edges, const Corners& triangle) {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (const auto at = pierced(edges[i], edges[(i + 1) % 3], triangle)) sum += *at, ++found;
+  };
+  add(a, b);
+  add(b, a);
+  if (found > 0) return sum / static_cast<double>(found);
+  return glm::clamp((a[0] + a[1] + a[2]) / 3.0, glm::min(glm::min(b[0], b[1]), b[2]),
+                    glm::max(glm::max(b[0], b[1]), b[2]));
 }
 
 class Inspection {
@@ -110,7 +146,7 @@ class Inspection {
     report_.degenerate = intersections.degenerate().count;
     report_.self_intersections = crossings.count;
     problem("degenerate triangle", intersections.degenerate());
-    problem("self-intersection", crossings);
+    if (crossings.found()) problem_at_crossing(crossings);
     if (!topology.closed() || !topology.oriented()) return;
     if (topology.manifold() && !intersections.degenerate().found() && !crossings.found())
       return check_outward(check_shells(topology, volume), volume);
@@ -166,6 +202,16 @@ class Inspection {
 
   void problem(std::string what, std::string where, std::size_t count = 1) {
     report_.problems.push_back({std::move(what), std::move(where), count});
+  }
+  void problem_at_crossing(const Fault& crossings) {
+    const auto corners = [&](std::size_t which) {
+      const Triangle& t = mesh_.triangles[crossings.triangles[which]];
+      return Corners{mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]};
+    };
+    problem("self-intersection",
+            numbered("triangle", crossings.triangles) + " at " +
+                coordinates(crossing_place(corners(0), corners(1))),
+            crossings.count);
   }
   void problem(std::string what, const Fault& fault) {
     if (fault.found())

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <numbers>
 #include <ostream>
@@ -99,7 +100,7 @@ std::vector<Planted> faults() {
       {"touching",
        together(good, moved(good, {20, 20, 0})),
        "self-intersection",
-       "triangles 0, 12 at (13.3333333, 6.66666667, 0) mm",
+       "triangles 0, 12 at (20, 20, 0) mm",
        {{"points of one place merged", 2},
         {"non-manifold edge cut apart", 1},
         {"vertex pulled apart where surfaces touch", 2}},
@@ -119,7 +120,7 @@ std::vector<Planted> faults() {
       {"crossing",
        together(good, moved(good, {10, 10, 10})),
        "self-intersection",
-       "triangles 2, 16 at (13.3333333, 6.66666667, 20) mm",
+       "triangles 2, 16 at (20, 10, 20) mm",
        {{"pair of intersecting triangles resolved", 18}, {"triangle inside the solid removed", 12}},
        15000.0},
   };
@@ -208,6 +209,60 @@ TEST_F(CheckRepair, WritesASoundMeshUnchanged) {
   EXPECT_TRUE(run.json().at("found").empty());
   EXPECT_TRUE(run.json().at("repaired").empty());
   EXPECT_EQ(read_text(out), read_text(in));
+}
+
+TEST_F(CheckRepair, WritesSoundMeshesInFormatsWithAGrid) {
+  // Thinner than the grid that the usual error bound gives: both faces would lie on one another.
+  TriangleMesh plate = cube(20.0);
+  for (glm::dvec3& p : plate.points) p.z *= 0.004 / 20.0;
+  const std::string in = write("in.stl", plate);
+  for (const char* name : {"out.drc", "out.glb"}) {
+    const std::string out = folder.file(name);
+    const Ran run = claystack("check --json --repair " + in + " -o " + out);
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    const Ran again = claystack("check --json " + out);
+    EXPECT_EQ(again.status, 0) << again.out;
+    EXPECT_NEAR(again.json().at("volume_mm3").get<double>(), 400.0 * 0.004, 400.0 * 0.001);
+  }
+}
+
+TEST_F(CheckRepair, StatesThatTheResultOfA3mfHasNoPot) {
+  const std::string pot = folder.file("bowl.pot.json"), in = folder.file("bowl.3mf");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  ASSERT_LE(claystack("export -q " + pot + " " + in).status, 1);
+  const Ran run = claystack("check --repair " + in + " -o " + folder.file("out.3mf"));
+  EXPECT_NE(run.out.find("neither the pot nor the certificate"), std::string::npos) << run.out;
+  const Ran plain = claystack("check " + in);
+  EXPECT_EQ(plain.out.find("before shrinkage"), std::string::npos) << "it has the size of the pot";
+}
+
+TEST_F(CheckRepair, QuietPrintsFaultsAndWarnings) {
+  const std::string open = write("open.stl", hole());
+  const Ran broken = claystack("check -q " + open);
+  EXPECT_EQ(broken.status, 1);
+  EXPECT_EQ(broken.out, "");
+  EXPECT_NE(broken.err.find("open edge (3)"), std::string::npos) << broken.err;
+  const std::string thin = write("thin.stl", cube(20.0));
+  const Ran failed = claystack("check -q --min-wall 50 " + thin);
+  EXPECT_EQ(failed.status, 1);
+  EXPECT_NE(failed.err.find("walls"), std::string::npos) << failed.err;
+  EXPECT_EQ(claystack("check -q " + thin).err, "");
+}
+
+TEST_F(CheckRepair, StatesWhereAnIntersectionIs) {
+  // The corners of two boxes overlap between 199 and 200 mm.
+  const std::string in =
+      write("in.stl", together(cube(200.0), moved(cube(200.0), {199.0, 199.0, 199.0})));
+  const Ran run = claystack("check --json " + in);
+  const std::string where = run.json().at("problems").at(0).at("where").get<std::string>();
+  double x = 0.0, y = 0.0, z = 0.0;
+  const std::size_t at = where.find("at (");
+  ASSERT_NE(at, std::string::npos) << where;
+  ASSERT_EQ(std::sscanf(where.c_str() + at, "at (%lf, %lf, %lf)", &x, &y, &z), 3) << where;
+  for (const double place : {x, y, z}) {
+    EXPECT_GE(place, 199.0) << where;
+    EXPECT_LE(place, 200.0) << where;
+  }
 }
 
 TEST_F(CheckRepair, ReportsWhatItChanged) {

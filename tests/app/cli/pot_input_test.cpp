@@ -29,9 +29,10 @@ TEST(MeshDiffers, FromThePotInAnotherSizeOrShape) {
       "the mesh is 144.0 mm wide and 90.0 mm high, the pot inside 80.0 mm and 50.0 mm: 1.80 times "
       "as much is more than for the shrinkage of clays, so another program may have scaled the "
       "mesh");
-  EXPECT_EQ(sizes_text(box(100, 60), pot),
+  EXPECT_EQ(other_size(box(100, 60), pot),
             "80.0 mm wide and 50.0 mm high; the mesh is 100.0 mm and 60.0 mm, 1.25 and 1.20 times "
             "as much");
+  EXPECT_EQ(other_size(box(80.1, 49.9), pot), std::nullopt);
 }
 
 }  // namespace

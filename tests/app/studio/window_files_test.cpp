@@ -239,6 +239,20 @@ TEST_F(Window, ScriptErrorsNameTheLine) {
   ran = run("move 9999 10\npress left\n");
   EXPECT_EQ(ran.status, 1) << "outside the window";
   EXPECT_EQ(claystack("studio --size 3x3 --screenshot x.png").status, 2);
+  EXPECT_EQ(claystack("studio " + test::sample("vase.scene.json") + " --screenshot x.stl").status,
+            2);
+  EXPECT_EQ(run("screenshot FOLDER/pot.json\n").status, 2);
+}
+
+TEST_F(Window, APictureDoesNotReplaceItsInput) {
+  const std::string link = folder.file("picture.png");
+  test::write_text(folder.file("a.scene.json"), test::read_text(test::sample("vase.scene.json")));
+  std::filesystem::create_symlink(folder.file("a.scene.json"), link);
+  const auto ran = claystack("studio " + folder.file("a.scene.json") + " --screenshot " + link);
+  EXPECT_EQ(ran.status, 2) << ran.err;
+  EXPECT_NE(ran.err.find("found the same file as the input"), std::string::npos) << ran.err;
+  EXPECT_EQ(test::read_text(folder.file("a.scene.json")),
+            test::read_text(test::sample("vase.scene.json")));
 }
 
 }  // namespace

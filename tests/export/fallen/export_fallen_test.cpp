@@ -1,3 +1,4 @@
+#include "claystack/export/check.hpp"
 #include "claystack/export/proof.hpp"
 #include "tests/export/fallen/collapsed_pots.hpp"
 #include "tests/export/formats/refused.hpp"
@@ -6,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +54,23 @@ TEST(ExportFallen, UnitesTheParts) {
     EXPECT_TRUE(check_mesh(*decoded).sound());
     EXPECT_EQ(decoded->triangles.size(), report.size.triangles);
   }
+}
+
+TEST(ExportFallen, ADecimatedPotStatesTheSizeAndWallOfItsFile) {
+  Pot pot = pot_of(shapes::vase(100));
+  pot.collapse = Collapse{30, {50, 70, 0}, {0, 0, 1}, 1.0, 12.0};
+  ExportOptions options;
+  options.tolerance_mm = 0.05;
+  options.max_triangles = 4000;
+  const auto result = exported(pot, {MeshFormat::stl_binary}, options);
+  ASSERT_TRUE(result) << result.error().message;
+  const ExportReport& report = result->report;
+  ASSERT_LE(report.size.triangles, 4000u);
+  const TriangleMesh mesh = decode_mesh(result->files[0], MeshFormat::stl_binary, "file").value();
+  const glm::dvec3 size = extent_of(mesh).size();
+  EXPECT_NEAR(report.size.height_mm, size.z, 1e-9);
+  EXPECT_NEAR(report.size.diameter_mm, std::max(size.x, size.y), 1e-9);
+  EXPECT_LE(report.walls.min_wall_mm, sampled_wall(mesh, 20'000).value().least_mm);
 }
 
 TEST(ExportFallen, WritesSeparatePiecesOnlyIfAllowed) {
