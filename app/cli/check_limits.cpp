@@ -94,6 +94,10 @@ Result<PrintedBody> printed_body(const TriangleMesh& mesh, const CheckCommand& c
                                  const Verdict& verdict) {
   PrintedBody body{&mesh, {}, {}};
   const solid::MeshReport& report = verdict.mesh;
+  if (report.closed && !report.oriented) {
+    body.unknown = "faces point into the clay; check the result of --repair";
+    return body;
+  }
   const bool nested =
       report.closed && report.oriented && report.components > 1 && !report.bounds_volume;
   if (report.sound() || (report.self_intersections == 0 && !nested)) return body;
@@ -132,7 +136,9 @@ void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckC
                               most->height_mm, most->source));
     if (!fits) return;
   }
-  if (const auto& most = process->overhang) {
+  if (process->overhang && verdict.mesh.closed && !verdict.mesh.oriented) {
+    passed += ", overhangs not measured: faces point into the clay";
+  } else if (const auto& most = process->overhang) {
     const Undersides steep = undersides_of(body.mesh(), most->max_deg);
     constexpr double kLeastMm2 = 4.0;  // smaller ones need no support
     if (steep.area_mm2 > kLeastMm2)

@@ -102,7 +102,8 @@ void print_wall(const Console& console, const solid::SampledWall& wall) {
                     "value, not a bound",
                     wall.least_mm, wall.place.x, wall.place.y, wall.place.z, wall.rays));
   if (wall.escaped > 0)
-    console.print(fmt::format("  {} of {} rays left through an opening", wall.escaped, wall.rays));
+    console.print(
+        fmt::format("  {} of {} left through an opening", wall.escaped, counted(wall.rays, "ray")));
 }
 
 void print_repair(const Console& console, const RepairSummary& summary, const Verdict& verdict) {

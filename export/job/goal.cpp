@@ -5,6 +5,8 @@
 #include "core/text.hpp"
 #include "export/job/prepare.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <string>
@@ -140,9 +142,9 @@ class GoalSearch {
     }
     for (const double factor : {scale_.radius, scale_.height})
       if (!(factor < kFarthest && factor > 1.0 / kFarthest))
-        return failure(ErrorKind::bad_input, first.name + ": expected a goal within " +
-                                                 in_mm(kFarthest) + " times of the pot, found " +
-                                                 in_mm(first.target));
+        return failure(ErrorKind::bad_input,
+                       first.name + ": expected a goal for which lengths change by at most " +
+                           in_mm(kFarthest) + " times, found " + in_mm(first.target));
     return {};
   }
 
@@ -159,8 +161,8 @@ class GoalSearch {
         limit && report.walls.min_wall_mm < limit->min_wall_mm)
       return failure(
           ErrorKind::unsound,
-          "goal: scaled by " + in_mm(scale_.radius) + " across and " + in_mm(scale_.height) +
-              " up, thin wall: " +
+          fmt::format("goal: scaled by {:.4f} across and {:.4f} up, thin wall: ", scale_.radius,
+                      scale_.height) +
               thin_wall_text(report.section.profile(), report.walls.min_wall_mm, *limit));
     const bool glazed = goal_.fired && report.maker->glazed.has_value();
     return GoalReport{std::move(scaled_pot_), {goal_, glazed, scale_.radius, scale_.height}};

@@ -91,7 +91,7 @@ Result<DecimatedMesh> decimated(const TriangleMesh& sound_mesh, std::size_t max_
   if (!is_closed_manifold(sound_mesh))
     return failure(ErrorKind::unsound,
                    "expected a closed, consistently oriented manifold mesh to decimate, found "
-                   "another; repair it first");
+                   "one that is not; repair it first");
   if (sound_mesh.triangles.size() <= max_triangles) return DecimatedMesh{sound_mesh, 0.0};
   return decimate_closed(sound_mesh, max_triangles, progress);
 }

@@ -249,6 +249,15 @@ TEST_F(CheckRepair, QuietPrintsFaultsAndWarnings) {
   EXPECT_EQ(claystack("check -q " + thin).err, "");
 }
 
+TEST_F(CheckRepair, MeasuresNoWallOfAMeshThatIsInsideOut) {
+  const std::string in = write("in.stl", inverted(cube(20.0)));
+  const Ran run = claystack("check --process fdm " + in);
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.out.find("walls: fail: not measured: faces point into the clay"), std::string::npos)
+      << run.out;
+  EXPECT_NE(run.out.find("overhangs not measured"), std::string::npos) << run.out;
+}
+
 TEST_F(CheckRepair, StatesWhereAnIntersectionIs) {
   // The corners of two boxes overlap between 199 and 200 mm.
   const std::string in =
