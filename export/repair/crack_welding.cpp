@@ -58,41 +58,35 @@ double largest_coordinate(const TriangleMesh& mesh) {
   return largest;
 }
 
-struct Border {
-  std::vector<bool> points;       ///< whether a point is on it
-  double shortest_mm = INFINITY;  ///< of the edges of triangles at it
-};
+}  // namespace
 
-Border border_of(const TriangleMesh& mesh, double least_mm) {
-  Border border{std::vector<bool>(mesh.points.size(), false)};
-  std::vector<bool> at_border(mesh.triangles.size(), false);
+OpenBorder open_border(const TriangleMesh& mesh, std::optional<double> weld_mm) {
+  OpenBorder border{{}, std::vector<bool>(mesh.points.size(), false)};
+  border.rounding_mm = 4.0 * std::numeric_limits<float>::epsilon() * largest_coordinate(mesh);
   for_each_edge(mesh, [&](std::span<const SoupEdge> edges) {
     if (edges.size() != 1) return;
+    border.edges.push_back(edges[0]);
     border.points[edges[0].low] = border.points[edges[0].high] = true;
-    at_border[edges[0].triangle] = true;
   });
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!at_border[t]) continue;
+  double shortest_mm = INFINITY;  // of the edges of triangles at the border
+  for (const SoupEdge& edge : border.edges) {
+    const Triangle& t = mesh.triangles[edge.triangle];
     for (std::size_t c = 0; c < 3; ++c) {
-      const double length = glm::distance(mesh.points[mesh.triangles[t].at(c)],
-                                          mesh.points[mesh.triangles[t].at((c + 1) % 3)]);
-      if (length > least_mm) border.shortest_mm = std::min(border.shortest_mm, length);
+      const double length = glm::distance(mesh.points[t.at(c)], mesh.points[t.at((c + 1) % 3)]);
+      if (length > border.rounding_mm) shortest_mm = std::min(shortest_mm, length);
     }
   }
+  if (std::isinf(shortest_mm)) return border;
+  const double size_mm = glm::length(extent_of(mesh).size());
+  border.crack_mm =
+      std::max(border.rounding_mm, weld_mm.value_or(std::min(0.25 * shortest_mm, 1e-3 * size_mm)));
   return border;
 }
 
-}  // namespace
-
 std::size_t weld_cracks(TriangleMesh& mesh, std::optional<double> weld_mm) {
-  // Rounding to float32 alone may open a crack this wide.
-  const double least_mm = 4.0 * std::numeric_limits<float>::epsilon() * largest_coordinate(mesh);
-  const Border border = border_of(mesh, least_mm);
-  if (std::isinf(border.shortest_mm)) return 0;
-  const double crack_mm =
-      std::max(least_mm, weld_mm.value_or(std::min(0.25 * border.shortest_mm,
-                                                   1e-3 * glm::length(extent_of(mesh).size()))));
-  CrackCells cells(mesh.points, crack_mm);
+  const OpenBorder border = open_border(mesh, weld_mm);
+  if (border.crack_mm == 0.0) return 0;
+  CrackCells cells(mesh.points, border.crack_mm);
   std::vector<std::uint32_t> number(mesh.points.size());
   std::size_t welded = 0;
   for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {

@@ -2,6 +2,7 @@
 
 #include "export/formats/file_floats.hpp"
 #include "export/repair/crack_welding.hpp"
+#include "export/repair/edge_splitting.hpp"
 #include "export/repair/soup_edges.hpp"
 #include "export/solid/disjoint_sets.hpp"
 #include "export/solid/mesh_topology.hpp"
@@ -157,6 +158,7 @@ void clean_soup(TriangleMesh& mesh, std::optional<double> weld_mm, std::vector<R
   note_repair(repaired, "points of one place merged", merge_equal_points(mesh));
   note_repair(repaired, "points welded across a crack", weld_cracks(mesh, weld_mm));
   note_repair(repaired, "triangle without area removed", drop_collapsed(mesh));
+  note_repair(repaired, "edge split at a vertex on it", split_edges(mesh, weld_mm));
   drop_duplicates(mesh, repaired);
   drop_fins(mesh, repaired);
   drop_unused_points(mesh);

@@ -1,5 +1,6 @@
 #include "export/repair/surface_making.hpp"
 
+#include "export/repair/border_joining.hpp"
 #include "export/repair/soup_repair.hpp"
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -37,22 +38,29 @@ class Making {
   }
 
   Result<Surface> run() {
-    note_touching();
+    note_cut_edges();
     if (!orient()) return failure(ErrorKind::unsound, "repair failed: no surface found");
     pmp::stitch_borders(surface_, CGAL::parameters::apply_per_connected_component(true));
     pmp::stitch_borders(surface_);
     pmp::duplicate_non_manifold_vertices(surface_);
     drop_degenerate();
     drop_lone_triangles();
+    note_split(join_borders(surface_));
     surface_.collect_garbage();
     return std::move(surface_);
   }
 
  private:
-  void note_touching() {
+  void note_cut_edges() {
     const MeshTopology topology = topology_of(points_.size(), triangles_);
     note_repair(repaired_, "non-manifold edge cut apart", topology.crowded_edges.count);
-    note_repair(repaired_, "non-manifold vertex split", topology.split_vertices.count);
+    touching_vertices_ = topology.split_vertices.count;
+  }
+
+  /// Of the vertices where sheets touch, those that were joined again are parts of one sheet.
+  void note_split(std::size_t joined) {
+    note_repair(repaired_, "non-manifold vertex split",
+                touching_vertices_ - std::min(joined, touching_vertices_));
   }
 
   bool orient() {
@@ -117,6 +125,7 @@ class Making {
   std::vector<SurfacePoint> points_;
   std::vector<Triangle> triangles_;
   Surface surface_;
+  std::size_t touching_vertices_ = 0;
   std::vector<Repair>& repaired_;
 };
 

@@ -1,0 +1,191 @@
+// Borders that lie in one place but do not match: T-junctions, and holes that touch in a vertex.
+
+#include "claystack/export/proof.hpp"
+#include "claystack/export/repair.hpp"
+#include "export/formats/file_floats.hpp"
+#include "tests/export/solid/shapes.hpp"
+
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clay::solid {
+namespace {
+
+using shapes::ball;
+using shapes::cube;
+
+std::size_t count_of(const RepairedMesh& result, const std::string& what) {
+  for (const Repair& repair : result.repaired)
+    if (repair.what == what) return repair.count;
+  return 0;
+}
+
+constexpr const char* kSplit = "edge split at a vertex on it";
+
+/// Splits the edge of the triangle that has it in the direction from a to b, of no other one.
+void split_one_side(TriangleMesh& mesh, std::uint32_t a, std::uint32_t b) {
+  const auto middle = static_cast<std::uint32_t>(mesh.points.size());
+  mesh.points.push_back(0.5 * (mesh.points[a] + mesh.points[b]));
+  for (Triangle& t : mesh.triangles)
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (t.at(c) != a || t.at((c + 1) % 3) != b) continue;
+      const std::uint32_t opposite = t.at((c + 2) % 3);
+      t = {a, middle, opposite};
+      mesh.triangles.push_back({middle, b, opposite});
+      return;
+    }
+}
+
+/// The cube of 40 mm with its vertices and middles of edges only, without a fill.
+void expect_whole_cube(const TriangleMesh& broken, std::size_t splits) {
+  ASSERT_FALSE(check_mesh(broken).sound());
+  const auto result = repair_mesh(broken);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_TRUE(check_mesh(result->mesh).sound());
+  EXPECT_EQ(signed_volume(result->mesh), 64'000.0);  // all coordinates are small integers
+  EXPECT_EQ(count_of(*result, kSplit), splits);
+  EXPECT_EQ(result->repaired.size(), 1U);
+  EXPECT_EQ(result->mesh.points.size(), broken.points.size());
+  EXPECT_EQ(result->mesh.triangles.size(), broken.triangles.size() + splits);
+  EXPECT_EQ(result->change.added_mm, 0.0);
+}
+
+TEST(OpenBorders, AnEdgeSplitOnOneSideIsSplitOnTheOther) {
+  const TriangleMesh whole = cube(40.0);
+  for (const Triangle& t : whole.triangles)
+    for (std::size_t c = 0; c < 3; ++c) {
+      TriangleMesh mesh = whole;
+      split_one_side(mesh, t.at(c), t.at((c + 1) % 3));
+      expect_whole_cube(mesh, 1);
+    }
+}
+
+TEST(OpenBorders, AllEdgesOfACubeAreSplit) {
+  // From low to high in one turn, from high to low in the other: triangles with up to three split
+  // edges.
+  for (const bool upward : {true, false}) {
+    TriangleMesh mesh = cube(40.0);
+    for (const Triangle& t : cube(40.0).triangles)
+      for (std::size_t c = 0; c < 3; ++c)
+        if (const std::uint32_t a = t.at(c), b = t.at((c + 1) % 3); (a < b) == upward)
+          split_one_side(mesh, a, b);
+    expect_whole_cube(mesh, 18);  // 12 edges of the cube and 6 diagonals
+  }
+}
+
+/// A cube of 40 mm whose faces are grids of n x n squares.
+TriangleMesh grid_cube(const std::array<int, 6>& n) {
+  std::map<std::array<double, 3>, std::uint32_t> number;
+  TriangleMesh mesh;
+  const auto vertex = [&](const std::array<double, 3>& p) {
+    const auto next = static_cast<std::uint32_t>(mesh.points.size());
+    const auto [at, fresh] = number.emplace(p, next);
+    if (fresh) mesh.points.emplace_back(p[0], p[1], p[2]);
+    return at->second;
+  };
+  for (std::size_t face = 0; face < 6; ++face) {
+    const std::size_t axis = face / 2;
+    const auto corner = [&](int i, int j) {
+      std::array<double, 3> p{};
+      p.at(axis) = face % 2 == 0 ? 0.0 : 40.0;
+      p.at((axis + 1) % 3) = 40.0 * i / n.at(face);
+      p.at((axis + 2) % 3) = 40.0 * j / n.at(face);
+      return vertex(p);
+    };
+    for (int i = 0; i < n.at(face); ++i)
+      for (int j = 0; j < n.at(face); ++j) {
+        const std::uint32_t a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
+                            d = corner(i, j + 1);
+        mesh.triangles.push_back(face % 2 == 0 ? Triangle{c, b, a} : Triangle{a, b, c});
+        mesh.triangles.push_back(face % 2 == 0 ? Triangle{d, c, a} : Triangle{a, c, d});
+      }
+  }
+  return mesh;
+}
+
+/// Each edge of the cube belongs to two faces: each is split at the other one's vertices.
+std::size_t splits_of(const std::array<int, 6>& n) {
+  std::size_t splits = 0;
+  for (std::size_t f = 0; f < 6; ++f)
+    for (std::size_t g = f + 1; g < 6; ++g) {
+      if (f / 2 == g / 2) continue;
+      for (const auto& [fine, coarse] : {std::pair(n.at(f), n.at(g)), std::pair(n.at(g), n.at(f))})
+        for (int i = 1; i < fine; ++i) splits += i * coarse % fine == 0 ? 0U : 1U;
+    }
+  return splits;
+}
+
+TEST(OpenBorders, AFinerGridOnAFaceIsJoined) {
+  // By the edges of the sixth face: four, each with n - 1 vertices of the finer grid.
+  EXPECT_EQ(splits_of({1, 1, 1, 1, 1, 4}), 12U);
+  // The second turn puts the edges across the axes, so that rounding moves vertices off them.
+  const glm::dmat3 turn =
+      glm::dmat3(2.0, 2.0, -1.0, -1.0, 2.0, 2.0, 2.0, -1.0, 2.0) / 3.0;  // about (1, 1, 1)
+  for (const glm::dmat3& by : {glm::dmat3(1.0), turn})
+    for (const std::array<int, 6>& n :
+         {std::array{1, 1, 1, 1, 1, 2}, std::array{1, 1, 1, 1, 1, 4}, std::array{2, 2, 2, 2, 2, 4},
+          std::array{1, 2, 3, 4, 5, 6}, std::array{1, 1, 60, 1, 1, 1}}) {
+      TriangleMesh mesh = grid_cube(n);
+      for (glm::dvec3& p : mesh.points) p = by * p;
+      round_to_file(mesh.points);
+      const auto result = repair_mesh(mesh);
+      ASSERT_TRUE(result) << n[5] << ": " << result.error().message;
+      EXPECT_TRUE(check_mesh(result->mesh).sound());
+      EXPECT_TRUE(result->holes.empty());
+      EXPECT_EQ(count_of(*result, kSplit), splits_of(n));
+      // Coordinates up to 67 mm are rounded by at most 2^-18 mm, the surface has 9,600 mm2.
+      EXPECT_NEAR(signed_volume(result->mesh), 64'000.0, 9'600.0 * std::sqrt(3.0) * 0x1p-18);
+    }
+}
+
+TEST(OpenBorders, AVertexFarFromTheEdgeIsKept) {
+  // By 0.04 mm, a thousandth of the edge: the slit is filled, and no point moves.
+  TriangleMesh mesh = cube(40.0);
+  split_one_side(mesh, 0, 1);
+  mesh.points.back().y = -0.04;
+  const auto result = repair_mesh(mesh);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(count_of(*result, kSplit), 0U);
+  EXPECT_EQ(count_of(*result, "hole filled"), 1U);
+}
+
+/// Whether the triangles have exactly one vertex in common.
+bool share_a_vertex_only(const Triangle& t, const Triangle& u) {
+  return std::count_if(t.begin(), t.end(), [&](std::uint32_t v) {
+           return std::find(u.begin(), u.end(), v) != u.end();
+         }) == 1;
+}
+
+TEST(OpenBorders, HolesThatTouchInAVertexAreFilledEachByItself) {
+  const TriangleMesh whole = ball(20.0);
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < whole.triangles.size(); i += 7)
+    for (std::size_t j = i + 1; j < whole.triangles.size(); ++j) {
+      if (!share_a_vertex_only(whole.triangles[i], whole.triangles[j])) continue;
+      ++pairs;
+      TriangleMesh mesh = whole;
+      mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(j));
+      mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(i));
+      const auto result = repair_mesh(mesh);
+      ASSERT_TRUE(result) << i << ", " << j << ": " << result.error().message;
+      EXPECT_TRUE(check_mesh(result->mesh).sound()) << i << ", " << j;
+      ASSERT_EQ(result->holes.size(), 2U) << i << ", " << j;
+      for (const FilledHole& hole : result->holes) EXPECT_EQ(hole.edges, 3U);
+      EXPECT_EQ(result->repaired.size(), 1U) << i << ", " << j;
+      EXPECT_EQ(result->mesh.triangles.size(), whole.triangles.size());
+      // The points were rounded, by at most 2^-20 mm up to 20 mm.
+      EXPECT_NEAR(signed_volume(result->mesh), signed_volume(whole),
+                  4.0 * 3.15 * 400.0 * std::sqrt(3.0) * 0x1p-20);
+    }
+  EXPECT_GT(pairs, 50U);
+}
+
+}  // namespace
+}  // namespace clay::solid
