@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace clay::chart {
@@ -115,7 +116,9 @@ AxisScale Extent::scale(double margin) const {
   const AxisScale tight(logarithmic, low, high);
   if (logarithmic) {
     const double factor = std::pow(tight.high() / tight.low(), margin);
-    return {true, tight.low() / factor, tight.high() * factor};
+    // A margin beyond the largest number, or down to 0, would be no range.
+    return {true, std::max(tight.low() / factor, std::numeric_limits<double>::min()),
+            std::min(tight.high() * factor, std::numeric_limits<double>::max())};
   }
   const double room = margin * (tight.high() - tight.low());
   return {false, tight.low() - room, tight.high() + room};

@@ -37,6 +37,16 @@ TEST(PlotAxis, LinearTicksAreRound) {
             (std::vector<std::string>{"-0.3", "-0.2", "-0.1", "0", "0.1", "0.2", "0.3"}));
 }
 
+TEST(PlotAxis, TheMarginOfTheLargestNumbersIsFinite) {
+  Extent extent{.logarithmic = true};
+  extent.add(std::vector{1e-307, 1e308});
+  const AxisScale axis = extent.scale(0.1);
+  EXPECT_TRUE(std::isfinite(axis.high()));
+  EXPECT_GT(axis.low(), 0.0);
+  for (const Tick& tick : axis.ticks()) EXPECT_TRUE(std::isfinite(tick.value));
+  EXPECT_GE(axis.ticks().size(), 2u);
+}
+
 TEST(PlotAxis, LabelsDecadesOnly) {
   EXPECT_EQ(labels({true, 0.9, 1100.0}), (std::vector<std::string>{"1", "10", "100", "1000"}));
   EXPECT_EQ(labels({true, 1e-9, 1e-5}),
