@@ -66,3 +66,10 @@ function(claystack_room component room)
   target_link_libraries(${target} PRIVATE ${arg_LIBRARIES})
   target_sources(claystack_${component} PRIVATE $<TARGET_OBJECTS:${target}>)
 endfunction()
+
+# claystack_leak_rules(PROGRAM): with the address sanitizer, what system libraries keep is no leak.
+function(claystack_leak_rules target)
+  if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=address")
+    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/leak_rules.cpp)
+  endif()
+endfunction()

@@ -90,6 +90,7 @@ std::vector<Tick> AxisScale::decade_ticks() const {
     for (int factor = 1; factor < 10; ++factor) {
       const double value = factor * std::pow(10.0, power);
       if (value < low_ * (1.0 - kSlack) || value > high_ * (1.0 + kSlack)) continue;
+      if (!std::isfinite(value)) continue;
       const bool labelled =
           factor == 1 ? power % every == 0 : decades < kFewDecades && (factor == 2 || factor == 5);
       if (!labelled && (factor != 1 && every > 1)) continue;
