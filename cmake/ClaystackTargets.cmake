@@ -69,7 +69,11 @@ endfunction()
 
 # claystack_leak_rules(PROGRAM): with the address sanitizer, what system libraries keep is no leak.
 function(claystack_leak_rules target)
-  if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=address")
-    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/leak_rules.cpp)
+  if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize=address")
+    return()
   endif()
+  if(NOT TARGET claystack_leak_rule_objects)
+    add_library(claystack_leak_rule_objects OBJECT ${PROJECT_SOURCE_DIR}/tests/support/leak_rules.cpp)
+  endif()
+  target_sources(${target} PRIVATE $<TARGET_OBJECTS:claystack_leak_rule_objects>)
 endfunction()
