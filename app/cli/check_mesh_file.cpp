@@ -110,8 +110,8 @@ Result<WrittenMesh> encoded(const TriangleMesh& mesh, MeshFormat format, const s
     contents.draco.min_bits += kBitsStep;
     if (!on_grid || contents.draco.min_bits > kMostBits)
       return failure(ErrorKind::unsound,
-                     "a sound mesh that is not sound any more when it is "
-                     "written as " +
+                     "expected a file as sound as the mesh, found faults after rounding to the "
+                     "numbers of " +
                          std::string(name_of(format)));
   }
 }
