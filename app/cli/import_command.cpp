@@ -55,7 +55,13 @@ Result<void> set_axis(ImportOptions& options) {
 /// Each with the file or option that it is about; the notes of the section first.
 std::vector<std::string> warnings_about(const ImportOptions& options, const HalfSection& section,
                                         const DrawnPot& drawn) {
+  constexpr double kLowestMm = 5.0, kHighestMm = 1000.0;
   std::vector<std::string> warnings = section.notes;
+  if (section.height_mm < kLowestMm || section.height_mm > kHighestMm)
+    warnings.push_back(
+        fmt::format("{}: the pot is {:.3g} mm high; if the drawing has another unit, --height MM "
+                    "sets the height",
+                    options.drawing, section.height_mm));
   if (!options.pot_settings.ring_height_mm && drawn.deviation.mm > kDrawnDeviationMm)
     warnings.push_back(fmt::format(
         "{}: expected rings within {:g} mm of the drawing, found {:.3f} mm; rings lower than {:g} "

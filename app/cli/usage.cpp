@@ -105,12 +105,12 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const std::string_view text = error.what();
   switch (static_cast<CLI::ExitCodes>(error.get_exit_code())) {
     case CLI::ExitCodes::RequiredError:
-      if (app.get_require_subcommand_min() > 0 && app.get_subcommands().empty())
-        return "expected a command, found none";
       // A typo in a required option leaves it unset, and so does a file whose name begins with a
       // dash.
       if (const auto word = unknown_word(command_of(app)); word.starts_with('-'))
         return unknown_argument(command_of(app), word);
+      if (app.get_require_subcommand_min() > 0 && app.get_subcommands().empty())
+        return "expected a command, found none";
       return fmt::format("expected {}, found none", before(text, " is required"));
     case CLI::ExitCodes::ExtrasError:
       return unknown_argument(command_of(app), unknown_word(command_of(app)));

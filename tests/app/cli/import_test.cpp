@@ -65,6 +65,17 @@ TEST(Import, BoundsTheTextThatItQuotes) {
   EXPECT_LT(run.err.size(), 1000u);
 }
 
+TEST(Import, WarnsOfADrawingInAnotherUnit) {
+  const ScratchFolder folder;
+  const std::string drawing = folder.file("cup.csv"), pot = folder.file("cup.pot.json");
+  write_text(drawing, "radius,height\n0.03,0\n0.04,0.1\n");  // metres
+  const Ran run = claystack("import " + drawing + " -o " + pot);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.err.find("the pot is 0.1 mm high"), std::string::npos) << run.err;
+  const Ran asked = claystack("import " + drawing + " --height 100 --wall 5 -o " + pot);
+  EXPECT_EQ(asked.err.find("mm high;"), std::string::npos) << asked.err;
+}
+
 TEST(Import, AcceptsNamesInUpperCase) {
   const ScratchFolder folder;
   const std::string json = folder.file("JUG.POT.JSON"), cbor = folder.file("JUG.POT.CBOR");

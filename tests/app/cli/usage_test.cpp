@@ -99,6 +99,7 @@ TEST(Usage, ErrorsNameTheOptionTheExpectedAndTheFound) {
     const char* arguments;
     const char* message;
   } cases[] = {
+      {"--versoin", "unknown option --versoin; did you mean --version?"},
       {"", "expected a command, found none\nrun claystack --help for usage\n"},
       {"export", "expected pot, found none\nrun claystack export --help for usage\n"},
       {"import a.svg", "expected --output, found none"},
@@ -112,7 +113,7 @@ TEST(Usage, ErrorsNameTheOptionTheExpectedAndTheFound) {
       {"export a b --glaze-allowance 1.1cm",
        "--glaze-allowance: expected a length from 0 to 10 mm (mm, cm, in), found 1.1cm\n"},
       {"export a b --foot 60mmx6ftx4mm", "such as 60x6x4 or 6mmx4mm, found 60mmx6ftx4mm\n"},
-      {"throw a --at one", "--at: expected a number, found one"},
+      {"throw a --at one", "--at: expected a whole number from 0 to 4294967295, found one"},
       {"throw a b", "unexpected argument b\n"},
       {"check a --jsn", "unknown option --jsn; did you mean --json?\n"},
       {"check a --memory lots", "--memory: expected at least 8MiB, "},
