@@ -111,7 +111,10 @@ class Parts {
       if (hit && hit->from_back) inside.emplace_back(root, mesh_.triangles[hit->triangle][0]);
       if ((steps += ray.steps()) > kMostRaySteps) return false;
     }
-    for (const auto& [root, around] : inside) sets_.unite(root, around);
+    for (const auto& [root, around] : inside) {
+      if (sets_.of(root) != sets_.of(around)) --count_;
+      sets_.unite(root, around);
+    }
     find_extremes();
     return true;
   }
@@ -130,7 +133,7 @@ class Parts {
   DisjointSets sets_;
   std::vector<std::uint32_t> lowest_;  ///< point, by set
   std::vector<std::uint32_t> roots_;
-  std::size_t count_ = 0;  ///< before contact joined them
+  std::size_t count_ = 0;  ///< before contact joined them; a cavity is none
   double bed_mm_ = std::numeric_limits<double>::infinity();
 };
 
