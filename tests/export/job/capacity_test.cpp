@@ -210,7 +210,8 @@ TEST(Goal, IsRefusedWithTheReason) {
   EXPECT_EQ(has(why(vase, of([](Goal& g) { g.holds_ml = 350.0, g.fired = true; })),
                 "expected a shrinkage"),
             "");
-  EXPECT_EQ(has(why(vase, of([](Goal& g) { g.height_mm = 1e7; })), "within 50 times"), "");
+  EXPECT_EQ(has(why(vase, of([](Goal& g) { g.height_mm = 1e7; })), "change by at most 50 times"),
+            "");
   // Beyond 64 bits, in quanta.
   const Pot disc = pot_of(shapes::stack_of(10.0, {{1000, 0}}));
   EXPECT_EQ(has(why(disc, of([](Goal& g) { g.diameter_mm = 25'000.0; })),
