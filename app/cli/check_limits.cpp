@@ -95,7 +95,7 @@ Result<PrintedBody> printed_body(const TriangleMesh& mesh, const CheckCommand& c
   PrintedBody body{&mesh, {}, {}};
   const solid::MeshReport& report = verdict.mesh;
   if (report.closed && !report.oriented) {
-    body.unknown = "faces point into the clay; check the result of --repair";
+    body.unknown = "some or all faces point into the clay; check the result of --repair";
     return body;
   }
   const bool nested =
@@ -137,7 +137,7 @@ void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckC
     if (!fits) return;
   }
   if (process->overhang && verdict.mesh.closed && !verdict.mesh.oriented) {
-    passed += ", overhangs not measured: faces point into the clay";
+    passed += ", overhangs not measured: some or all faces point into the clay";
   } else if (const auto& most = process->overhang) {
     const Undersides steep = undersides_of(body.mesh(), most->max_deg);
     constexpr double kLeastMm2 = 4.0;  // smaller ones need no support

@@ -247,10 +247,17 @@ Json verdict_json(const std::string& file, const Verdict& verdict, bool accept_p
 
 namespace {
 
+/// "open edge (3): triangle 12 at (1, 2, 3) mm".
+std::string problem_text(const solid::MeshProblem& problem) {
+  return fmt::format("{} ({}{}): {}", problem.what,
+                     problem.count == kCountingStops ? "at least " : "", problem.count,
+                     problem.where);
+}
+
 /// With --quiet: what is wrong, on standard error.
 void print_faults(const Console& console, const std::string& file, const Verdict& verdict) {
   for (const auto& problem : verdict.mesh.problems)
-    console.error(fmt::format("{}: {} ({}): {}", file, problem.what, problem.count, problem.where));
+    console.error(file + ": " + problem_text(problem));
   for (const auto& [check, grade, text] : verdict.findings) {
     const std::string line = fmt::format("{}: {}: {}", file, check, text);
     if (grade == Grade::fail) console.error(line);
@@ -270,9 +277,7 @@ void print_verdict(const Console& console, const std::string& file, const Verdic
                              : fmt::format("{}: {}", file, found));
   if (was_repaired) print_repair(console, *verdict.repair_summary, verdict);
   for (const auto& problem : mesh.problems)
-    console.print(fmt::format("  {}{} ({}{}): {}", was_repaired ? "remaining: " : "", problem.what,
-                              problem.count == kCountingStops ? "at least " : "", problem.count,
-                              problem.where));
+    console.print((was_repaired ? "  remaining: " : "  ") + problem_text(problem));
   const auto yes = [](bool value) { return value ? "yes" : "no"; };
   if (verdict.examined) {
     console.print(fmt::format(

@@ -2,6 +2,7 @@
 
 #include "claystack/export/proof.hpp"
 #include "export/formats/file_floats.hpp"
+#include "tests/export/repair/repair_counts.hpp"
 #include "tests/export/solid/mesh_surface.hpp"
 #include "tests/export/solid/shapes.hpp"
 
@@ -24,12 +25,6 @@ using shapes::inverted;
 using shapes::moved;
 using shapes::surface_mm2;
 using shapes::together;
-
-std::size_t times(const RepairedMesh& result, const std::string& what) {
-  for (const Repair& repair : result.repaired)
-    if (repair.what == what) return repair.count;
-  return 0;
-}
 
 std::string names(const RepairedMesh& result) {
   std::string all;

@@ -3,6 +3,7 @@
 #include "claystack/export/proof.hpp"
 #include "claystack/export/repair.hpp"
 #include "export/formats/file_floats.hpp"
+#include "tests/export/repair/repair_counts.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -20,12 +21,6 @@ namespace {
 
 using shapes::ball;
 using shapes::cube;
-
-std::size_t count_of(const RepairedMesh& result, const std::string& what) {
-  for (const Repair& repair : result.repaired)
-    if (repair.what == what) return repair.count;
-  return 0;
-}
 
 constexpr const char* kSplit = "edge split at a vertex on it";
 
@@ -50,7 +45,7 @@ void expect_whole_cube(const TriangleMesh& broken, std::size_t splits) {
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_TRUE(check_mesh(result->mesh).sound());
   EXPECT_EQ(signed_volume(result->mesh), 64'000.0);  // all coordinates are small integers
-  EXPECT_EQ(count_of(*result, kSplit), splits);
+  EXPECT_EQ(times(*result, kSplit), splits);
   EXPECT_EQ(result->repaired.size(), 1U);
   EXPECT_EQ(result->mesh.points.size(), broken.points.size());
   EXPECT_EQ(result->mesh.triangles.size(), broken.triangles.size() + splits);
@@ -139,7 +134,7 @@ TEST(OpenBorders, AFinerGridOnAFaceIsJoined) {
       ASSERT_TRUE(result) << n[5] << ": " << result.error().message;
       EXPECT_TRUE(check_mesh(result->mesh).sound());
       EXPECT_TRUE(result->holes.empty());
-      EXPECT_EQ(count_of(*result, kSplit), splits_of(n));
+      EXPECT_EQ(times(*result, kSplit), splits_of(n));
       // Coordinates up to 67 mm are rounded by at most 2^-18 mm, the surface has 9,600 mm2.
       EXPECT_NEAR(signed_volume(result->mesh), 64'000.0, 9'600.0 * std::sqrt(3.0) * 0x1p-18);
     }
@@ -152,8 +147,8 @@ TEST(OpenBorders, AVertexFarFromTheEdgeIsKept) {
   mesh.points.back().y = -0.04;
   const auto result = repair_mesh(mesh);
   ASSERT_TRUE(result) << result.error().message;
-  EXPECT_EQ(count_of(*result, kSplit), 0U);
-  EXPECT_EQ(count_of(*result, "hole filled"), 1U);
+  EXPECT_EQ(times(*result, kSplit), 0U);
+  EXPECT_EQ(times(*result, "hole filled"), 1U);
 }
 
 /// Whether the triangles have exactly one vertex in common.
