@@ -133,13 +133,9 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
 
 Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
   assert(!prepared_);
-  while (!bytes.empty()) {
-    const auto count =
-        uninterrupted([&] { return ::write(descriptor_, bytes.data(), bytes.size()); });
-    if (count < 0) return give_up("cannot write");
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
-    written_ += static_cast<std::uint64_t>(count);
-  }
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (!write_all(descriptor_, text)) return give_up("cannot write");
+  written_ += bytes.size();
   begin_writeback();
   return {};
 }
@@ -206,6 +202,7 @@ Result<void> AtomicFile::keep_old() {
       target_, [&](const char* fresh) { return ::link(target_.c_str(), fresh); });
   if (result == -1) old = copy_beside(target_);  // for file systems without links, such as FAT
   if (old.empty()) return give_up("cannot keep the old file");
+  old.lock();
   old_ = std::make_unique<TemporaryName>(std::move(old));
   return {};
 }

@@ -93,12 +93,7 @@ bool copy_bytes(int from, int to) {
   for (;;) {
     const auto count = uninterrupted([&] { return ::read(from, chunk.data(), chunk.size()); });
     if (count <= 0) return count == 0;
-    for (ssize_t done = 0; done < count;) {
-      const auto more = uninterrupted(
-          [&] { return ::write(to, chunk.data() + done, static_cast<std::size_t>(count - done)); });
-      if (more < 0) return false;
-      done += more;
-    }
+    if (!write_all(to, {chunk.data(), static_cast<std::size_t>(count)})) return false;
   }
 }
 
@@ -110,6 +105,7 @@ TemporaryName& TemporaryName::operator=(TemporaryName&& other) noexcept {
   remove();
   path_ = std::exchange(other.path_, {});
   slot_ = std::exchange(other.slot_, -1);
+  locked_ = std::exchange(other.locked_, -1);
   return *this;
 }
 
@@ -125,7 +121,13 @@ std::pair<int, TemporaryName> TemporaryName::take(const fs::path& target, const 
   return {-1, TemporaryName()};
 }
 
+void TemporaryName::lock() noexcept {
+  locked_ = open_retrying(path_, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY);
+  if (locked_ != -1) (void)::flock(locked_, LOCK_SH | LOCK_NB);
+}
+
 void TemporaryName::release() noexcept {
+  if (locked_ != -1) ::close(std::exchange(locked_, -1));
   leave(std::exchange(slot_, -1));
   path_.clear();
 }

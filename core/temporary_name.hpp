@@ -29,6 +29,8 @@ class TemporaryName {
 
   [[nodiscard]] bool empty() const noexcept { return path_.empty(); }
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+  /// Locks the file, for one that no writer has open. Where that fails, the name stays unlocked.
+  void lock() noexcept;
   /// Call when the file has lost this name, or will keep it.
   void release() noexcept;
   void remove() noexcept;
@@ -37,7 +39,8 @@ class TemporaryName {
   explicit TemporaryName(std::filesystem::path path);
 
   std::filesystem::path path_;
-  int slot_ = -1;  ///< index in the list that the signal handler reads
+  int slot_ = -1;    ///< index in the list that the signal handler reads
+  int locked_ = -1;  ///< descriptor of the locked file
 };
 
 /// Opens a new file under a temporary name for reading and writing, and locks it.

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <thread>
+#include <utility>
 
 namespace clay::cli {
 namespace {
@@ -41,20 +42,38 @@ LiveKeys::~LiveKeys() {
 }
 
 void LiveKeys::serve(servo::LiveThrow& live, std::chrono::milliseconds time) {
-  if (!on_) return std::this_thread::sleep_for(time);
+  for (const char key : std::exchange(kept_, {})) press(key, live);
+  const auto key = key_within(time);
+  if (!key) return;
+  // A servo that has just ended takes no commands; the next one may.
+  if (live.running())
+    press(*key, live);
+  else
+    kept_ += *key;
+}
+
+bool LiveKeys::wait(std::chrono::milliseconds time) {
+  if (kept_.find('q') != std::string::npos) return false;
+  const auto key = key_within(time);
+  if (key == 'q') return false;
+  if (key) kept_ += *key;
+  return true;
+}
+
+std::optional<char> LiveKeys::key_within(std::chrono::milliseconds time) {
   pollfd input{STDIN_FILENO, POLLIN, 0};
-  if (poll(&input, 1, static_cast<int>(time.count())) <= 0) return;
+  if (on_ && poll(&input, 1, static_cast<int>(time.count())) <= 0) return std::nullopt;
   char key = 0;
-  if (read(STDIN_FILENO, &key, 1) == 1) return press(key, live);
-  std::this_thread::sleep_for(time);  // the terminal was closed
+  if (on_ && read(STDIN_FILENO, &key, 1) == 1) return key;
+  std::this_thread::sleep_for(time);  // no terminal, or it was closed
+  return std::nullopt;
 }
 
 void LiveKeys::press(char key, servo::LiveThrow& live) {
   using servo::CommandKind;
   switch (key) {
     case ' ':
-      paused_ = !paused_;
-      live.command({CommandKind::pause, paused_ ? 1.0 : 0.0});
+      live.command({CommandKind::pause, live.status().paused ? 0.0 : 1.0});
       break;
     case 'z':
       live.command({CommandKind::zero, 0.0});

@@ -5,6 +5,8 @@
 #include "claystack/servo/servo.hpp"
 
 #include <chrono>
+#include <optional>
+#include <string>
 
 namespace clay::cli {
 
@@ -21,14 +23,19 @@ class LiveKeys {
   /// Whether keys are available.
   [[nodiscard]] bool on() const noexcept { return on_; }
 
-  /// Passes keys to the servo for the given time, or until a signal arrives.
+  /// Passes keys to the servo for the given time, or until a signal arrives; first those of wait().
   void serve(servo::LiveThrow& live, std::chrono::milliseconds time);
+  /// Waits for the given time, or until a key is pressed or a signal arrives, while no servo runs.
+  /// False: q was pressed. Other keys are kept for serve().
+  bool wait(std::chrono::milliseconds time);
 
  private:
-  void press(char key, servo::LiveThrow& live);
+  /// Empty: no key was pressed.
+  std::optional<char> key_within(std::chrono::milliseconds time);
+  static void press(char key, servo::LiveThrow& live);
 
   bool on_ = false;
-  bool paused_ = false;
+  std::string kept_;
 };
 
 /// Help text for the user.

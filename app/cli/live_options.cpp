@@ -95,6 +95,8 @@ Error by_option(Error error) {
       {"seconds", "--seconds"},
       {"patience_s", "--patience"},
       {"gap_mm", "--gap"},
+      {"damping_ns_per_mm", "--damping"},
+      {"delay_ticks", "--delay"},
       {"scale", "--scale"},
       {"force_gain", "--force-gain"},
       {"reach_mm", "--reach"},

@@ -24,7 +24,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <thread>
 
 namespace clay::cli {
 namespace {
@@ -163,9 +162,8 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
   return {};
 }
 
-/// Shows the servo's state until it ends.
-void watch(servo::LiveThrow& live, LiveKeys& keys, StatusLine& line) {
-  std::uint64_t ticks = 0;
+/// Shows the servo's state until it ends. `ticks`: of the servo before it was started.
+void watch(servo::LiveThrow& live, std::uint64_t ticks, LiveKeys& keys, StatusLine& line) {
   auto since = std::chrono::steady_clock::now();
   double rate_hz = 0.0;
   while (live.running()) {
@@ -181,13 +179,24 @@ void watch(servo::LiveThrow& live, LiveKeys& keys, StatusLine& line) {
   }
 }
 
-/// Tries to reopen the device until it succeeds or a signal arrives.
-bool comes_back(falcon::HapticDevice& device) {
+/// Tries to reopen the device until it succeeds (`none`), until a signal or the key q ends the
+/// wait, or until a fault that no wait ends. Reports each fault but that of a device that is not
+/// there.
+Ending comes_back(falcon::HapticDevice& device, LiveKeys& keys, const Console& console) {
+  using falcon::DeviceFault;
+  auto reported = DeviceFault::unplugged;
   while (servo::ForceSignals::asked_to_stop() == 0) {
-    if (device.open()) return true;
-    std::this_thread::sleep_for(kReopen);
+    const auto opened = device.open();
+    if (opened) return Ending::none;
+    const DeviceFault fault = opened.error().fault;
+    if (fault == DeviceFault::bad_firmware || fault == DeviceFault::bad_setting)
+      return Ending::device_lost;
+    const bool absent = fault == DeviceFault::unplugged || fault == DeviceFault::not_found;
+    if (!absent && fault != reported) console.warn(opened.error().message + "; still waiting");
+    reported = fault;
+    if (!keys.wait(kReopen)) break;
   }
-  return false;
+  return Ending::stopped;
 }
 
 /// Ends with zero force. Use within the scope of a servo::ForceSignals.
@@ -196,16 +205,18 @@ Result<Ending> run(Stage& stage, const LiveOptions& options, const Console& cons
   if (keys.on()) console.print(kKeysInWords);
   StatusLine line(console);
   for (;;) {
+    const std::uint64_t ticks = stage.live->status().ticks;
     if (auto started = stage.live->start(); !started) return tl::make_unexpected(started.error());
     // An earlier signal found no servo to stop.
     if (servo::ForceSignals::asked_to_stop() != 0)
       stage.live->command({servo::CommandKind::stop, 0.0});
-    watch(*stage.live, keys, line);
+    watch(*stage.live, ticks, keys, line);
     const Ending ending = stage.live->join();
     if (ending != Ending::device_lost || !options.wait) return ending;
     line.clear();
     console.warn(stage.device->problem().message + "; waiting for it");
-    if (!comes_back(*stage.device)) return Ending::stopped;
+    if (const Ending end = comes_back(*stage.device, keys, console); end != Ending::none)
+      return end;
   }
 }
 
@@ -228,11 +239,14 @@ struct Kept {
 
 Result<void> keep_session(const LiveOptions& options, const Console& console, Stage& stage) {
   auto kept = stage.live->finish_recording();
-  if (const auto lost = stage.live->recorded().lost; kept && lost > 0)
-    console.warn(
-        fmt::format("{}: the disk was too slow: the last {} poses are missing, and the session "
-                    "replays to the pot before them",
-                    options.record, lost));
+  const servo::Recorded recorded = stage.live->recorded();
+  if (kept && recorded.lost > 0)
+    console.warn(fmt::format(
+        "{}: {}: the last {} poses are missing, and the session replays to the pot before them",
+        options.record,
+        recorded.poses < kMaxPoses ? std::string("the disk was too slow")
+                                   : fmt::format("a session holds at most {} poses", kMaxPoses),
+        recorded.lost));
   return kept;
 }
 
@@ -250,8 +264,16 @@ Result<void> keep_pot(const LiveJob& job, Stage& stage, const Pot& pot) {
                    : "; the pot could not be saved elsewhere either: " + rescued.error().message));
 }
 
-/// The first error: files that were not kept, the device, or a throw without a pose.
-Result<void> outcome_of(Stage& stage, Ending ending, const Kept& kept, const Console& console) {
+/// The first error: the servo, files that were not kept, the device, or a throw without a pose.
+/// Prints other errors of files.
+Result<void> outcome_of(Stage& stage, const Result<Ending>& ended, const Kept& kept,
+                        const Console& console) {
+  if (!ended) {
+    for (const auto* file : {&kept.session, &kept.pot})
+      if (!*file) console.error(file->error().message);
+    return tl::make_unexpected(ended.error());
+  }
+  const Ending ending = *ended;
   if (!kept.session && !kept.pot) console.error(kept.pot.error().message);
   if (auto all = kept.session ? kept.pot : kept.session; !all) return all;
   if (ending == Ending::device_lost) return tl::make_unexpected(stage.device->problem());
@@ -269,6 +291,7 @@ void print_result(const LiveJob& job, const LiveOptions& options, const Console&
                             words_of_name(json["ended"].get<std::string>())));
   print_clay(console, json);
   if (console.verbose) print_servo(console, json["servo"]);
+  if (job.pot_path.empty()) console.print(kPotNotWritten);
   if (!job.pot_path.empty() && kept.pot) console.print("pot: " + job.pot_path);
   if (options.record.empty() || !kept.session) return;
   const bool empty = json["recording"]["poses"].get<std::uint64_t>() == 0;
@@ -281,10 +304,11 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
   if (job.pot_path == "-" || options.record == "-") console.quiet = true;
   Stage stage;
   if (auto built = build(job, options, console, stage); !built) return built;
+  if (job.pot_path.empty() && options.record.empty())
+    console.warn("neither the pot nor the session is kept: -o and --record write them");
   // Until pot and session are saved: a closing terminal may send its signal twice.
   std::optional<servo::ForceSignals> signals(std::in_place);
   const Result<Ending> ended = run(stage, options, console);
-  const Ending ending = ended.value_or(Ending::none);
   const Pot pot = stage.wheel->pot();
   const Kept kept = {keep_session(options, console, stage), keep_pot(job, stage, pot)};
   signals.reset();
@@ -293,15 +317,14 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
   const servo::LiveStatus& status = live.status();
   Json json = {{"scene", stage.scene.name},
                {"device", stage.device->info().name},
-               {"ended", name_of(ending)},
+               {"ended", ended ? name_of(*ended) : "not_started"},
                {"seconds", status.time_s},
                {"poses", status.poses},
                {"frames", frames_json(stage.device->counters())},
                {"recording", recording_json(options, stage)},
                {"servo", servo_json(live.timing(), live.events(), live.realtime())}};
   json.update(clay_json(*stage.wheel, pot));
-  const Result<void> outcome =
-      ended ? outcome_of(stage, ending, kept, console) : tl::make_unexpected(ended.error());
+  const Result<void> outcome = outcome_of(stage, ended, kept, console);
   if (!outcome) json.update(error_json(outcome.error()));
   if (console.json) print_json(json);
   print_result(job, options, console, json, kept);

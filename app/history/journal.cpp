@@ -1,6 +1,7 @@
 #include "app/history/journal.hpp"
 
 #include "claystack/core/atomic_file.hpp"
+#include "core/system_calls.hpp"
 #include "core/user_folder.hpp"
 
 #include <fcntl.h>
@@ -20,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kMostDamaged = 100;
 constexpr auto kSyncEvery = std::chrono::seconds(30);
 
 Error system_error(const fs::path& path, const char* action) {
@@ -35,6 +37,28 @@ std::string stem_of_now() {
   char text[32];
   const std::size_t length = std::strftime(text, sizeof text, "%Y%m%dT%H%M%S", &utc);
   return fmt::format("{}-{}", std::string_view(text, length), getpid());
+}
+
+bool synced(int descriptor) {
+  return uninterrupted([&] { return fsync(descriptor); }) == 0;
+}
+
+/// Copies a journal to NAME.damaged, or NAME.damaged-2 and so on: the first name that is free.
+Result<void> keep_damaged(const fs::path& path) {
+  fs::path copy;
+  std::error_code copied;
+  for (int n = 1; n <= kMostDamaged; ++n) {
+    copy = path.string() + (n == 1 ? ".damaged" : fmt::format(".damaged-{}", n));
+    fs::copy_file(path, copy, copied);
+    if (copied != std::errc::file_exists) break;
+  }
+  if (copied)
+    return failure(ErrorKind::io,
+                   fmt::format("{}: could not write: {}", copy.string(), copied.message()));
+  const Descriptor file(open_retrying(copy, O_RDONLY));
+  if (file.get() == -1 || !synced(file.get()))
+    return tl::make_unexpected(system_error(copy, "sync"));
+  return {};
 }
 
 /// Renames a file to a name that no file has. False: errno has the reason.
@@ -57,7 +81,7 @@ Result<fs::path> give_name(int descriptor, const fs::path& temporary, const fs::
     const fs::path path =
         folder / (twin == 0 ? fmt::format("{}.work", stem) : fmt::format("{}-{}.work", stem, twin));
     if (move_to_new(temporary, path)) {
-      if (fsync(descriptor) != 0) {
+      if (!synced(descriptor)) {
         const Error error = system_error(path, "sync");
         (void)unlink(path.c_str());
         return tl::make_unexpected(error);
@@ -98,6 +122,7 @@ Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs
   if (const auto trouble = journal->trouble()) return given_up(*trouble);
   auto named = give_name(descriptor, temporary, folder, stem);
   if (!named) return given_up(named.error());
+  const std::lock_guard lock(journal->mutex_);
   journal->path_ = std::move(*named);
   return journal;
 }
@@ -117,11 +142,7 @@ Result<std::unique_ptr<Journal>> Journal::take_over(const fs::path& path, WorkRe
       [&](const std::string& text) { return salvage_work(text, path.string()); });
   if (!reading) return tl::make_unexpected(reading.error());
   if (reading->damage) {
-    std::error_code copied;
-    fs::copy_file(path, path.string() + ".damaged", fs::copy_options::overwrite_existing, copied);
-    if (copied)
-      return failure(ErrorKind::io, fmt::format("{}.damaged: could not write: {}", path.string(),
-                                                copied.message()));
+    if (auto kept = keep_damaged(path); !kept) return tl::make_unexpected(kept.error());
   }
   if (ftruncate(descriptor, static_cast<off_t>(reading->sound_bytes)) != 0)
     return tl::make_unexpected(system_error(path, "shorten"));
@@ -142,14 +163,9 @@ Journal::~Journal() {
 
 void Journal::append(std::string_view lines) {
   const std::lock_guard lock(mutex_);
-  while (!lines.empty() && !trouble_) {
-    const auto written = ::write(descriptor_, lines.data(), lines.size());
-    if (written > 0)
-      lines.remove_prefix(static_cast<std::size_t>(written));
-    else if (written == 0 || errno != EINTR)
-      trouble_ = system_error(path_, "write");
-    dirty_ = true;
-  }
+  if (trouble_) return;
+  if (!write_all(descriptor_, lines)) trouble_ = system_error(path_, "write");
+  dirty_ = true;
 }
 
 void Journal::sync_soon() { worker_.wake(); }
@@ -159,8 +175,8 @@ Result<void> Journal::sync() {
     const std::lock_guard lock(mutex_);
     if (trouble_) return tl::make_unexpected(*trouble_);
   }
-  if (fsync(descriptor_) != 0) return tl::make_unexpected(system_error(path_, "sync"));
-  return {};
+  if (synced(descriptor_)) return {};
+  return tl::make_unexpected(system_error(path_, "sync"));
 }
 
 void Journal::discard() {
@@ -180,10 +196,11 @@ void Journal::sync_changes() {
     const std::lock_guard lock(mutex_);
     if (!std::exchange(dirty_, false)) return;
   }
-  if (fsync(descriptor_) == 0) return;
-  const Error error = system_error(path_, "sync");
+  if (synced(descriptor_)) return;
+  const int reason = errno;
   const std::lock_guard lock(mutex_);
-  if (!trouble_) trouble_ = error;
+  errno = reason;
+  if (!trouble_) trouble_ = system_error(path_, "sync");
 }
 
 }  // namespace clay::history

@@ -54,7 +54,7 @@ class Journal {
 
   std::filesystem::path path_;
   int descriptor_;
-  mutable std::mutex mutex_;  // protects the next two members
+  mutable std::mutex mutex_;  // protects the next two members, and path_ until begin() has ended
   std::optional<Error> trouble_;
   bool dirty_ = false;
   PeriodicWorker worker_;  // last: it uses all members above

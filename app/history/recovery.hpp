@@ -28,7 +28,8 @@ struct Recoverable {
 std::vector<Recoverable> recoverable(const std::filesystem::path& folder = recovery_folder());
 
 /// The work, which continues the same journal. A stroke that was being recorded is included, except
-/// for its last 100 ms. A journal with a damaged line is kept beside it as NAME.damaged.
+/// for its last 100 ms. A journal with a damaged line is kept beside it as NAME.damaged
+/// (NAME.damaged-2 and so on, if there is one).
 Result<Work> recover(const std::filesystem::path& path);
 /// Removes it. An error while its program runs.
 Result<void> discard(const std::filesystem::path& path);

@@ -49,7 +49,12 @@ Result<void> check(const LiveSettings& settings) {
       })
       .and_then([&] { return check_range("seconds", settings.seconds, 0.0, 1e6); })
       .and_then([&] { return check_range("patience_s", settings.patience_s, 0.0, 1e6); })
-      .and_then([&] { return check_range("gap_mm", settings.gap_mm, 0.0, kWidestGapMm); });
+      .and_then([&] { return check_range("gap_mm", settings.gap_mm, 0.0, kWidestGapMm); })
+      .and_then([&]() -> Result<void> {
+        if (const auto arm = falcon::check(arm_of(settings)); !arm)
+          return tl::make_unexpected(falcon::error_of(arm.error()));
+        return {};
+      });
 }
 
 Result<void> check_stiffness(const SceneSpec& scene, const LiveSettings& settings) {

@@ -1,7 +1,5 @@
 #include "app/servo/mapping.hpp"
 
-#include <fmt/format.h>
-
 #include <glm/geometric.hpp>
 
 namespace clay::servo {
@@ -24,9 +22,7 @@ glm::dvec3 middle_mm(const MappingSettings& settings) {
 
 Result<void> check_range(const char* setting, double value, double low, double high) {
   if (value >= low && value <= high) return {};
-  return failure(
-      ErrorKind::bad_input,
-      fmt::format("{}: expected a value from {:g} to {:g}, found {:g}", setting, low, high, value));
+  return tl::make_unexpected(falcon::error_of({setting, low, high, value}));
 }
 
 Result<Mapping> Mapping::build(const MappingSettings& settings) {

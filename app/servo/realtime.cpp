@@ -50,4 +50,6 @@ Realtime request_realtime(int priority) {
   return realtime;
 }
 
+void unlock_memory() noexcept { munlockall(); }
+
 }  // namespace clay::servo

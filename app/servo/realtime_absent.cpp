@@ -11,4 +11,6 @@ Realtime request_realtime(int) {
   return realtime;
 }
 
+void unlock_memory() noexcept {}
+
 }  // namespace clay::servo

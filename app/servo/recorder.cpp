@@ -23,18 +23,21 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path,
   return recorder;
 }
 
-std::unique_ptr<Recorder> Recorder::create(PoseSink& sink) {
-  std::unique_ptr<Recorder> recorder(new Recorder(sink));
+std::unique_ptr<Recorder> Recorder::create(PoseSink& sink, std::uint64_t most) {
+  std::unique_ptr<Recorder> recorder(new Recorder(sink, most));
   recorder->worker_.emplace([&self = *recorder](bool) { self.hand_on(); }, kPause);
   return recorder;
 }
 
-Recorder::Recorder(PoseSink& sink) : sink_(sink) { block_.reserve(kPosesPerBlock); }
+Recorder::Recorder(PoseSink& sink, std::uint64_t most) : sink_(sink), most_(most) {
+  block_.reserve(kPosesPerBlock);
+}
 
 Recorder::~Recorder() = default;
 
 bool Recorder::take(const Pose& pose, bool contact) noexcept {
-  const bool whole = lost_.load(std::memory_order_relaxed) == 0;
+  const bool whole =
+      lost_.load(std::memory_order_relaxed) == 0 && taken_.load(std::memory_order_relaxed) < most_;
   if (whole && !failed_.load(std::memory_order_relaxed) && queue_.push({pose, contact})) {
     taken_.fetch_add(1, std::memory_order_relaxed);
     return true;

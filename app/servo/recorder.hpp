@@ -26,8 +26,8 @@ class Recorder {
   static Result<std::unique_ptr<Recorder>> create(const std::string& path,
                                                   std::string_view scene_name,
                                                   std::uint64_t scene_hash);
-  /// Records to any sink, which must outlive this object.
-  static std::unique_ptr<Recorder> create(PoseSink& sink);
+  /// Records up to `most` poses to any sink, which must outlive this object.
+  static std::unique_ptr<Recorder> create(PoseSink& sink, std::uint64_t most = kMaxPoses);
   /// Ends the recording. Call finish() first to learn whether it succeeded.
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -42,17 +42,19 @@ class Recorder {
   /// the first error.
   Result<void> finish();
 
-  /// Number of poses not recorded, because the disk was too slow or refused them.
+  /// Number of poses not recorded, because the disk was too slow or refused them, or because the
+  /// session was full.
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_.load(); }
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(); }
 
  private:
-  explicit Recorder(PoseSink& sink);
+  Recorder(PoseSink& sink, std::uint64_t most);
   void hand_on();
 
   static constexpr std::size_t kWaiting = 8192;  // poses: 8 s at 1 kHz
   std::unique_ptr<PoseSink> own_sink_;
   PoseSink& sink_;
+  std::uint64_t most_;
   struct Played {
     Pose pose;
     bool contact;

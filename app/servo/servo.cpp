@@ -26,6 +26,8 @@ Ending Servo::stop() {
 }
 
 Result<void> Servo::start() {
+  if (emergency_stop().is_armed())
+    return failure(ErrorKind::bad_input, "could not start the servo: another one is running");
   running_.store(true);
   emergency_stop().arm(gate_, &stop_device, &bench_.device);
   if (pace_ == Pace::stepped) {
@@ -53,6 +55,7 @@ Ending Servo::join() {
   if (watchdog_.joinable()) {
     watchdog_.join();
     loop_.count_watchdog(watchdog_ends_.load());
+    if (realtime_.memory_locked) unlock_memory();
   }
   return loop_.status().ending;
 }

@@ -18,6 +18,8 @@ inline constexpr int kServoPriority = 70, kWatchdogPriority = 80;
 /// Requests real-time scheduling for the calling thread and locks the current memory of the
 /// process. Failures are reported, never fatal.
 [[nodiscard]] Realtime request_realtime(int priority);
+/// Undoes its locking of memory, for the whole process.
+void unlock_memory() noexcept;
 
 /// For signal handlers: permanently ends the force of the running servo.
 [[nodiscard]] falcon::EmergencyStop& emergency_stop() noexcept;

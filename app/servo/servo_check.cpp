@@ -27,6 +27,10 @@ Error refusal(const SceneSpec& scene, const ServoContact& contact, const falcon:
       per_ring ? *scene.force->paper_stiffness_n_per_mm : scene.force->stiffness_n_per_mm2;
   const char* setting = per_ring ? "force.paper_stiffness_n_per_mm" : "force.stiffness_n_per_mm2";
   const double highest = found * (why.highest_n_per_mm / why.found_n_per_mm);
+  if (highest <= 0.0)
+    return {
+        ErrorKind::bad_input,
+        fmt::format("{}: an arm without damping renders no contact, found {:.6g}", setting, found)};
   return {
       ErrorKind::bad_input,
       fmt::format("{}: expected at most {} for a contact of {:.4g} mm and an arm of {:.4g} N s/mm "

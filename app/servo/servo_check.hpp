@@ -15,7 +15,7 @@ struct ServoContact {
 
 /// The contact that an arm would have to render. `stiffness_gain`: of the mapping between tool and
 /// hand. A pinch has two tools, one on each side of the wall; where one presses deeper the other
-/// presses less, so their stiffnesses add up. Refuses the settings that ServoLoop::check refuses.
+/// presses less, so their stiffnesses add up. Refuses a `loop` out of range.
 Result<ServoContact> servo_contact(const SceneSpec& scene, const StepPlan& plan,
                                    const falcon::SampledLoop& loop, double stiffness_gain = 1.0);
 

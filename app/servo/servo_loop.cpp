@@ -83,6 +83,8 @@ Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& vi
   heartbeat_us.store(now_us, std::memory_order_release);
 
   apply(sample, now_us, commands);
+  status_.clutched = controls_.clutched();
+  status_.paused = controls_.paused();
   follow(sample, now_us);
   send(gate);
   hand_.displayed(guarded_.force_n);
@@ -103,19 +105,15 @@ void ServoLoop::apply(const falcon::DeviceSample& sample, std::int64_t now_us,
                    ready ? sample.grip_mm : std::nullopt);
   const bool was_held = held_, was_clutched = status_.clutched;
   held_ = controls_.clutched() || controls_.paused();
-  if (was_clutched && !controls_.clutched()) mapping_.recentre(sample.position_mm, tool_mm_);
-  if (held_ && !was_held) guard_.pause();
-  if ((was_held && !held_) || (controls_.rearm() && !held_)) {
+  const bool unclutched = was_clutched && !controls_.clutched();
+  // Later, at an accepted sample: this one may be stale, or of a device that is not ready.
+  recentre_ = recentre_ || unclutched;
+  zeroed_ = controls_.zero() || (zeroed_ && !unclutched && !controls_.rearm());
+  if (zeroed_ || (held_ && !was_held)) return guard_.pause();
+  if (!held_ && (was_held || controls_.rearm())) {
     guard_.rearm();
     hand_.reset();
-    zeroed_ = false;
   }
-  if (controls_.zero()) {
-    guard_.pause();
-    zeroed_ = true;
-  }
-  status_.clutched = controls_.clutched();
-  status_.paused = controls_.paused();
 }
 
 /// Moves the tool to the accepted position of the hand and computes the force of the contact.
@@ -132,6 +130,9 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
     return;
   }
   if (!admission.may_deform) return;  // keep the last force; the guard fades it out
+  // A tool that was nowhere yet has no place to keep.
+  if (recentre_ && thrown_) mapping_.recentre(sample.position_mm, tool_mm_);
+  recentre_ = false;
   if (!thrown_) first_us_ = sample.time_us;
   thrown_ = true;
   tool_mm_ = mapping_.to_clay(sample.position_mm);
@@ -147,12 +148,13 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
 }
 
 /// The gate decides about the force: the watchdog may have shut it temporarily, a signal
-/// permanently.
+/// permanently. A gate shut after it was opened here refuses this tick's force, which is older than
+/// the watchdog's zero.
 void ServoLoop::send(falcon::ForceGate& gate) noexcept {
+  if (gate.is_shut() && gate.open()) guard_.was_zeroed();
   const std::int64_t now_us = bench_.clock.now_us();
   guarded_ = guard_.force(now_us, wanted_);
   count_events();
-  if (gate.is_shut()) gate.open();
   if (!gate.enter()) {
     guard_.was_zeroed();
     guarded_.force_n = {};

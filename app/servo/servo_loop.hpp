@@ -99,7 +99,8 @@ class ServoLoop {
   Pacer pacer_;
 
   bool held_ = false;          // clutched or paused: the tool does not touch the clay
-  bool zeroed_ = false;        // the force, by command, until the next rearm
+  bool zeroed_ = false;        // the force, by command, until a rearm or the clutch's release
+  bool recentre_ = false;      // at the next accepted sample: the clutch was released
   bool thrown_ = false;        // a sample was accepted
   std::int64_t first_us_ = 0;  // time of the first accepted sample
   std::int64_t started_ns_ = 0;

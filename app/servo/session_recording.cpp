@@ -2,6 +2,7 @@
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
+#include "core/system_calls.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -103,23 +104,12 @@ Result<void> SessionRecording::clear_aside() {
 }
 
 Result<void> SessionRecording::append(const PoseBlock& block) {
-  const std::span<const Pose> poses = block.poses;
-  if (poses.size() > kMaxPoses - poses_)
-    return failure(ErrorKind::bad_input,
-                   path_ + ": expected at most " + std::to_string(kMaxPoses) +
-                       " poses in one session, found more; the session ends at the limit");
-  poses_ += poses.size();
-  return write(session_block(poses));
+  poses_ += block.poses.size();
+  return write(session_block(block.poses));
 }
 
 Result<void> SessionRecording::write(std::string_view text) {
-  while (!text.empty()) {
-    const auto written = ::write(descriptor_, text.data(), text.size());
-    if (written > 0)
-      text.remove_prefix(static_cast<std::size_t>(written));
-    else if (written == 0 || errno != EINTR)
-      return failed("write");
-  }
+  if (!write_all(descriptor_, text)) return failed("write");
   return {};
 }
 
@@ -128,8 +118,7 @@ Result<void> SessionRecording::finish() {
     discard();
     return {};
   }
-  int synced = 0;
-  while ((synced = fsync(descriptor_)) != 0 && errno == EINTR) continue;
+  const int synced = uninterrupted([&] { return fsync(descriptor_); });
   if (synced != 0 && (!aside_.empty() || errno != EINVAL)) return failed("sync");
   if (aside_.empty()) return {};
   // Renamed while it is still locked, so that no other program treats it as unfinished.

@@ -9,17 +9,17 @@ namespace clay::servo {
 namespace {
 
 constexpr int kStopRequests[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
-// All signals that end the process by default, except those above and SIGKILL.
+// With the real-time signals: all that end the process by default, except those above and SIGKILL.
 constexpr int kEnds[] = {SIGSEGV, SIGBUS,  SIGFPE,    SIGILL,  SIGABRT,   SIGQUIT,
                          SIGTRAP, SIGSYS,  SIGXCPU,   SIGALRM, SIGVTALRM, SIGPROF,
                          SIGUSR1, SIGUSR2, SIGSTKFLT, SIGPOLL, SIGPWR};
 constexpr int kIgnored[] = {SIGTSTP, SIGTTIN, SIGTTOU, SIGXFSZ};
 
-volatile std::sig_atomic_t asked = 0;
-
 using Act = void (*)() noexcept;
+// Handlers run on any thread.
+std::atomic<int> asked{0};
 std::atomic<Act> last_act{nullptr};
-static_assert(std::atomic<Act>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<Act>::is_always_lock_free);
 
 // An alternate stack for the thread of ForceSignals: a handler cannot run on an overflowed stack.
 constexpr std::size_t kStackBytes = 64 * 1024;
@@ -55,8 +55,20 @@ ForceSignals::ForceSignals() {
     sigaction(signal, &action, &before);
     before_.emplace_back(signal, before);
   };
-  for (const int signal : kStopRequests) handle(signal, on_stop_request);
+  const auto action_of = [](int signal) {
+    struct sigaction action {};
+    sigaction(signal, nullptr, &action);
+    return action.sa_handler;
+  };
+  for (const int signal : kStopRequests) {
+    // As nohup requires, and a shell for what it starts in the background.
+    const bool may_be_ignored = signal == SIGHUP || signal == SIGINT;
+    if (!may_be_ignored || action_of(signal) != SIG_IGN) handle(signal, on_stop_request);
+  }
   for (const int signal : kEnds) handle(signal, on_end);
+  // Some libraries handle one of these for their own use.
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal)
+    if (action_of(signal) == SIG_DFL) handle(signal, on_end);
   for (const int signal : kIgnored) handle(signal, SIG_IGN);
 }
 

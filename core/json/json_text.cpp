@@ -1,7 +1,6 @@
 #include "core/json/json_text.hpp"
 
-#include <array>
-#include <charconv>
+#include "core/text.hpp"
 
 namespace clay::inline json {
 namespace {
@@ -49,7 +48,7 @@ void append(std::string& text, const Json& value, std::size_t indent) {
   else if (value.is_array())
     append_array(text, value, indent);
   else if (value.is_number_float())
-    text += shortest(value.get<double>());
+    text += number_text(value.get<double>());
   else if (value.is_number_integer() && !value.is_number_unsigned())
     text += std::to_string(value.get<std::int64_t>());  // most values of a pot; many times faster
   else
@@ -57,12 +56,6 @@ void append(std::string& text, const Json& value, std::size_t indent) {
 }
 
 }  // namespace
-
-std::string shortest(double value) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  return {digits.data(), end};
-}
 
 std::string json_text(const Json& value) {
   std::string text;

@@ -5,9 +5,6 @@
 
 namespace clay::inline json {
 
-/// The shortest digits that read back as the same number.
-std::string shortest(double value);
-
 /// JSON for people: one member per line, numbers ten per row. The same value gives the same bytes
 /// on every platform.
 std::string json_text(const Json& value);

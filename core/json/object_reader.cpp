@@ -1,6 +1,7 @@
 #include "core/json/object_reader.hpp"
 
 #include "core/json/json_text.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 
@@ -43,8 +44,8 @@ std::string found_text(const Json& value) {
 }  // namespace
 
 std::string Range::text() const {
-  return std::string(low_open ? "above " : "from ") + shortest(low) +
-         (high_open ? " to below " : " to ") + shortest(high);
+  return std::string(low_open ? "above " : "from ") + number_text(low) +
+         (high_open ? " to below " : " to ") + number_text(high);
 }
 
 std::string listed(Names names) {

@@ -1,6 +1,6 @@
 #include "engine/files/ring_arrays.hpp"
 
-#include "core/json/json_text.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +60,7 @@ void expect_radii(ObjectReader& reader, std::string_view name, const std::vector
     if (std::abs((*radii_mm)[i] - counted_mm) > kRadiusToleranceMm)
       return reader.expect_element(false, name, i,
                                    "the radius that the count of ring " + std::to_string(i) +
-                                       " gives, " + shortest(counted_mm) + " mm");
+                                       " gives, " + number_text(counted_mm) + " mm");
   }
 }
 

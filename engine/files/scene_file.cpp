@@ -31,7 +31,7 @@ static void describe(auto& io, Is<LumpSpec> auto& lump) {
   io.number("density_g_cm3", lump.density_g_cm3, kDensity);
   io.check([&](ObjectReader& reader) {
     reader.expect(lump.inner_radius_mm < lump.outer_radius_mm, "inner_radius_mm",
-                  "less than outer_radius_mm, " + shortest(lump.outer_radius_mm));
+                  "less than outer_radius_mm, " + number_text(lump.outer_radius_mm));
     reader.expect(lump.max_rings == 0 || lump.max_rings >= lump.rings, "max_rings",
                   "0 or at least rings, " + std::to_string(lump.rings));
   });

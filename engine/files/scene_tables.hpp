@@ -52,7 +52,7 @@ void describe(auto& io, Is<SampledSpec> auto& sampled) {
     reader.expect(sampled.f_mm.size() == t.size(), "f_mm",
                   "as many numbers as t_mm, " + std::to_string(t.size()));
     for (std::size_t i = 1; i < t.size(); ++i)
-      reader.expect_element(t[i] > t[i - 1], "t_mm", i, "more than " + shortest(t[i - 1]));
+      reader.expect_element(t[i] > t[i - 1], "t_mm", i, "more than " + number_text(t[i - 1]));
   });
 }
 

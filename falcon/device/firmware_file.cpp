@@ -1,11 +1,10 @@
 #include "falcon/device/firmware.hpp"
 
-#include <cerrno>
+#include "claystack/core/atomic_file.hpp"
+
 #include <cstdio>
-#include <cstring>
 #include <iterator>
 #include <map>
-#include <memory>
 #include <optional>
 
 namespace clay::falcon::inline device {
@@ -127,18 +126,9 @@ DeviceResult<Firmware> parse_firmware(std::vector<std::uint8_t> bytes, const std
 }
 
 DeviceResult<Firmware> read_firmware(const std::string& path) {
-  const auto refused = [&path](const std::string& found) {
-    return device_failure(DeviceFault::bad_firmware,
-                          path + ": expected a firmware file, found " + found);
-  };
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             &std::fclose);
-  if (!file) return refused(std::strerror(errno));
-  std::vector<std::uint8_t> bytes(kMostBytes + 1);
-  bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
-  if (std::ferror(file.get()) != 0) return refused(std::strerror(errno));
-  if (bytes.size() > kMostBytes) return refused("more than 128 kB");
-  return parse_firmware(std::move(bytes), path);
+  const auto bytes = read_file(path, kMostBytes);
+  if (!bytes) return device_failure(DeviceFault::bad_firmware, bytes.error().message);
+  return parse_firmware({bytes->begin(), bytes->end()}, path);
 }
 
 }  // namespace clay::falcon::inline device

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 
 namespace clay::falcon::inline device {
 namespace {
@@ -22,16 +23,17 @@ class SpaceMouse final : public HapticDevice {
 
   DeviceResult<void> open() override {
     auto opened = check(settings_).and_then([this] { return port_->open(info_.place); });
-    motion_ = RateControl(settings_);
     reports_ = {};
     counters_ = {};
     sample_ = {};
     sample_.state = opened ? DeviceState::ready : DeviceState::closed;
-    if (opened) {
-      light(true);
-    } else {
+    if (!opened) {
       problem_ = opened.error();
+      return opened;
     }
+    // After a lost connection the position stays where it was.
+    if (!std::exchange(lost_, false)) motion_ = RateControl(settings_);
+    light(true);
     return opened;
   }
 
@@ -48,6 +50,7 @@ class SpaceMouse final : public HapticDevice {
         heard_us_ = now_us;
     }
     if (size < 0) {
+      lost_ = true;
       sample_.state = DeviceState::fault;
       return sample_;
     }
@@ -82,6 +85,7 @@ class SpaceMouse final : public HapticDevice {
   DeviceCounters counters_;
   DeviceError problem_;
   std::int64_t heard_us_ = 0;
+  bool lost_ = false;  // the connection, since it was opened
 };
 
 }  // namespace

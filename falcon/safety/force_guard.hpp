@@ -60,7 +60,6 @@ Admission BasicForceGuard<rules>::admit(std::int64_t now_us, const GuardSample& 
   }
   admission.may_deform = admitted_ && cause_ == SafeCause::none &&
                          (frame_age_.at(now_us) < settings_.stale_fade_s || !on(kRuleStaleFrames));
-  admission.flags = flags_;
   return admission;
 }
 

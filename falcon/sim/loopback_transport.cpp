@@ -10,7 +10,7 @@ namespace {
 
 // Latency timer and two frames at 1.5 Mbaud, rounded to the known rate of a Falcon.
 constexpr std::int64_t kAnswerUs = 1'000;
-constexpr int kPatience = 1'000'000;  // polls: at most about a second
+constexpr int kPatience = 1'000'000;  // polls: about ten milliseconds
 
 }  // namespace
 

@@ -82,11 +82,7 @@ DeviceResult<SimulatedFalcon> make_simulated_falcon(const SimulatedSettings& set
   const glm::dvec3& centre = settings.falcon.centre_mm;
   auto arm = SimulatedArm::build(settings.arm, settings.hand, centre + settings.path(0.0));
   if (!arm)
-    return device_failure(DeviceFault::bad_setting,
-                          std::string("simulated: expected ") + arm.error().setting + " from " +
-                              std::to_string(arm.error().low) + " to " +
-                              std::to_string(arm.error().high) + ", found " +
-                              std::to_string(arm.error().found));
+    return device_failure(DeviceFault::bad_setting, "simulated: " + error_of(arm.error()).message);
   const auto held = std::make_shared<HeldArm>(std::move(*arm), settings);
   SimulatedFalcon simulated;
   simulated.model = std::make_shared<FalconModel>(

@@ -1,5 +1,6 @@
 // The old file survives killed writers, full disks and failing system calls.
 
+#include "core/temporary_name.hpp"
 #include "tests/core/atomic_folder.hpp"
 #include "tests/core/system_call_fault.hpp"
 
@@ -52,6 +53,20 @@ TEST_F(AtomicFileFailures, FullDiskKeepsTheOldFile) {
   EXPECT_EQ(status, 0);
   EXPECT_EQ(bytes_in(path), "old");
   EXPECT_EQ(names(), std::set<std::string>{"pot"});
+}
+
+// Until several files are published, the old ones wait under temporary names.
+TEST_F(AtomicFileFailures, AnotherWriterRemovesNoOldFileThatIsInUse) {
+  const fs::path path = folder_ / "pot";
+  put(path, "old");
+  for (const bool locked : {true, false}) {
+    TemporaryName old = TemporaryName::take(path, [&](const char* fresh) {
+                          return ::link(path.c_str(), fresh);
+                        }).second;
+    if (locked) old.lock();
+    ASSERT_TRUE(AtomicFile::create(path));
+    EXPECT_EQ(fs::exists(old.path()), locked);
+  }
 }
 
 TEST_F(AtomicFileFailures, RefusesAReadOnlyFolderAndAReadOnlyFile) {

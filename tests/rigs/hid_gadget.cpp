@@ -34,6 +34,10 @@ std::string four_digits(std::uint16_t number) {
   return digits;
 }
 
+std::string hid_id_of(const UsbIdentity& id) {
+  return "0003:0000" + four_digits(id.vendor) + ":0000" + four_digits(id.product);
+}
+
 /// USB device, interface, HID device and node, each inside the one before, as in sysfs.
 std::string sysfs_of(const UsbIdentity& id, const Bytes& descriptor, int number) {
   const std::string n = std::to_string(number), port = std::to_string(id.port);
@@ -41,12 +45,11 @@ std::string sysfs_of(const UsbIdentity& id, const Bytes& descriptor, int number)
   const std::string interface = usb + "/1-" + port + ":1.0";
   const std::string vendor = four_digits(id.vendor), product = four_digits(id.product);
   const std::string hid = interface + "/0003:" + vendor + ":" + product + ".000" + n;
-  const std::string hid_id = "0003:0000" + vendor + ":0000" + product;
   return "P: " + usb + "\nE: DEVTYPE=usb_device\nE: SUBSYSTEM=usb\nA: idVendor=" + vendor +
          "\nA: idProduct=" + product + "\nA: product=" + id.name +
          "\nA: manufacturer=rig\nA: bcdDevice=0100\n\nP: " + interface +
          "\nE: DEVTYPE=usb_interface\nE: SUBSYSTEM=usb\nA: bInterfaceNumber=00\n\nP: " + hid +
-         "\nE: SUBSYSTEM=hid\nE: HID_ID=" + hid_id + "\nE: HID_NAME=" + id.name +
+         "\nE: SUBSYSTEM=hid\nE: HID_ID=" + hid_id_of(id) + "\nE: HID_NAME=" + id.name +
          "\nE: HID_UNIQ=\nH: report_descriptor=" + hexadecimal(descriptor) + "\n\nP: " + hid +
          "/hidraw/hidraw" + n + "\nN: hidraw" + n + "\nE: DEVNAME=/dev/hidraw" + n +
          "\nE: MAJOR=240\nE: MINOR=" + n + "\nE: SUBSYSTEM=hidraw\nL: device=../../../" +
@@ -67,9 +70,9 @@ std::optional<Bytes> HidGadget::in(std::size_t, std::chrono::microseconds) {
   return report;
 }
 
-BridgeGadget::BridgeGadget(const falcon::FalconModelSettings& settings, Trajectory hand)
+BridgeGadget::BridgeGadget(const falcon::FalconModelSettings& settings, Trajectory hand, int port)
     : device(settings, std::move(hand)) {
-  identity_ = hid_identity(0x1209, 0x0001, "Falcon HID bridge (rig)", kBridgeDescriptor, 2);
+  identity_ = hid_identity(0x1209, 0x0001, "Falcon HID bridge (rig)", kBridgeDescriptor, port);
   device.model.set_baud(1'500'000);
 }
 
@@ -96,8 +99,10 @@ SpaceMouseGadget::SpaceMouseGadget() {
 }
 
 HidrawNode::HidrawNode(UMockdevTestbed* testbed, HidGadget& gadget, int number)
-    : gadget_(gadget), node_("/dev/hidraw" + std::to_string(number)) {
+    : gadget_(gadget), testbed_(testbed), node_("/dev/hidraw" + std::to_string(number)) {
   const std::string text = sysfs_of(gadget.identity(), gadget.identity().report_descriptor, number);
+  const auto hid = text.rfind("P: ", text.find("E: HID_ID")) + 3;
+  hid_path_ = "/sys" + text.substr(hid, text.find('\n', hid) - hid);
   base_ = umockdev_ioctl_base_new();
   g_signal_connect(base_, "handle-ioctl", G_CALLBACK(&HidrawNode::on_ioctl), this);
   g_signal_connect(base_, "handle-read", G_CALLBACK(&HidrawNode::on_read), this);
@@ -122,6 +127,10 @@ HidrawNode::~HidrawNode() {
 void HidrawNode::show(bool there) {
   const std::string hidden = path_ + ".gone";
   std::filesystem::rename(there ? hidden : path_, there ? path_ : hidden);
+}
+
+void HidrawNode::become(const UsbIdentity& other) {
+  umockdev_testbed_set_property(testbed_, hid_path_.c_str(), "HID_ID", hid_id_of(other).c_str());
 }
 
 void HidrawNode::pump() {

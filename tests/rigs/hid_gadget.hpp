@@ -26,7 +26,7 @@ class HidGadget : public UsbGadget {
 /// A microcontroller between HID and the Falcon's processor, as described in docs/devices.md.
 class BridgeGadget final : public HidGadget {
  public:
-  BridgeGadget(const falcon::FalconModelSettings& settings, Trajectory hand);
+  BridgeGadget(const falcon::FalconModelSettings& settings, Trajectory hand, int port = 2);
   void out(std::span<const std::uint8_t> report) override;
   bool unplugged() const override { return device.model.unplugged(); }
 
@@ -61,6 +61,8 @@ class HidrawNode {
   void pump();
   /// Removes or restores the node.
   void show(bool there);
+  /// From now on the node is that of another device.
+  void become(const UsbIdentity& other);
   [[nodiscard]] const std::string& node() const { return node_; }
 
  private:
@@ -69,8 +71,9 @@ class HidrawNode {
   static gboolean on_write(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
 
   HidGadget& gadget_;
+  UMockdevTestbed* testbed_;
   UMockdevIoctlBase* base_ = nullptr;
-  std::string node_, path_;
+  std::string node_, path_, hid_path_;
   int terminal_ = -1;
   bool waiting_ = false;  // a report is in the terminal
 };

@@ -161,6 +161,34 @@ TEST_F(BridgeRig, ReportsUnpluggingAndReconnects) {
   EXPECT_EQ(tick(device, {}).state, DeviceState::needs_homing);
 }
 
+#ifndef CLAYSTACK_HIDAPI_LIBUSB
+// The kernel gives the number of a node that has gone to the next device.
+TEST_F(HidRig, FindsTheSameDeviceAtAnotherNodeAndNoOtherAtItsOwn) {
+  BridgeGadget bridge(loaded(), on_circle);
+  HidrawNode node(testbed_.get(), bridge, 5);
+  DeviceSettings settings;
+  settings.falcon.silence_us = kPatienceUs;
+  auto opened = open_device("bridge", settings);
+  ASSERT_TRUE(opened) << opened.error().message;
+  HapticDevice& device = **opened;
+  device.write({});
+  EXPECT_TRUE(device.read(kPatienceUs).fresh);
+  device.stop();
+  const std::size_t frames = bridge.device.log.size();
+  node.become(SpaceMouseGadget().identity());
+  const auto refused = device.open();
+  ASSERT_FALSE(refused) << "a SpaceMouse has its node";
+  EXPECT_EQ(refused.error().fault, DeviceFault::unplugged) << refused.error().message;
+  EXPECT_EQ(bridge.device.log.size(), frames) << "nothing was written to the stranger";
+  BridgeGadget moved(loaded(), on_circle, 4);
+  const HidrawNode there(testbed_.get(), moved, 6);
+  const auto again = device.open();
+  ASSERT_TRUE(again) << again.error().message;
+  device.write({});
+  EXPECT_TRUE(device.read(kPatienceUs).fresh);
+}
+#endif
+
 std::set<std::string> threads() {
   std::set<std::string> all;
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task"))

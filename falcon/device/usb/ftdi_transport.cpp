@@ -62,7 +62,7 @@ class FtdiTransport final : public Transport {
   DeviceResult<void> set_mode(LineMode mode) override {
     const bool running = mode == LineMode::running, greeting = mode == LineMode::greeting;
     const auto set = [this](int done, const char* action) -> DeviceResult<void> {
-      return done < 0 ? tl::make_unexpected(usb_error(place_, action, done)) : DeviceResult<void>();
+      return done < 0 ? tl::make_unexpected(line_error(action)) : DeviceResult<void>();
     };
     auto done = set(ftdi_set_latency_timer(ftdi_, running ? kRunningLatencyMs : kLoadingLatencyMs),
                     "set the latency timer");
@@ -103,6 +103,16 @@ class FtdiTransport final : public Transport {
   }
 
  private:
+  /// The codes of libftdi are not those of libusb, so the device is asked whether it is there.
+  [[nodiscard]] DeviceError line_error(const char* action) const {
+    int configuration = 0;
+    const int code = libusb_get_configuration(ftdi_->usb_dev, &configuration);
+    if (code == LIBUSB_ERROR_NO_DEVICE) return usb_error(place_, action, code);
+    return {DeviceFault::transfer_failed,
+            place_ + ": could not " + action + ": " + ftdi_get_error_string(ftdi_),
+            "unplug it and plug it in again"};
+  }
+
   DeviceResult<void> open_in_context() {
     libusb_device** devices = nullptr;
     const auto count = libusb_get_device_list(ftdi_->usb_ctx, &devices);
@@ -135,6 +145,9 @@ class FtdiTransport final : public Transport {
       return device_failure(DeviceFault::transfer_failed, place_ + ": could not queue a transfer",
                             "unplug it and plug it in again");
     descriptor_.store(descriptor_of(ftdi_->usb_ctx));
+    if (descriptor_.load() < 0)  // watchdog and signal handlers could not end the force
+      return device_failure(DeviceFault::transfer_failed,
+                            place_ + ": could not find the descriptor of the device");
     return {};
   }
 

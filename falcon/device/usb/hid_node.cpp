@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <memory>
 
 namespace clay::falcon::inline device {
 namespace {
@@ -25,13 +26,37 @@ class InHidapi {
 
 }  // namespace
 
+HidNode::Identity HidNode::identity_of(const hid_device_info& info) {
+  const auto text = [](const wchar_t* string) { return string ? string : L""; };
+  return {info.vendor_id,        info.product_id,          info.usage_page,          info.usage,
+          info.interface_number, text(info.serial_number), text(info.product_string)};
+}
+
+std::string HidNode::find(const std::string& place) {
+  const std::unique_ptr<hid_device_info, decltype(&hid_free_enumeration)> all(
+      hid_enumerate(0, 0), &hid_free_enumeration);
+  std::string found;
+  for (const hid_device_info* info = all.get(); info; info = info->next) {
+    if (identity_ && identity_of(*info) != *identity_) continue;
+    const bool there = place == info->path;
+    if (there && !identity_) identity_ = identity_of(*info);
+    if (there) return place;
+    if (identity_ && found.empty()) found = info->path;
+  }
+  return found;
+}
+
 DeviceResult<void> HidNode::open(const std::string& place) {
   close();
   const HeldSignals held;
-  device_ = hid_open_path(place.c_str());
-  if (!device_) return tl::make_unexpected(node_error(place));
-  if (place.front() == '/')
-    descriptor_.store(::open(place.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
+  const std::string path = find(place);
+  if (path.empty())
+    return device_failure(DeviceFault::unplugged, place + ": could not open: it is not there",
+                          "plug it in again");
+  device_ = hid_open_path(path.c_str());
+  if (!device_) return tl::make_unexpected(node_error(path));
+  if (path.front() == '/')
+    descriptor_.store(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
   return {};
 }
 

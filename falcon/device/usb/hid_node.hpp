@@ -7,7 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -17,6 +17,8 @@ class HidNode {
  public:
   ~HidNode() { close(); }
 
+  /// The first time, the device at `place`; later the same device, wherever it is: while it was
+  /// away, another one may have taken its place.
   DeviceResult<void> open(const std::string& place);
   void close() noexcept;
   [[nodiscard]] bool is_open() const noexcept { return device_ != nullptr; }
@@ -32,6 +34,19 @@ class HidNode {
   void write_last(std::span<const std::uint8_t> report) noexcept;
 
  private:
+  /// What remains the same when a device is unplugged and plugged in again.
+  struct Identity {
+    unsigned short vendor, product;
+    unsigned short usage_page, usage;
+    int interface;
+    std::wstring serial, name;
+    friend bool operator==(const Identity&, const Identity&) = default;
+  };
+  static Identity identity_of(const hid_device_info& info);
+  /// The current path of the device that was first opened at `place`; empty: not connected.
+  std::string find(const std::string& place);
+
+  std::optional<Identity> identity_;  // of the first device opened
   hid_device* device_ = nullptr;
   std::atomic<int> descriptor_{-1};
 };

@@ -187,6 +187,33 @@ TEST(LiveThrow, SoftensAStiffSceneOrRefusesIt) {
   EXPECT_EQ(claystack(live + " --no-soften --scale 2 --force-gain 1").status, 2);
 }
 
+TEST(LiveThrow, WarnsBeforeAThrowThatIsNotKept) {
+  const ScratchFolder folder;
+  const std::string live = kBowl + " --device simulated --seconds 0.1 ";
+  const Ran lost = claystack(live);
+  EXPECT_NE(lost.err.find("neither the pot nor the session is kept"), std::string::npos);
+  EXPECT_NE(lost.out.find("pot: not written"), std::string::npos) << lost.out;
+  for (const char* kept : {"-o p.pot.json", "--record s.session"})
+    EXPECT_EQ(
+        shell("cd " + folder.path().string() + " && " CLAYSTACK_PROGRAM " " + live + kept).err, "")
+        << kept;
+}
+
+TEST(LiveThrow, ErrorsOfDampingNameTheOption) {
+  const std::string live =
+      "throw " + sample("paper/bowl.scene.json") + " --device simulated --seconds 0.1 --damping ";
+  for (const std::string& command :
+       {live + "5", "plan " + sample("paper/bowl.scene.json") + " --rate 1000 --damping 5"}) {
+    const Ran run = claystack(command);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.err, "claystack: --damping: expected a value from 0 to 1, found 5\n");
+  }
+  const Ran none = claystack(live + "0 --no-soften");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("an arm without damping renders no contact"), std::string::npos)
+      << none.err;
+}
+
 TEST(LiveThrow, ReportsAThreadThatDoesNotStart) {
   const std::string live = CLAYSTACK_PROGRAM " " + kBowl + " --device simulated --seconds 0.2";
   for (int thread = 1; thread <= 2; ++thread) {

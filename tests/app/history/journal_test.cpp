@@ -245,6 +245,21 @@ TEST(Journal, RecoversEverythingBeforeADamagedLine) {
   EXPECT_EQ(test::read_text(path.string() + ".damaged"), text);
 }
 
+TEST(Journal, KeepsTheCopyOfAnEarlierDamage) {
+  const Folder folder;
+  std::filesystem::path path;
+  {
+    Work work = kept_work(folder);
+    path = work.journal()->path();
+  }
+  for (const char* damage : {"first", "second"}) {
+    std::ofstream(path, std::ios::binary | std::ios::app) << damage << "\n";
+    ASSERT_TRUE(recover(path));
+  }
+  EXPECT_TRUE(test::read_text(path.string() + ".damaged").ends_with("first\n"));
+  EXPECT_TRUE(test::read_text(path.string() + ".damaged-2").ends_with("second\n"));
+}
+
 TEST(Journal, IsStoredInTheStateFolder) {
   setenv("XDG_STATE_HOME", "/var/state", 1);
   EXPECT_EQ(recovery_folder(), "/var/state/claystack/recovery");

@@ -21,8 +21,13 @@ namespace clay::servo {
 class LineClock final : public Clock {
  public:
   explicit LineClock(const falcon::Transport& line) : line_(line) {}
-  std::int64_t now_ns() noexcept override { return 1000 * line_.now_us(); }
+  std::int64_t now_ns() noexcept override {
+    if (on_reading) on_reading();
+    return 1000 * line_.now_us();
+  }
   void sleep_until_ns(std::int64_t) noexcept override {}
+
+  std::function<void()> on_reading;  ///< happens just before a reading
 
  private:
   const falcon::Transport& line_;

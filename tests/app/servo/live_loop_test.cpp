@@ -169,6 +169,79 @@ TEST(LiveLoop, ClutchDecouplesTheToolFromTheHand) {
   EXPECT_NE(live.status().guard, GuardState::engaged);
 }
 
+// The hand has no place yet when the button is released, or none that the guard would accept.
+TEST(LiveLoop, ReleasedClutchKeepsOnlyATrustedPlace) {
+  const Mapping mapping = Mapping::build(one_to_one().mapping).value();
+  const auto at_the_hand = [&](const VirtualThrow& live) {
+    return glm::distance(live.status().tool_mm, mapping.to_clay(live.hand(live.time_s)));
+  };
+  VirtualThrow early(rib_scene(), one_to_one(), press_to(2.0));
+  early.model->press(kFalconButtons.clutch);
+  early.run(0.5);
+  ASSERT_TRUE(early.status().clutched);
+  early.model->press(0);
+  early.run(0.2);
+  EXPECT_LT(at_the_hand(early), 0.2) << "the tool was nowhere before";
+
+  VirtualThrow lost(rib_scene(), one_to_one(), press_to(2.0));
+  lost.run(1.0);
+  const glm::dvec3 tool = lost.status().tool_mm;
+  lost.model->press(kFalconButtons.clutch);
+  lost.run(0.1);
+  lost.hand = [](double) { return glm::dvec3(30.0, 20.0, 0.0); };
+  lost.fault(falcon::WireFault::homing_lost);
+  lost.run(0.01);
+  ASSERT_EQ(lost.status().device, falcon::DeviceState::needs_homing);
+  lost.model->press(0);
+  lost.run(3.0);
+  ASSERT_EQ(lost.status().device, falcon::DeviceState::ready);
+  EXPECT_LT(glm::distance(lost.status().tool_mm, tool), 0.2);
+}
+
+TEST(LiveLoop, PauseDoesNotRestoreAZeroedForce) {
+  for (const bool zero_first : {true, false}) {
+    VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
+    live.run(3.2);
+    const auto send = [&](CommandKind kind, double value) {
+      ASSERT_TRUE(live.commands.push({kind, value}));
+      live.run(0.05);
+    };
+    if (zero_first) send(CommandKind::zero, 0.0);
+    send(CommandKind::pause, 1.0);
+    if (!zero_first) send(CommandKind::zero, 0.0);
+    const Pot before = live.wheel.pot();
+    send(CommandKind::pause, 0.0);
+    live.run(0.5);
+    EXPECT_EQ(live.status().cause, falcon::SafeCause::paused) << zero_first;
+    EXPECT_EQ(live.wheel.pot(), before);
+    live.model->press(kFalconButtons.clutch);
+    live.run(0.1);
+    live.model->press(0);
+    live.run(0.1);
+    EXPECT_EQ(live.status().cause, falcon::SafeCause::none) << "the clutch restores it";
+  }
+}
+
+// The watchdog may end the force at any moment of a tick. No older force may follow.
+TEST(LiveLoop, AForceFromBeforeAShutIsNeverSentAfterIt) {
+  int shuts = 0;
+  for (int at = 1;; ++at) {
+    VirtualThrow live(rib_scene(), one_to_one(), press_to(4.0));
+    live.run(3.2);
+    ASSERT_GT(glm::length(live.status().force_n), 2.0 * kRisePerTickN);
+    int reading = 0;
+    live.clock.on_reading = [&] {
+      if (++reading == at) live.gate.shut();
+    };
+    live.tick();
+    if (reading < at) break;
+    ++shuts;
+    if (live.gate.is_shut()) continue;  // shut later in the tick than the force was sent
+    EXPECT_LE(glm::length(live.status().force_n), kRisePerTickN) << "at reading " << at;
+  }
+  EXPECT_GE(shuts, 4);
+}
+
 TEST(LiveLoop, PausesAndEndsByCommand) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.2);

@@ -128,6 +128,30 @@ TEST(Recorder, ReportsOverflowAndLeavesNoGap) {
   EXPECT_EQ(session.poses.back(), pose_at(1000 * (i - 1)));
 }
 
+TEST(Recorder, EndsAtTheMostPosesOfASession) {
+  struct Sink final : PoseSink {
+    Result<void> append(const PoseBlock& block) override {
+      poses.insert(poses.end(), block.poses.begin(), block.poses.end());
+      return {};
+    }
+    Result<void> finish() override {
+      finished = true;
+      return {};
+    }
+    std::vector<Pose> poses;
+    bool finished = false;
+  } sink;
+  const auto recorder = Recorder::create(sink, 250);
+  for (std::int64_t i = 0; i < 253; ++i)
+    EXPECT_EQ(recorder->take(pose_at(1000 * i), false), i < 250) << i;
+  ASSERT_TRUE(recorder->finish());
+  EXPECT_TRUE(sink.finished);
+  EXPECT_EQ(recorder->taken(), 250u);
+  EXPECT_EQ(recorder->lost(), 3u);
+  ASSERT_EQ(sink.poses.size(), 250u);
+  EXPECT_EQ(sink.poses.back(), pose_at(249'000));
+}
+
 TEST(Recorder, ReportsAFullDiskAndKeepsAValidBeginning) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session");

@@ -220,6 +220,42 @@ TEST(Servo, IgnoresJobControlUnderForce) {
   EXPECT_EQ(threads.stop(), Ending::stopped);
 }
 
+TEST(Servo, LeavesSignalsAloneThatWereIgnored) {
+  for (const int signal : {SIGHUP, SIGINT}) {
+    const auto before = std::signal(signal, SIG_IGN);
+    {
+      const ForceSignals signals;
+      raise(signal);
+      EXPECT_EQ(ForceSignals::asked_to_stop(), 0) << signal;
+    }
+    EXPECT_EQ(std::signal(signal, before), SIG_IGN);
+  }
+}
+
+TEST(Servo, RefusesToStartBesideAnother) {
+  WireLog log, other_log;
+  Threads threads(log);
+  ScriptedDevice device(other_log);
+  Wheel wheel = Wheel::build(rib_scene()).value();
+  MonotonicClock clock;
+  const Bench bench{wheel, device, clock, nullptr};
+  ServoLoop loop = ServoLoop::build(bench, quick()).value();
+  {
+    Servo second(bench, loop, Pace::thread);
+    const auto started = second.start();
+    ASSERT_FALSE(started);
+    EXPECT_NE(started.error().message.find("another one is running"), std::string::npos);
+    EXPECT_FALSE(second.running());
+  }
+  threads.wait_for_force();  // the signal handlers still end the force of the first
+  emergency_stop().fire();
+  EXPECT_GE(log.stops, 1u);
+  EXPECT_EQ(threads.end(), Ending::stopped);
+  Servo second(bench, loop, Pace::thread);
+  EXPECT_TRUE(second.start());
+  EXPECT_EQ(other_log.max_force_n, 0.0);
+}
+
 /// Runs a throw in a child process and ends it by an action.
 class LastPacket : public testing::Test {
  protected:
@@ -270,10 +306,11 @@ TEST_F(LastPacket, IsZeroAfterAStopSignal) {
 }
 
 TEST_F(LastPacket, IsZeroAfterAFatalSignal) {
-  // Every signal that ends a process, except SIGKILL and the stop signals above.
+  // Every signal that ends a process, except SIGKILL and the stop signals above; of the real-time
+  // signals the first and the last.
   for (const int signal :
        {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGTRAP, SIGSYS, SIGXCPU, SIGALRM,
-        SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2, SIGSTKFLT, SIGPOLL, SIGPWR}) {
+        SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2, SIGSTKFLT, SIGPOLL, SIGPWR, SIGRTMIN, SIGRTMAX}) {
     EXPECT_EQ(end_by([=] { kill(getpid(), signal); }), 128 + signal);
     expect_no_force();
     new (log_) WireLog;

@@ -139,6 +139,18 @@ TEST(EmergencyStop, IsTheLastPacketToTheDevice) {
   }
 }
 
+TEST(EmergencyStop, WaitsOnlySoLongForAPacket) {
+  ForceGate gate;
+  Wire wire;
+  EmergencyStop last_zero;
+  last_zero.arm(gate, &Wire::write_zero, &wire);
+  ASSERT_TRUE(gate.enter());
+  const std::int64_t before_us = monotonic_us();
+  last_zero.fire();
+  EXPECT_GE(monotonic_us() - before_us, EmergencyStop::kPacketUs);
+  EXPECT_EQ(wire.last, kZero);
+}
+
 EmergencyStop signalled;
 void on_signal(int) { signalled.fire(); }
 

@@ -92,8 +92,10 @@ enum class WireStatus : std::uint8_t {
 };
 
 struct Received {
-  std::size_t size = 0;      ///< bytes; 0 if none came in time
-  std::int64_t time_us = 0;  ///< CLOCK_MONOTONIC when the last byte arrived
+  std::size_t size = 0;  ///< bytes; 0 if none came in time
+  /// CLOCK_MONOTONIC when the last byte was received. Bytes that arrived while nobody read count
+  /// from the reading: a servo that is late takes their age from there.
+  std::int64_t time_us = 0;
   WireStatus status = WireStatus::ok;
 };
 

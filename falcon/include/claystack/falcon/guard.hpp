@@ -226,8 +226,7 @@ enum GuardFlag : std::uint32_t {
 struct Admission {
   bool may_deform = false;  ///< a fresh, plausible frame of a device that is ready, guard not safe
   double step_s =
-      kShortestStepS;       ///< since the last plausible frame, kShortestStepS to kLongestStepS
-  std::uint32_t flags = 0;  ///< of GuardFlag
+      kShortestStepS;  ///< since the last plausible frame, kShortestStepS to kLongestStepS
 };
 
 struct GuardedForce {
@@ -260,8 +259,6 @@ class BasicForceGuard {
   void was_zeroed() noexcept { sent_n_ = glm::dvec3(0.0); }
   /// Leaves SAFE or a pause; the force then ramps up again. False after stop().
   bool rearm() noexcept;
-
-  [[nodiscard]] const GuardSettings& settings() const noexcept { return settings_; }
 
  private:
   explicit BasicForceGuard(const GuardSettings& settings) noexcept : settings_(settings) {}
@@ -336,6 +333,10 @@ class ForceGate {
   /// Like shut(), but permanent: open() fails from now on. Async-signal-safe.
   void shut_for_good() noexcept { state_.fetch_or(kShut | kForGood, std::memory_order_acq_rel); }
 
+  /// True while the servo is between enter() and leave().
+  [[nodiscard]] bool is_entered() const noexcept {
+    return (state_.load(std::memory_order_acquire) & kInside) != 0;
+  }
   [[nodiscard]] bool is_shut() const noexcept {
     return (state_.load(std::memory_order_acquire) & kShut) != 0;
   }
@@ -350,7 +351,8 @@ class ForceGate {
   std::atomic<std::uint32_t> state_{0};
 };
 
-/// For signal handlers: shuts the gate permanently, then writes zero by a function of the device.
+/// For signal handlers: shuts the gate permanently, lets the servo finish the packet that it is
+/// writing, then writes zero by a function of the device.
 /// That function must be async-signal-safe (one write(2) of a frame made beforehand, no lock, no
 /// allocation). Give it static storage, and arm it before the force engages.
 class EmergencyStop {
@@ -366,13 +368,24 @@ class EmergencyStop {
     write_zero_.store(write_zero, std::memory_order_release);
   }
 
-  /// For a signal handler, std::terminate, a destructor. May be called repeatedly.
+  /// For a signal handler, std::terminate, a destructor. May be called repeatedly. Waits up to
+  /// kPacketUs while another thread is inside the gate: its packet would otherwise follow the zero,
+  /// if the process ends before that thread leaves.
   void fire() noexcept {
     const WriteZero write_zero = write_zero_.load(std::memory_order_acquire);
     if (write_zero == nullptr) return;
-    gate_.load(std::memory_order_relaxed)->shut_for_good();
+    ForceGate& gate = *gate_.load(std::memory_order_relaxed);
+    gate.shut_for_good();
+    const std::int64_t end_us = monotonic_us() + kPacketUs;
+    while (gate.is_entered() && monotonic_us() < end_us) continue;
     write_zero(device_.load(std::memory_order_relaxed));
   }
+
+  [[nodiscard]] bool is_armed() const noexcept {
+    return write_zero_.load(std::memory_order_acquire) != nullptr;
+  }
+
+  static constexpr std::int64_t kPacketUs = 1000;
 
  private:
   static_assert(std::atomic<WriteZero>::is_always_lock_free &&

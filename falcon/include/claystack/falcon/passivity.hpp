@@ -92,8 +92,8 @@ struct StiffnessTooHigh {
 // Hannaford, J.-H. Ryu, "Time-domain passivity control of haptic interfaces", IEEE Trans. Robotics
 // and Automation 18(1), 2002. Work is the force held over a period
 // times the displacement, which is exact except for encoder steps. A spring read by an encoder
-// seems to release K step^2 whenever the reading of a resting hand flickers, so loops of up to two
-// steps do not count.
+// seems to release K step^2 whenever the reading of a resting hand flickers, so loops of up to
+// four steps do not count.
 
 /// Energy of each contact, and of a recent window of time.
 class EnergyObserver {

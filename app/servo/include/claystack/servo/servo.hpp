@@ -13,6 +13,7 @@
 #include "claystack/engine/files.hpp"
 #include "claystack/engine/wheel.hpp"
 #include "claystack/falcon/device.hpp"
+#include "claystack/falcon/falcon_device.hpp"
 #include "claystack/falcon/guard.hpp"
 #include "claystack/falcon/passivity.hpp"
 
@@ -48,8 +49,9 @@ struct ButtonMap {
   unsigned wider = 0,
            narrower = 0;  ///< change the gap by kGapStepMm per press, repeated while held
 };
-inline constexpr ButtonMap kFalconButtons{4, 2, 1, 8};  ///< centre, forward, plus, minus
-inline constexpr ButtonMap kTwoButtons{2, 1, 0, 0};     ///< a controller with two buttons
+inline constexpr ButtonMap kFalconButtons{falcon::kButtonCentre, falcon::kButtonForward,
+                                          falcon::kButtonPlus, falcon::kButtonMinus};
+inline constexpr ButtonMap kTwoButtons{2, 1, 0, 0};  ///< a controller with two buttons
 inline constexpr double kGapStepMm = 0.5, kWidestGapMm = 100.0;
 /// Settings of a servo, apart from the wheel and the device.
 struct LiveSettings {
@@ -68,7 +70,7 @@ struct LiveSettings {
   double encoder_step_mm = 0.05;  ///< of the Falcon in the middle of its workspace
 };
 
-/// Errors name the setting. Mapping, guard and arm are checked when they are built.
+/// Errors name the setting. Mapping and guard are checked when they are built.
 Result<void> check(const LiveSettings& settings);
 
 /// Refuses a scene whose contact is stiffer than the arm of `settings` can render safely; names the
@@ -87,7 +89,7 @@ enum class CommandKind {
   trim,
   pause,
   gap,    ///< value: mm, 0 to kWidestGapMm; 0: one tool
-  zero,   ///< no force and no deformation until `rearm`
+  zero,   ///< no force and no deformation until `rearm`, or until the clutch is released
   rearm,  ///< restores the force after `zero` or a safe state whose cause is gone
   stop,
 };
@@ -211,12 +213,13 @@ enum class Pace {
 /// Of a recording.
 struct Recorded {
   std::uint64_t poses = 0;
-  std::uint64_t lost = 0;  ///< the last ones, if the disk was too slow: the recording ends before
+  /// The last ones, if the disk was too slow or the session is full: the recording ends before.
+  std::uint64_t lost = 0;
 };
 
 /// The servo thread, its watchdog and the force guard. Every force passes the guard: it is finite,
 /// at most the limit, zero within 10 ms of a fault, and zero at the end. The servo thread allocates
-/// nothing and takes no lock.
+/// nothing and takes no lock, apart from what libusb and hidapi do inside.
 class LiveThrow {
  public:
   /// Refuses settings out of range, by name; a scene whose contact is stiffer than the arm can
@@ -227,9 +230,10 @@ class LiveThrow {
   /// Stops and waits for the end.
   ~LiveThrow();
 
-  /// Starts the servo. After join() returned device_lost and the device was opened again,
-  /// continues, with the force ramped up from zero. An error of kind `io` if the system starts no
-  /// thread: nothing runs then.
+  /// Starts the servo; one at a time in a process, because signal handlers end the force of one.
+  /// After join() returned device_lost and the device was opened again,
+  /// continues, with the force ramped up from zero. Errors: another servo runs (`bad_input`), or
+  /// the system starts no thread (`io`); nothing runs then.
   Result<void> start(Pace pace = Pace::real_time);
 
   /// Pace::stepped: ticks until the clock reaches `until_ns`, or to the end. Otherwise nothing.
