@@ -198,8 +198,8 @@ Json result_json(const BatchJob& job, const BatchOutcome& outcome) {
     json["error"] = "the time limit ended it";
   else if (outcome.status > 128)
     json["error"] = fmt::format("signal {} ended it", outcome.status - 128);
-  else if (outcome.status != kDone)
-    json["error"] = first_line(outcome.err);
+  else if (outcome.status != kDone && !outcome.err.empty())
+    json["error"] = first_line(outcome.err);  // a check that fails has its reasons in the output
   if (Json printed = Json::parse(outcome.out, nullptr, false); !printed.is_discarded())
     json["output"] = std::move(printed);
   return json;
@@ -243,9 +243,9 @@ Result<int> batch(BatchOptions options, const Console& console) {
   if (!written) return tl::make_unexpected(written.error());
   if (!ran) return tl::make_unexpected(ran.error());
   if (!console.quiet && !options.results.empty())
-    console.print(fmt::format("{}: {} done, {} failed; {} of them were in {} already",
-                              counted(asked, "job"), asked - failed, failed, skipped,
-                              options.results));
+    console.print(fmt::format("{}: {} done, {} failed; results in {} before: {}",
+                              counted(asked, "job"), asked - failed, failed, options.results,
+                              skipped));
   return failed == 0 ? kDone : kUnsound;
 }
 

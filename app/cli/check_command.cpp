@@ -49,6 +49,11 @@ Result<void> check_usage(const CheckCommand& command, const Console& console) {
                        {command.file, command.certificate, command.walls.process()}, console);
 }
 
+/// With a map, as every .pot.cbor; no text begins so.
+bool begins_as_cbor(std::string_view bytes) {
+  return static_cast<unsigned char>(bytes.front()) >> 5 == 5;
+}
+
 /// Standard input has no name: the ending that its first bytes suggest.
 std::string_view ending_of(std::string_view bytes) {
   constexpr std::pair<std::string_view, std::string_view> kBegins[] = {
@@ -56,6 +61,7 @@ std::string_view ending_of(std::string_view bytes) {
       {"solid", ".stl"}, {"ply", ".ply"}, {"OFF", ".off"}};
   for (const auto& [begin, ending] : kBegins)
     if (bytes.starts_with(begin)) return ending;
+  if (begins_as_cbor(bytes)) return ".cbor";
   // A binary STL begins with any 80 bytes; most of them contain a 0.
   return bytes.substr(0, 84).find('\0') != std::string_view::npos ? ".stl" : ".obj";
 }
@@ -66,7 +72,7 @@ Result<Verdict> check_stream(const CheckCommand& command, const Console& console
   if (bytes->empty())
     return failure(ErrorKind::bad_input, "-: expected a mesh or a pot, found no input");
   const std::string_view ending = ending_of(*bytes);
-  if (ending == ".json") return check_pot(*bytes, command, console);
+  if (ending == ".json" || ending == ".cbor") return check_pot(*bytes, command, console);
   const auto format = solid::mesh_format_of(std::string("stream").append(ending));
   if (!format) return tl::make_unexpected(format.error());
   return check_mesh_file(*format, command, console, std::move(*bytes));

@@ -131,8 +131,9 @@ void print_repair(const Console& console, const RepairSummary& summary, const Ve
                     "{:.3g} mm of the new one",
                     summary.change.added_mm, summary.change.removed_mm));
   const std::string before =
-      summary.volume_before_mm3 ? fmt::format("{:.6g} cm3 before", *summary.volume_before_mm3 / 1e3)
-                                : std::string("none before, because the mesh encloses no volume");
+      summary.volume_before_mm3
+          ? fmt::format("{:.6g} cm3 before", *summary.volume_before_mm3 / 1e3)
+          : std::string("none before, because the mesh was not closed and consistent");
   console.print(
       fmt::format("  volume: {}, {:.6g} cm3 after", before, verdict.mesh.volume_mm3 / 1e3));
   const std::string_view state = name_of(verdict.state);

@@ -47,16 +47,18 @@ class WallMapFigure {
   explicit WallMapFigure(const std::vector<solid::WallSample>& field) : field_(field) {
     std::vector<double> walls;
     for (const solid::WallSample& sample : field) {
-      walls.push_back(sample.thickness_mm);
+      if (std::isfinite(sample.thickness_mm)) walls.push_back(sample.thickness_mm);
       widest_ = std::max(widest_, sample.at.rho);
       top_ = std::max(top_, sample.at.y);
     }
+    // Solid clay has no walls: any scale does.
+    if (walls.empty()) walls = {0.0, 10.0};
     // A few places in corners, thicker than all walls, would take most of the colours.
     constexpr double kMostWalls = 0.95;
     std::ranges::sort(walls);
     thin_ = walls.front();
     thick_ = walls[static_cast<std::size_t>(kMostWalls * static_cast<double>(walls.size() - 1))];
-    cut_off_ = thick_ < walls.back();
+    cut_off_ = thick_ < walls.back() || walls.size() < field.size();
     // 2.5 mm on a page of which the figure takes half; the marks of a plate stay apart.
     text_ = std::min(0.05 * (2.0 * widest_ + 8.0), 0.15 * top_);
   }

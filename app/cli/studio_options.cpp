@@ -48,7 +48,9 @@ void add_report_options(CLI::App& parser, StudioOptions& options) {
 
 void add_studio_options(CLI::App& parser, double smallest_scale, double largest_scale,
                         StudioOptions& options) {
-  parser.add_option("file", options.file, "NAME.scene.json, a pot, or NAME.work");
+  parser.add_option(
+      "file", options.file,
+      "A scene, a pot (also a 3MF that has one), a work, or a drawing (.svg, .dxf, .csv)");
   add_device_options(parser, options);
   parser.add_option("--script", options.script, "Script that drives the window without a screen");
   parser.add_option("--screenshot", options.screenshot,

@@ -112,7 +112,7 @@ void warn_of_oddities(const Console& console, const Session& session, const Scen
         fmt::format("{}: the last line is cut off; its poses are not played", options.session));
   if (session.scene_hash != 0 && session.scene_hash != hash_of(scene))
     console.warn(
-        fmt::format("{}: recorded on another scene ({}); the pot differs from the recorded one",
+        fmt::format("{}: recorded on another scene ({}); the pot may differ from the recorded one",
                     options.session, session.scene_name));
 }
 
@@ -371,7 +371,8 @@ void add_replay_options(CLI::App& command, ThrowOptions& options) {
       ->check(one_of({"conserving", "paper"}));
   command.add_option(
       "--trace", options.trace,
-      "CSV file with one row per tick: time [s], volume error [%], height [mm], force [N]");
+      "CSV file with one row per tick: time [s], volume error [%], the same over the top ring's "
+      "volume [%], height [mm], force [N]");
   command.add_option("--error-plot", options.error_plot,
                      "SVG plot of the volume error over time, for both models");
 }

@@ -482,9 +482,9 @@ TEST(Check, StatesNoVolumeOfAnOpenMesh) {
   EXPECT_NEAR(repaired.json().at("volume_mm3"), 1000.0, 1e-3);
   EXPECT_EQ(violation(load_schema("check"), Json::parse(repaired.out)), "") << repaired.out;
   const Ran repair_text = claystack("check --repair --dry-run " + file);
-  EXPECT_NE(
-      repair_text.out.find("volume: none before, because the mesh encloses no volume, 1 cm3 after"),
-      std::string::npos)
+  EXPECT_NE(repair_text.out.find(
+                "volume: none before, because the mesh was not closed and consistent, 1 cm3 after"),
+            std::string::npos)
       << repair_text.out;
 }
 
@@ -535,6 +535,10 @@ TEST(Check, ReadsStandardInputAndWritesStandardOutput) {
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.json().at("triangles"), 12);
   }
+  const std::string pot = folder.file("a.pot.cbor");
+  ASSERT_EQ(claystack("throw -q " + sample("paper/bowl.scene.json") + " -o " + pot).status, 0);
+  EXPECT_EQ(claystack("check --json - < " + pot).json().at("volume_mm3"),
+            claystack("check --json " + pot).json().at("volume_mm3"));
   mesh.triangles.pop_back();
   write_text(obj, solid::encode_obj(mesh, "cube"));
   const std::string out = folder.file("out.stl");

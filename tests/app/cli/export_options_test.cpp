@@ -278,6 +278,17 @@ TEST_F(ExportOptions, ReportsTheFairing) {
   EXPECT_EQ(run("--smooth-length 9 --smooth none").status, 2);
 }
 
+TEST_F(ExportOptions, TheReportShowsSolidClay) {
+  const std::string page = folder.file("r.html"), table = folder.file("t.csv");
+  write_text(table, "height_mm,radius_mm\n0,30\n40,30\n");
+  ASSERT_EQ(claystack("import -q " + table + " -o " + pot).status, 0);
+  ASSERT_EQ(run("-q --report " + page).status, 0);
+  const std::string html = read_text(page);
+  EXPECT_EQ(html.find("inf mm"), std::string::npos);
+  EXPECT_EQ(html.find("nan"), std::string::npos);
+  EXPECT_NE(html.find("10.0 mm or more"), std::string::npos) << "the top of the scale";
+}
+
 TEST_F(ExportOptions, AClayProcessRoundsTheLip) {
   // A lip that no finger has rounded.
   ASSERT_EQ(claystack("throw -q " + sample("paper/bowl.scene.json") + " -o " + pot).status, 0);
