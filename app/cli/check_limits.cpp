@@ -37,12 +37,10 @@ void report_wall(const solid::SampledWall& wall, const solid::WallLimit& limit, 
                        sampled + ": " + solid::wall_text(wall.least_mm, limit));
   // The triangles of united shells are not those of the file.
   const std::string triangle = united ? "" : fmt::format("triangle {} ", wall.triangle);
-  verdict.add(
-      "walls", Grade::fail,
-      fmt::format("thin wall ({}): {}at ({:.6g}, {:.6g}, {:.6g}) mm: {:.3f} mm, expected at "
-                  "least {:.3f} mm ({})",
-                  sampled, triangle, wall.place.x, wall.place.y, wall.place.z, wall.least_mm,
-                  limit.min_wall_mm, limit.asked_by()));
+  verdict.add("walls", Grade::fail,
+              fmt::format("thin wall ({}): {}at ({:.6g}, {:.6g}, {:.6g}) mm: {}", sampled, triangle,
+                          wall.place.x, wall.place.y, wall.place.z,
+                          solid::wall_text(wall.least_mm, limit)));
 }
 
 Result<void> measure_wall(const PrintedBody& body, const solid::WallLimit& limit,

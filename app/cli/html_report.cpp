@@ -51,14 +51,14 @@ class WallMapFigure {
       widest_ = std::max(widest_, sample.at.rho);
       top_ = std::max(top_, sample.at.y);
     }
-    // Solid clay has no walls: any scale does.
-    if (walls.empty()) walls = {0.0, 10.0};
     // A few places in corners, thicker than all walls, would take most of the colours.
     constexpr double kMostWalls = 0.95;
     std::ranges::sort(walls);
-    thin_ = walls.front();
-    thick_ = walls[static_cast<std::size_t>(kMostWalls * static_cast<double>(walls.size() - 1))];
-    cut_off_ = thick_ < walls.back() || walls.size() < field.size();
+    if (!walls.empty()) {
+      thin_ = walls.front();
+      thick_ = walls[static_cast<std::size_t>(kMostWalls * static_cast<double>(walls.size() - 1))];
+    }
+    cut_off_ = walls.size() < field.size() || thick_ < walls.back();
     // 2.5 mm on a page of which the figure takes half; the marks of a plate stay apart.
     text_ = std::min(0.05 * (2.0 * widest_ + 8.0), 0.15 * top_);
   }
@@ -117,8 +117,9 @@ class WallMapFigure {
   }
 
   const std::vector<solid::WallSample>& field_;
-  bool cut_off_ = false;  ///< some places are thicker than the scale
-  double thin_ = 0.0, thick_ = 0.0, widest_ = 0.0, top_ = 0.0;
+  bool cut_off_ = false;              ///< some places are thicker than the scale
+  double thin_ = 0.0, thick_ = 10.0;  ///< the scale; of solid clay any does
+  double widest_ = 0.0, top_ = 0.0;
   double text_ = 0.0;  ///< height of the letters
   SvgWriter writer_;
 };

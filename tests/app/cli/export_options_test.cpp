@@ -285,7 +285,7 @@ TEST_F(ExportOptions, TheReportShowsSolidClay) {
   ASSERT_EQ(run("-q --report " + page).status, 0);
   const std::string html = read_text(page);
   EXPECT_EQ(html.find("inf mm"), std::string::npos);
-  EXPECT_EQ(html.find("nan"), std::string::npos);
+  EXPECT_EQ(html.find("nan mm"), std::string::npos);
   EXPECT_NE(html.find("10.0 mm or more"), std::string::npos) << "the top of the scale";
 }
 
