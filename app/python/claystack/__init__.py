@@ -81,7 +81,7 @@ class Pot:
 
 @dataclass(frozen=True)
 class Mesh:
-    """Triangles of indices into points, counter-clockwise from outside; y is up in meshes of pots,
+    """Triangles of indices into points, counter-clockwise from outside; z is up in meshes of pots,
     as in the files."""
 
     points: np.ndarray = field(repr=False)  #: (n, 3) float64 [mm], no copy
