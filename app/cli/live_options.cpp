@@ -90,17 +90,11 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
 
 Error by_option(Error error) {
   constexpr std::pair<std::string_view, std::string_view> kOptions[] = {
-      {"rate_hz", "--rate"},
-      {"clay_rate_hz", "--clay-rate"},
-      {"seconds", "--seconds"},
-      {"patience_s", "--patience"},
-      {"gap_mm", "--gap"},
-      {"damping_ns_per_mm", "--damping"},
-      {"delay_ticks", "--delay"},
-      {"scale", "--scale"},
-      {"force_gain", "--force-gain"},
-      {"reach_mm", "--reach"},
-      {"height_mm", "--height"}};
+      {"rate_hz", "--rate"},    {"clay_rate_hz", "--clay-rate"},
+      {"seconds", "--seconds"}, {"patience_s", "--patience"},
+      {"gap_mm", "--gap"},      {"damping_ns_per_mm", "--damping"},
+      {"scale", "--scale"},     {"force_gain", "--force-gain"},
+      {"reach_mm", "--reach"},  {"height_mm", "--height"}};
   for (const auto& [setting, option] : kOptions)
     if (error.message.starts_with(std::string(setting) + ":"))
       error.message.replace(0, setting.size(), option);

@@ -46,7 +46,7 @@ void on_end(int signal) {
 }
 
 /// An ignored signal stays ignored, as nohup requires. servo::ForceSignals replaces these handlers
-/// during its scope.
+/// during its scope, and handles ignored signals too.
 void handle_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE})
     if (std::signal(signal, on_end) == SIG_IGN) std::signal(signal, SIG_IGN);

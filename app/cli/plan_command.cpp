@@ -4,7 +4,6 @@
 #include "app/cli/replay.hpp"
 #include "app/cli/usage.hpp"
 #ifdef CLAYSTACK_FALCON
-#include "app/cli/live_throw.hpp"
 #include "app/servo/servo_check.hpp"
 #endif
 
@@ -53,8 +52,6 @@ Result<servo::ServoContact> contact_of(const SceneSpec& scene, const StepPlan& p
   loop.rate_hz = *options.rate_hz;
   loop.damping_ns_per_mm = options.damping_ns_per_mm;
   loop.delay_ticks = options.delay_ticks;
-  if (const auto arm = falcon::check(loop); !arm)
-    return tl::make_unexpected(by_option(falcon::error_of(arm.error())));
   return servo::check_servo(scene, plan, loop).map_error([&](Error error) {
     error.message.insert(0, options.scene + ": ");
     return error;

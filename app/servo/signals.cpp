@@ -55,20 +55,15 @@ ForceSignals::ForceSignals() {
     sigaction(signal, &action, &before);
     before_.emplace_back(signal, before);
   };
-  const auto action_of = [](int signal) {
-    struct sigaction action {};
-    sigaction(signal, nullptr, &action);
-    return action.sa_handler;
-  };
-  for (const int signal : kStopRequests) {
-    // As nohup requires, and a shell for what it starts in the background.
-    const bool may_be_ignored = signal == SIGHUP || signal == SIGINT;
-    if (!may_be_ignored || action_of(signal) != SIG_IGN) handle(signal, on_stop_request);
-  }
+  // Also those that nohup ignores: without its terminal a throw has no key that ends the force.
+  for (const int signal : kStopRequests) handle(signal, on_stop_request);
   for (const int signal : kEnds) handle(signal, on_end);
   // Some libraries handle one of these for their own use.
-  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal)
-    if (action_of(signal) == SIG_DFL) handle(signal, on_end);
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) {
+    struct sigaction action {};
+    if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_DFL)
+      handle(signal, on_end);
+  }
   for (const int signal : kIgnored) handle(signal, SIG_IGN);
 }
 
