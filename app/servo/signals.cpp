@@ -22,7 +22,7 @@ std::atomic<Act> last_act{nullptr};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<Act>::is_always_lock_free);
 
 // An alternate stack for the thread of ForceSignals: a handler cannot run on an overflowed stack.
-constexpr std::size_t kStackBytes = 64 * 1024;
+constexpr std::size_t kStackBytes = std::size_t{64} * 1024;
 alignas(16) char handler_stack[kStackBytes];
 
 void on_stop_request(int signal) {
