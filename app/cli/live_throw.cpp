@@ -291,8 +291,10 @@ void print_result(const LiveJob& job, const LiveOptions& options, const Console&
                             words_of_name(json["ended"].get<std::string>())));
   print_clay(console, json);
   if (console.verbose) print_servo(console, json["servo"]);
-  if (job.pot_path.empty()) console.print(kPotNotWritten);
-  if (!job.pot_path.empty() && kept.pot) console.print("pot: " + job.pot_path);
+  if (job.pot_path.empty())
+    console.print(kPotNotWritten);
+  else if (kept.pot)
+    console.print("pot: " + job.pot_path);
   if (options.record.empty() || !kept.session) return;
   const bool empty = json["recording"]["poses"].get<std::uint64_t>() == 0;
   console.print("session: " + (empty ? "not written, since no pose was recorded" : options.record));

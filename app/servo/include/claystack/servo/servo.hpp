@@ -231,9 +231,9 @@ class LiveThrow {
   ~LiveThrow();
 
   /// Starts the servo; one at a time in a process, because signal handlers end the force of one.
-  /// After join() returned device_lost and the device was opened again,
-  /// continues, with the force ramped up from zero. Errors: another servo runs (`bad_input`), or
-  /// the system starts no thread (`io`); nothing runs then.
+  /// After join() returned device_lost and the device was opened again, continues, with the force
+  /// ramped up from zero. Errors: another servo runs (`bad_input`), or the system starts no thread
+  /// (`io`); nothing runs then.
   Result<void> start(Pace pace = Pace::real_time);
 
   /// Pace::stepped: ticks until the clock reaches `until_ns`, or to the end. Otherwise nothing.
