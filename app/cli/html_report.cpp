@@ -64,7 +64,8 @@ class WallMapFigure {
   }
 
   std::string svg() {
-    const double width = 2.0 * widest_ + 8.0 + 11.0 * text_, height = top_ + 8.0;
+    // The bar, and "100.0 mm or more".
+    const double width = 2.0 * widest_ + 8.0 + 12.0 * text_, height = top_ + 8.0;
     writer_.open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                          {"viewBox", fmt::format("{:.2f} {:.2f} {:.2f} {:.2f}", -widest_ - 4.0,
                                                  -top_ - 4.0, width, height)}});
