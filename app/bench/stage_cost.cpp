@@ -40,7 +40,9 @@ std::optional<SceneSpec> with_rule(SceneSpec scene, std::string_view rule) {
   else if (rule == "finger" && scene.tool.mode == ToolMode::press) {
     clay.heave = true;
     clay.finger_mm = history::kFingerMm;
-  } else
+  } else if (rule == "thin wall")
+    clay.shift = clay.thin_wall_yields = true;
+  else
     return std::nullopt;
   return scene;
 }

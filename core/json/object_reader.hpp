@@ -69,6 +69,12 @@ class ObjectReader {
   /// One of `names`, in the order of the values of T.
   template <class T>
   void choice(std::string_view name, T& value, Names names);
+  /// One that files have only where it is not the usual one.
+  template <class T>
+  void choice_unless(T usual, std::string_view name, T& value, Names names) {
+    value = usual;
+    choice(name, value, names);
+  }
   template <class T>
   void part(std::string_view name, T& value);
   template <class T>

@@ -82,6 +82,10 @@ class ObjectWriter {
     member(name) = names[static_cast<std::size_t>(value)];
   }
   template <class T>
+  void choice_unless(T usual, std::string_view name, T value, Names names) {
+    if (value != usual) choice(name, value, names);
+  }
+  template <class T>
   void part(std::string_view name, const T& value) {
     member(name) = write(value);
   }

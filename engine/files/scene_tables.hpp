@@ -20,6 +20,7 @@ inline constexpr std::array<std::string_view, 4> kShapeNames = {"sphere", "ellip
 inline constexpr std::array<std::string_view, 7> kToolModeNames = {
     "press", "trim", "pinch", "smooth", "needle", "wire", "trim_foot"};
 inline constexpr std::array<std::string_view, 2> kSwitchNames = {"off", "on"};
+inline constexpr std::array<std::string_view, 2> kThinWallNames = {"stops", "yields"};
 inline constexpr std::array<std::string_view, 2> kWheelTurnNames = {"clockwise",
                                                                     "counterclockwise"};
 
@@ -100,6 +101,7 @@ void describe(auto& io, Is<ClaySpec> auto& clay) {
   io.number("wheel_rpm", clay.wheel_rpm, from(0).to(1e3));
   io.number("floor_mm", clay.floor_mm, from(0).to(1e6));
   io.number("finger_mm", clay.finger_mm, from(0).to(200));
+  io.choice_unless(false, "thin_wall", clay.thin_wall_yields, files::kThinWallNames);
 }
 
 void describe(auto& io, Is<ThrowSettings> auto& settings) {

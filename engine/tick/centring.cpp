@@ -131,14 +131,16 @@ void centre(const StepPlan& plan, const ClayStack& stack, const ToolState& tool,
   const Shell shell = shell_at(stack, walls, band, min_wall, 0.0, 0.0);
   if (!(shell.share > 0.0)) return;
   const bool hoop = (plan.clay.rules & kHoop) != 0;
-  shift.lay(stack, walls, band, shell, {outward, hoop, min_wall},
-            [&](std::size_t first, std::span<float> by) {
-              const std::size_t end = std::min(first + by.size(), over.to());
-              for (std::size_t i = std::max(first, over.from()); i < end; ++i)
-                by[i - first] = static_cast<float>(std::min<double>(
-                    by[i - first], outward ? over.outward_mm(i) : over.inward_mm(i)));
-              hold_foot(shell, stack.ring_height_mm(), first, by);
-            });
+  shift.lay(
+      stack, walls, band, shell, {outward, hoop, min_wall},
+      [&](std::size_t first, std::span<float> by) {
+        const std::size_t end = std::min(first + by.size(), over.to());
+        for (std::size_t i = std::max(first, over.from()); i < end; ++i)
+          by[i - first] = static_cast<float>(
+              std::min<double>(by[i - first], outward ? over.outward_mm(i) : over.inward_mm(i)));
+        hold_foot(shell, stack.ring_height_mm(), first, by);
+      },
+      [](std::size_t, std::span<float>) {});
   for (std::size_t side = 0; side < 2; ++side) {
     TouchedRings& rings = removals[side].contact.rings;
     for (std::size_t i = rings.from(); i < rings.to(); ++i) {

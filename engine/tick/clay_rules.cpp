@@ -129,22 +129,39 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
   }
 }
 
+/// What of a touched ring gives way and cannot be squeezed out, for the minimum wall, moves.
+void bend_thin(const TouchedRings& rings, const float* walls, const Shell& shell, double min_wall,
+               double h, std::size_t first, std::span<float> by) noexcept {
+  const std::size_t end = std::min(first + by.size(), rings.to());
+  for (std::size_t i = std::max(first, rings.from()); i < end; ++i) {
+    const double spare = std::max(static_cast<double>(walls[i - first]) - min_wall, 0.0);
+    const double held = shell.hold((static_cast<double>(i) + 0.5) * h);
+    by[i - first] = std::max(by[i - first], static_cast<float>(held * (rings.give(i) - spare)));
+  }
+}
+
 /// One tool moves the wall that it presses.
 void bend(const RulePress& press, const ClayStack& stack, Contact& contact, bool hoop,
           RuleWork& work) noexcept {
   const Band& band = work.bands[0];
   const double min_wall = press.plan.removal.min_wall_mm;
+  const bool bends = press.plan.clay.thin_wall_yields;
   const Shell shell = shell_at(stack, work.walls, band, min_wall, press.motion.upward_mm_s,
                                speed_into(contact.side, press.motion));
   if (!(shell.share > 0.0)) return;
   const double h = stack.ring_height_mm();
   const double about = std::max(kAbout * shell.wall_mm / h, 0.5);
   const MeanGive gives(contact.rings, shell.share, about, work.gives);
-  work.shift.lay(stack, work.walls, band, shell, {contact.side == Side::expansive, hoop, min_wall},
-                 [&](std::size_t first, std::span<float> by) {
-                   gives.move(first, by);
-                   hold_foot(shell, h, first, by);
-                 });
+  work.shift.lay(
+      stack, work.walls, band, shell, {contact.side == Side::expansive, hoop, min_wall, bends},
+      [&](std::size_t first, std::span<float> by) {
+        gives.move(first, by);
+        hold_foot(shell, h, first, by);
+      },
+      [&](std::size_t first, std::span<float> by) {
+        if (bends)
+          bend_thin(contact.rings, work.walls.thickness(first), shell, min_wall, h, first, by);
+      });
 }
 
 template <unsigned rules>
@@ -281,6 +298,32 @@ void smear_surfaces(const RulePress& press, std::span<const ToolRemoval> removal
             writer);
 }
 
+/// A cutter cannot thin a rim at its minimum, but what is below it. Takes off the tip, no higher
+/// than it is thick, that the cutter is in and that stands out over the ring below, both by more
+/// than a ring is high. Returns its clay.
+WideQuanta cut_ledge(const StepPlan& plan, const Contact& contact, const ClayStack& stack,
+                     StackWriter& writer, Flow& flow) noexcept {
+  constexpr double kNearMm = 1e-3;
+  const double h = stack.ring_height_mm(), min_wall = plan.removal.min_wall_mm;
+  const auto rings = stack.rings();
+  const std::size_t top = rings.size() - 1;
+  std::size_t tip = rings.size();
+  for (std::size_t i = top; i > 0 && contact.rings.has(i); --i) {
+    const Ring &ring = rings[i], &below = rings[i - 1];
+    if (!(contact.rings.get(i).depth_mm > h && wall_mm(ring) < min_wall + kNearMm)) break;
+    const double high = static_cast<double>(rings.size() - i) * h;
+    if (high > min_wall && i != top) break;
+    const double out = contact.side == Side::expansive ? below.inner_mm() - ring.inner_mm()
+                                                       : ring.outer_mm() - below.outer_mm();
+    if (out > h) tip = i;
+  }
+  if (tip > top) return 0;
+  flow.lip = tip;
+  flow.sunk += rings.size() - tip;
+  for (const Ring& ring : rings.subspan(tip)) flow.sunk_volume += ring.volume();
+  return writer.cut_above(tip);
+}
+
 template <unsigned rules>
 Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, RuleWork& work,
                ClayStack& stack, Ledger& ledger, Rim& all_rim) noexcept {
@@ -294,6 +337,10 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
   }
   WideQuanta removed = remove_clay(removals, stack, rim);
   if constexpr (rules & kHeave) removed += relieve(press, removals, work, stack, writer);
+  Flow flow;
+  if (press.trim && plan.clay.thin_wall_yields && plan.mode != ToolMode::trim_foot)
+    for (const ToolRemoval& removal : removals)
+      removed += cut_ledge(plan, removal.contact, stack, writer, flow);
   if (press.trim)
     ledger.trimmed += removed;
   else if ((rules & kLift) && removals.size() == 2)
@@ -303,9 +350,9 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
   if constexpr (rules & kSmear)
     if (!press.trim && press.tool.slow_s > 0.0)
       smear_surfaces(press, removals, work, stack, writer);
-  Flow flow;
-  flow.lowest = work.lowest;
-  flow.highest = work.highest;
+  const std::size_t top = stack.size() - 1;
+  flow.lowest = std::min(work.lowest, top);
+  flow.highest = std::min(work.highest, top);
   if (stack.crown() < 0)
     sink_rim(flow, plan.tool, press.tool.hip_mm.y, removals, stack, writer);
   else

@@ -17,6 +17,8 @@ constexpr float kMostOfBore = 0.75f;
 constexpr double kBlend = 0.45;
 // Bound of the relative error of a radius in single precision.
 constexpr float kRounding = 1e-6f;
+constexpr float kLargest2 = static_cast<float>(kMaxRadiusMm * kMaxRadiusMm) * (1.0f - kRounding);
+constexpr float kMost = static_cast<float>(kMostLaneQuanta * kMm2PerQuantum);  // for conversions
 
 template <class Number>
 CLAYSTACK_INLINE inline Number smooth(Number t) noexcept {
@@ -33,7 +35,6 @@ CLAYSTACK_INLINE inline F pushed_in(F outer, F inner, F u) noexcept {
 /// becomes thinner than the minimum.
 template <class F>
 CLAYSTACK_INLINE inline F pushed_out(F outer, F inner, F u, float per_min_wall) noexcept {
-  constexpr float kLargest2 = static_cast<float>(kMaxRadiusMm * kMaxRadiusMm) * (1.0f - kRounding);
   const F wall = outer - inner - kRounding * outer;
   const F room = 0.5f * ((outer + inner) * (wall * per_min_wall - 1.0f));
   const F by = lesser(u, F(room > 0.0f ? room : F{}));
@@ -60,12 +61,33 @@ template <std::size_t n>
 CLAYSTACK_INLINE inline void square(const float* outers, const float* inners, std::size_t count,
                                     bool outward, float per_min_wall, float* by) noexcept {
   using F = TwiceFloats<n>;
-  constexpr float kMost = static_cast<float>(kMostLaneQuanta * kMm2PerQuantum);
   for (std::size_t k = 0; k < count; k += 2 * n) {
     const F outer = load_floats<n>(outers + k), inner = load_floats<n>(inners + k);
     const F u = load_floats<n>(by + k);
     const F way = outward ? pushed_out(outer, inner, u, per_min_wall) : -pushed_in(outer, inner, u);
     store(by + k, lesser(greater(way, F(F{} - kMost)), F(F{} + kMost)));
+  }
+}
+/// The same outward, where the wall keeps its minimum, or what it has of that: R^2 grows by more,
+/// and so much clay comes from above. At the largest radius it does not move. Afterwards `rises` is
+/// what becomes height, as a part of `by`.
+template <std::size_t n>
+CLAYSTACK_INLINE inline void stretch(const float* outers, const float* inners, std::size_t count,
+                                     float hoop, float min_wall, float* by, float* rises) noexcept {
+  using F = TwiceFloats<n>;
+  for (std::size_t k = 0; k < count; k += 2 * n) {
+    const F outer = load_floats<n>(outers + k), inner = load_floats<n>(inners + k);
+    const F u = load_floats<n>(by + k), outer2 = outer * outer, wall = outer - inner;
+    const F q = u * (2.0f * inner + u), given = -hoop * q * load_floats<n>(rises + k);
+    const F rounding = kRounding * outer, far = root(F(outer2 + q));
+    const F thick = wall > min_wall - rounding ? F(min_wall + rounding) : wall;
+    const F lack = thick - far + root(F(inner * inner + q + given));
+    const F more = lack > 0.0f && u > 0.0f ? F(lack * (2.0f * far + lack)) : F{};
+    const F most = lesser(F(kLargest2 - outer2), F(F{} + kMost));
+    const auto fits = greater(F(q + more), F(more - given)) <= most;
+    const F moved = fits ? F(q + more) : F{};
+    store(by + k, moved);
+    store(rises + k, moved > 0.0f ? F((given - more) / moved) : F{});
   }
 }
 
@@ -129,15 +151,20 @@ void Shift::move(const WallRadii& walls, const Push& push, std::size_t first, st
   alignas(kPackBytes) float rises[kRows];
   in_packs([=, outers = walls.outer(first), inners = walls.inner(first), rises = &rises[0],
             changes = &changes_[first - from_], hoop = push.hoop ? 0.5f : 0.0f,
-            per_min_wall = static_cast<float>(1.0 / push.min_wall_mm), outward = push.outward,
-            total = &sum](auto n) CLAYSTACK_INLINE {
+            per_min_wall = static_cast<float>(1.0 / push.min_wall_mm),
+            min_wall = static_cast<float>(push.min_wall_mm), outward = push.outward,
+            stretches = push.outward && push.stretch, total = &sum](auto n) CLAYSTACK_INLINE {
     soften<n>(outers, inners, count, by, rises);
-    square<n>(outers, inners, count, outward, per_min_wall, by);
+    if (stretches)
+      stretch<n>(outers, inners, count, hoop, min_wall, by, rises);
+    else
+      square<n>(outers, inners, count, outward, per_min_wall, by);
+    const float height = stretches ? 1.0f : -hoop;
     Quantas<n> raised{};
     for (std::size_t k = 0; k < count; k += 2 * n) {
       const auto q = load_floats<n>(by + k);
-      // Thickness over the middle radius, times half: clay that is pushed up.
-      const auto given = halves<n>(TwiceFloats<n>(-hoop * q * load_floats<n>(rises + k)));
+      // Clay that is pushed up.
+      const auto given = halves<n>(TwiceFloats<n>(height * q * load_floats<n>(rises + k)));
       const auto moved = halves<n>(q);
       for (std::size_t half = 0; half < 2; ++half) {
         const Quantas<n> by_q = quanta_of(Doubles<n>(moved[half] * kQuantaPerMm2));
@@ -151,14 +178,16 @@ void Shift::move(const WallRadii& walls, const Push& push, std::size_t first, st
   raised_total_ += sum;
 }
 
-/// A wall that sinks must find its clay above it.
-void Shift::settle(const ClayStack& stack) noexcept {
+/// A wall that sinks must find its clay above it. Without that it does not sink: it thins, or, if
+/// it would have to stretch, stays.
+void Shift::settle(const ClayStack& stack, bool stretch) noexcept {
   if (raised_total_ >= 0) return;
   WideQuanta found = stack.crown();
   const auto rings = stack.rings();
   for (std::size_t k = 1; k <= kMostSunk && found + raised_total_ < 0 && k < rings.size(); ++k)
     found += after(rings.size() - k, rings[rings.size() - k]).volume();
   if (found + raised_total_ >= 0) return;
+  if (stretch) return clear();
   for (Ring& change : std::span(changes_).first(count_)) change.inner2 = change.outer2;
   raised_total_ = 0;
 }

@@ -27,7 +27,8 @@ class Shift {
   [[nodiscard]] WideQuanta raised() const noexcept { return raised_total_; }
 
   /// R^2 and r^2 change alike, by q = u (2 R - u) where the wall is pushed in and u (2 r + u)
-  /// where it is pushed out; half of the hoop strain q / (R^2 + r^2) becomes height.
+  /// where it is pushed out; half of the hoop strain q / (R^2 + r^2) becomes height. A wall that
+  /// stretches gets what it lacks of its minimum from its height, too.
   [[nodiscard]] Ring after(std::size_t i, const Ring& ring) const noexcept {
     const std::size_t k = i - from_;
     if (k >= count_) return ring;
@@ -51,12 +52,13 @@ class Shift {
     bool outward = false;
     bool hoop = true;
     double min_wall_mm = 0.0;
+    bool stretch = false;  ///< outward, a wall at its minimum keeps its thickness and loses height
   };
   /// Lays the wall's motion about a band. `limit(first, by)` may change how far the rings from
-  /// `first` on move [mm].
-  template <class Limit>
+  /// `first` on move [mm], and so may `least(first, by)`, after the part that trails.
+  template <class Limit, class Least>
   void lay(const ClayStack& stack, WallRadii& walls, const Band& band, const Shell& shell,
-           const Push& push, Limit limit) noexcept {
+           const Push& push, Limit limit, Least least) noexcept {
     begin(stack, band, shell);
     walls.cover(stack, from_, to());
     for (std::size_t first = from_; first < to(); first += kRows) {
@@ -66,10 +68,11 @@ class Shift {
       limit(first, std::span(by).first(count));
       if (shell.trail_below < 1.0 || shell.trail_above < 1.0)
         trail(stack.ring_height_mm(), band, shell, first, count, by);
+      least(first, std::span(by).first(count));
       std::fill(by + count, by + in_packs_of(count), 0.0f);
       move(walls, push, first, count, by);
     }
-    settle(stack);
+    settle(stack, push.stretch);
   }
 
  private:
@@ -84,7 +87,7 @@ class Shift {
   /// by how much R^2 and r^2 change [mm^2].
   void move(const WallRadii& walls, const Push& push, std::size_t first, std::size_t count,
             float* by) noexcept;
-  void settle(const ClayStack& stack) noexcept;
+  void settle(const ClayStack& stack, bool stretch) noexcept;
 
   std::size_t from_ = 0, count_ = 0;
   std::vector<Ring> changes_;  ///< room for whole packs; R^2 below 0: inward

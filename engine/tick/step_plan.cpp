@@ -90,7 +90,7 @@ RulesPlan rules_plan(const SceneSpec& s) {
                                                           : s.clay->floor_mm / h + 0.5;
   constexpr double kTurn = 2.0 * std::numbers::pi;
   return {rules_of(s), static_cast<std::size_t>(std::fmin(rings, static_cast<double>(kMaxRings))),
-          kTurn * s.clay->wheel_rpm / 60.0, finger_mm(s)};
+          kTurn * s.clay->wheel_rpm / 60.0, finger_mm(s), s.clay->thin_wall_yields};
 }
 
 ForcePlan force_plan(const SceneSpec& s) {
@@ -136,6 +136,11 @@ void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
   lines.push_back({"finger", finger,
                    finger ? "in a bore, no clay closes behind the tool"
                    : any  ? "no finger is set, or heave is off, or the tool does not press"
+                          : none});
+  const bool yields = any && s.clay->thin_wall_yields;
+  lines.push_back({"thin wall", yields,
+                   yields ? "at the minimum wall it bends on; a cut leaves no ledge at the rim"
+                   : any  ? "at the minimum wall it stays, and the tool goes through"
                           : none});
 }
 

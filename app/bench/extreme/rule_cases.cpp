@@ -248,6 +248,37 @@ Outcome pot_of_five_metres(Model model) {
   });
 }
 
+/// Presses the whole wall outward where nothing can be squeezed out of it, by leaps too.
+Outcome thin_wall_pressed(Model model) {
+  SceneSpec scene = ruled_pot(27.0);
+  scene.removal.min_wall_mm = 3.0;
+  scene.clay->thin_wall_yields = true;
+  return with_rules(model, scene, [](Trial& trial) {
+    trial.stroke({18, 30, 0}, {40, 30, 0}, 300);
+    trial.stroke({40, 30, 0}, {40, 70, 0}, 100);
+    trial.stroke({18, 10, 0}, {80, 12, 0}, 3);
+  });
+}
+
+/// Cuts a rim at its minimum from both sides, down to the foot, in rings of this height.
+template <int per_mm, std::size_t rings>
+Outcome thin_rim_cut(Model model) {
+  SceneSpec scene = ruled_pot();
+  scene.tool.mode = ToolMode::trim;
+  scene.removal.min_wall_mm = 3.0;
+  scene.lump.rings = rings;
+  scene.lump.ring_height_mm = 1.0 / per_mm;
+  scene.lump.max_rings = 2 * rings;
+  scene.clay->thin_wall_yields = true;
+  const double top = static_cast<double>(rings) / per_mm;
+  return with_rules(model, scene, [top](Trial& trial) {
+    for (const double down : {4.0, 2.0, 0.0, -2.0, -20.0}) {
+      trial.stroke({38, top + 2, 0}, {20, top + down, 0}, 150);
+      trial.stroke({10, top + 2, 0}, {30, top + down, 0}, 150);
+    }
+  });
+}
+
 /// Under a tool at rest the clay comes to rest.
 Outcome still_tool(Model model) {
   return with_rules(model, ruled_pot(), [](Trial& trial) {
@@ -318,6 +349,11 @@ constexpr Case kRuleCases[] = {
     rule_case("rules_rib_as_high_as_the_pot", "a rib over the whole wall, from both sides",
               rib_as_high_as_the_pot),
     rule_case("rules_pot_of_five_metres", "R = 4999 mm", pot_of_five_metres),
+    rule_case("rules_thin_wall_pressed", "a wall at its minimum, pressed outward and by leaps",
+              thin_wall_pressed),
+    rule_case("rules_thin_rim_cut_1_mm", "a rim at its minimum, cut away, h = 1 mm",
+              thin_rim_cut<1, 60>),
+    rule_case("rules_thin_rim_cut_10_um", "the same, h = 10 um", thin_rim_cut<100, 3000>),
     rule_case("rules_still_tool", "a tool at rest in the clay for 20 s", still_tool),
     rule_case("rules_twice_the_same", "the same strokes twice", twice_the_same),
 };

@@ -56,7 +56,8 @@ constexpr std::string_view kText = R"({
     "smear": "off",
     "wheel_rpm": 90,
     "floor_mm": 7,
-    "finger_mm": 80
+    "finger_mm": 80,
+    "thin_wall": "yields"
   }
 }
 )";

@@ -26,6 +26,15 @@ TEST(SceneHash, IgnoresTheWritingVersion) {
   EXPECT_EQ(hash_of(scene), fnv1a(text));
 }
 
+/// Sessions name the hash of their scene, and many were recorded before there was this setting.
+TEST(SceneHash, AWallThatStaysIsNotInTheText) {
+  SceneSpec scene;
+  scene.clay = ClaySpec{};
+  EXPECT_EQ(write_scene(scene).find("thin_wall"), std::string::npos);
+  scene.clay->thin_wall_yields = true;
+  EXPECT_NE(write_scene(scene).find("thin_wall"), std::string::npos);
+}
+
 RC_GTEST_PROP(SceneHash, DistinguishesScenes, ()) {
   const SceneSpec a = test::arbitrary_scene();
   const SceneSpec b = test::arbitrary_scene();

@@ -33,7 +33,8 @@ TEST(ClayAudit, AccountsForEveryQuantumAfterEveryTick) {
                           (rules & kSmear) != 0,
                           120.0,
                           3.0,
-                          (rules / 7) % 2 == 1 ? std::optional(90.0) : std::nullopt};
+                          (rules / 7) % 2 == 1 ? std::optional(90.0) : std::nullopt,
+                          (rules / 7) % 4 < 2};
     Wheel wheel = Wheel::build(scene).value();
     for (const Pose& pose : random_poses(rules + 1, ticks())) {
       const StepReport report = wheel.step(pose);
@@ -125,6 +126,8 @@ TEST(ClayAudit, ClayNeverMovesIntoTheTool) {
   scene.clay = ClaySpec{};
   expect_no_gain_of_energy(scene);
   scene.clay->finger_mm = 90.0;
+  expect_no_gain_of_energy(scene);
+  scene.clay->thin_wall_yields = true;
   expect_no_gain_of_energy(scene);
 }
 

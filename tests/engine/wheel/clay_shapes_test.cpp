@@ -9,30 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <vector>
 
 namespace clay {
 namespace {
-
-/// A wheel with a pot of these radii, `outer` and `inner` by the height of a ring's middle.
-Wheel wheel_with(SceneSpec scene, double height_mm, const std::function<double(double)>& outer,
-                 const std::function<double(double)>& inner) {
-  std::vector<Ring> rings;
-  for (double up = 0.5 * kH; up < height_mm; up += kH)
-    rings.push_back({quanta_from_radius(outer(up)), quanta_from_radius(inner(up))});
-  Pot pot{ClayStack::from_rings(kH, rings, 0, 2400).value(),
-          {},
-          Model::conserving,
-          1.9,
-          {},
-          {},
-          {},
-          {}};
-  pot.ledger.initial = pot.stack.volume();
-  return Wheel::build(scene, pot).value();
-}
 
 constexpr double kTallMm = 60.0, kThickMm = 8.0, kMiddleMm = 41.0;
 constexpr std::size_t kLipRings = 20;  // half of the wall's thickness

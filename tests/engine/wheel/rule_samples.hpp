@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace clay {
@@ -30,6 +31,25 @@ inline SceneSpec cylinder_scene(ClaySpec clay) {
   scene.force.reset();
   scene.clay = clay;
   return scene;
+}
+
+/// A wheel with a pot of these radii, `outer` and `inner` by the height of a ring's middle.
+inline Wheel wheel_with(const SceneSpec& scene, double height_mm,
+                        const std::function<double(double)>& outer,
+                        const std::function<double(double)>& inner) {
+  std::vector<Ring> rings;
+  for (double up = 0.5 * kH; up < height_mm; up += kH)
+    rings.push_back({quanta_from_radius(outer(up)), quanta_from_radius(inner(up))});
+  Pot pot{ClayStack::from_rings(kH, rings, 0, 2400).value(),
+          {},
+          Model::conserving,
+          1.9,
+          {},
+          {},
+          {},
+          {}};
+  pot.ledger.initial = pot.stack.volume();
+  return Wheel::build(scene, pot).value();
 }
 
 inline double wall_of(const Ring& ring) { return ring.outer_mm() - ring.inner_mm(); }

@@ -125,6 +125,10 @@ struct ClaySpec {
   double floor_mm = 0.0;     ///< no tool opens the solid bottom below this height; 0: no stop
   /// Length of the finger in a bore, behind which no thick wall closes; absent: the tool alone.
   std::optional<double> finger_mm = std::nullopt;
+  /// At the minimum wall. False: the wall stays where it is, and the tool goes through. True: a
+  /// press from inside bends it (needs `shift`), and the rim sinks for the clay that it then needs;
+  /// a cut takes a tip off the rim that would stand out as a ledge.
+  bool thin_wall_yields = false;
   friend bool operator==(const ClaySpec&, const ClaySpec&) = default;
 };
 

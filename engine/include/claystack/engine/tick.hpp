@@ -156,8 +156,9 @@ struct RulesPlan {
   unsigned rules = 0;  ///< Rule bits
   /// The solid rings that no tool opens: the lowest, or below the bore if the tool trims the foot.
   std::size_t floor_rings = 0;
-  double surface_per_s = 0.0;  ///< speed of a surface of radius 1 under a tool
-  double finger_mm = 0.0;      ///< above a tool in a bore; 0: none
+  double surface_per_s = 0.0;     ///< speed of a surface of radius 1 under a tool
+  double finger_mm = 0.0;         ///< above a tool in a bore; 0: none
+  bool thin_wall_yields = false;  ///< as ClaySpec's
 };
 
 /// One line of `claystack plan`.
