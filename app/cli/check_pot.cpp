@@ -50,7 +50,6 @@ Verdict verdict_on(const solid::ExportReport& report) {
   verdict.mesh.size_mm = {report.size.diameter_mm, report.size.diameter_mm, report.size.height_mm};
   verdict.wall_mm = report.walls.min_wall_mm;
   verdict.wall_parts = report.walls.parts;
-  const auto& shapes = report.section.shapes();
   const auto& limit = report.walls.limit;
   if (limit && *verdict.wall_mm < limit->min_wall_mm)
     verdict.add("walls", Grade::fail,
@@ -58,14 +57,13 @@ Verdict verdict_on(const solid::ExportReport& report) {
   else if (limit)
     verdict.add("walls", Grade::pass, solid::wall_text(*verdict.wall_mm, *limit));
   const std::string about = report.process.limits ? "process" : "geometry";
-  for (const solid::Problem& problem : solid::problems_of(report))
-    verdict.add(about, problem.fails ? Grade::fail : Grade::warn, problem.text);
+  for (const solid::Problem& problem : solid::problems_of(report)) {
+    const bool bodies = problem.kind == solid::ProblemKind::bodies;
+    verdict.add(bodies ? "geometry" : about, problem.fails || bodies ? Grade::fail : Grade::warn,
+                problem.text);
+  }
   if (report.process.limits && solid::problems_of(report).empty())
     verdict.add("process", Grade::pass, process_text(report));
-  if (shapes.size() > 1)
-    verdict.add("geometry", Grade::fail,
-                fmt::format("{} pieces that do not touch; ring {} is the first of the second",
-                            shapes.size(), shapes[1].first_ring));
   return verdict;
 }
 

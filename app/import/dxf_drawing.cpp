@@ -74,11 +74,11 @@ class Reader {
       if (auto done = section(*entity, groups); !done) return tl::make_unexpected(done.error());
     }
     if (!layer_.empty() && !seen_layers_.contains(layer_))
-      return failure(
-          ErrorKind::bad_input,
-          fmt::format("{}: expected a layer \"{}\", found {}", name_, layer_,
-                      seen_layers_.empty() ? "no lines on any layer"
-                                           : fmt::format("{}", fmt::join(seen_layers_, ", "))));
+      return failure(ErrorKind::bad_input,
+                     fmt::format("{}: expected a layer \"{}\", found {}", name_, layer_,
+                                 seen_layers_.empty()
+                                     ? "no lines on any layer"
+                                     : fmt::format("\"{}\"", fmt::join(seen_layers_, "\", \""))));
     return Drawing{std::move(lines_), false};
   }
 

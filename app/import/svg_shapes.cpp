@@ -87,7 +87,7 @@ class Copier {
     if (names.empty()) return "no layers and no groups with a name";
     const std::size_t more = names.size() - std::min(names.size(), kMost);
     names.resize(names.size() - more);
-    return fmt::format("{}{}", fmt::join(names, ", "),
+    return fmt::format("\"{}\"{}", fmt::join(names, "\", \""),
                        more > 0 ? fmt::format(" and {} more", more) : std::string());
   }
 

@@ -74,11 +74,19 @@ std::optional<Problem> too_large(const ExportReport& report) {
       std::nullopt, true, ProblemKind::too_large};
 }
 
+/// Whether the thinnest wall has a place: not in a fallen pot.
+bool placed_wall(const ExportReport& report) {
+  return !report.collapsed && report.walls.thinnest.thickness_mm > 0.0;
+}
+
 /// Where no limit was asked for, a wall below that of each process is still worth a warning.
 std::optional<std::string> below_each_process(const ExportReport& report) {
   const double smallest = smallest_allowed_wall_mm(), thinnest = report.thinnest_mm();
   if (report.walls.limit || thinnest <= 0.0 || thinnest >= smallest) return std::nullopt;
-  return fmt::format("thin wall: {:.3f} mm; no process allows less than {:g} mm", thinnest,
+  const std::string place =
+      placed_wall(report) ? fmt::format(" at a height of {:.1f} mm", report.walls.thinnest.from.y)
+                          : "";
+  return fmt::format("thin wall: {:.3f} mm{}; no process allows less than {:g} mm", thinnest, place,
                      smallest);
 }
 
@@ -107,23 +115,34 @@ std::vector<Problem> cavities_of(const ExportReport& report) {
   return cavities;
 }
 
+/// The pieces of a standing pot are one above the other.
+std::optional<Problem> several_bodies(const ExportReport& report) {
+  const auto& shapes = report.section.shapes();
+  const std::size_t count = report.collapsed ? report.collapsed->pieces : shapes.size();
+  if (count < 2) return std::nullopt;
+  return Problem{
+      report.collapsed
+          ? fmt::format("the file holds {} bodies that do not touch", count)
+          : fmt::format("{} pieces that do not touch: all but the lowest are in mid-air; "
+                        "ring {} is the first of the second",
+                        count, shapes[1].first_ring),
+      std::nullopt, false, ProblemKind::bodies};
+}
+
 std::vector<Problem> problems_with(const ExportReport& report, std::optional<std::string> thin) {
   std::vector<Problem> problems;
   const bool fails = thin.has_value();
   if (!fails) thin = below_each_process(report);
   if (thin) {
     const Wall& wall = report.walls.thinnest;
-    const bool placed = !report.collapsed && wall.thickness_mm > 0.0;
-    problems.push_back({std::move(*thin), placed ? std::optional(wall.from) : std::nullopt, fails,
+    problems.push_back({std::move(*thin),
+                        placed_wall(report) ? std::optional(wall.from) : std::nullopt, fails,
                         ProblemKind::thin_wall, report.thinnest_mm()});
   }
   if (auto size = too_large(report)) problems.push_back(std::move(*size));
   for (Problem& cavity : cavities_of(report)) problems.push_back(std::move(cavity));
   if (auto steep = steep_overhang(report.process)) problems.push_back(std::move(*steep));
-  if (report.collapsed && report.collapsed->pieces > 1)
-    problems.push_back(
-        {fmt::format("the file holds {} bodies that do not touch", report.collapsed->pieces),
-         std::nullopt, false, ProblemKind::bodies});
+  if (auto bodies = several_bodies(report)) problems.push_back(std::move(*bodies));
   return problems;
 }
 

@@ -182,7 +182,8 @@ std::string text_of(const MetGoal& met) {
   const Goal& goal = met.goal;
   std::string text;
   const auto add = [&](const std::optional<double>& number, const char* before, const char* after) {
-    if (number) text.append(text.empty() ? "" : ", ").append(before + in_mm(*number) + after);
+    if (number)
+      text.append(text.empty() ? "" : ", ").append(before + short_number_text(*number) + after);
   };
   add(goal.holds_ml, "holds ", goal.to_fill_line ? " ml to the fill line" : " ml to the brim");
   add(goal.weighs_g, "weighs ", " g");

@@ -60,9 +60,10 @@ TEST(Layers, IgnoresConstructionLayersByDefault) {
 }
 
 TEST(Layers, UnknownOnesAreRefusedWithTheNames) {
-  EXPECT_THAT(refusal_of(read_drawing(kSvg, "a.svg", "Pan")),
-              HasSubstr("a.svg: expected a layer \"Pan\", found Construction lines, Lid, Pot"));
-  EXPECT_THAT(refusal_of(read_drawing(kDxf, "a.dxf", "Pan")), HasSubstr("found lid, pot"));
+  EXPECT_THAT(
+      refusal_of(read_drawing(kSvg, "a.svg", "Pan")),
+      HasSubstr("a.svg: expected a layer \"Pan\", found \"Construction lines\", \"Lid\", \"Pot\""));
+  EXPECT_THAT(refusal_of(read_drawing(kDxf, "a.dxf", "Pan")), HasSubstr("found \"lid\", \"pot\""));
   // An SVG of other programs has groups with ids, which --layer accepts.
   const std::string open = "<svg xmlns='http://www.w3.org/2000/svg'>",
                     line = "<path d='M 0 0 H 9'/></g>";
@@ -70,13 +71,13 @@ TEST(Layers, UnknownOnesAreRefusedWithTheNames) {
       open + "<g id='section'>" + line + "<g id='axis'>" + line + "<g>" + line + "</svg>";
   EXPECT_EQ(lines_of(groups, "a.svg", "section"), 1u);
   EXPECT_THAT(refusal_of(read_drawing(groups, "a.svg", "nope")),
-              testing::EndsWith("found axis, section"));
+              testing::EndsWith("found \"axis\", \"section\""));
   EXPECT_THAT(refusal_of(read_drawing(open + "<g>" + line + "</svg>", "a.svg", "nope")),
               HasSubstr("found no layers and no groups with a name"));
   std::string many = open;
   for (int i = 10; i < 30; ++i) many += "<g id='g" + std::to_string(i) + "'>" + line;
   EXPECT_THAT(refusal_of(read_drawing(many + "</svg>", "a.svg", "nope")),
-              HasSubstr("g20, g21 and 8 more"));
+              HasSubstr("\"g20\", \"g21\" and 8 more"));
   const std::string empty = samples::dxf_of("0 SECTION 2 ENTITIES 0 ENDSEC 0 EOF");
   EXPECT_THAT(refusal_of(read_drawing(empty, "a.dxf", "nope")), HasSubstr("no lines on any layer"));
   EXPECT_THAT(refusal_of(read_drawing("1,2\n", "a.csv", "Pan")), HasSubstr("found a table"));

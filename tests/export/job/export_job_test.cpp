@@ -206,6 +206,12 @@ TEST(RunExport, PiecesOnlyWhenAllowed) {
   const auto result = exported(pot, every_format(), options);
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_EQ(result->report.size.shells, 2u);
+  const auto problems = problems_of(result->report);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_FALSE(problems[0].fails);
+  EXPECT_EQ(problems[0].text,
+            "2 pieces that do not touch: all but the lowest are in mid-air; ring 2 is the first of "
+            "the second");
 }
 
 TEST(RunExport, WallsLostInFloat32AreRefusedWithThePlace) {

@@ -325,7 +325,7 @@ struct Problem {
 
 /// Fails: a wall below the limit, a size above it, a closed cavity in a fired process. Warnings:
 /// without a limit a wall that no process allows, other closed cavities, overhangs above the
-/// limit, several bodies, in a file a lip with a smaller fillet than asked for.
+/// limit, several bodies or pieces, in a file a lip with a smaller fillet than asked for.
 [[nodiscard]] std::vector<Problem> problems_of(const ExportReport& report);
 /// The same for the solid, of which no mesh need be written.
 [[nodiscard]] std::vector<Problem> problems_of_solid(const ExportReport& report);
