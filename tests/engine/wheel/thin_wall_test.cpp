@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <vector>
 
 namespace clay {
 namespace {
@@ -50,7 +51,37 @@ TEST(ThinWall, BendsOutwardKeepsItsThicknessAndSinks) {
   expect_balanced(bends);
 }
 
-/// Two walls, one of which is thinner than the minimum from the start: no stroke thickens it.
+/// r every 0.5 mm of a wall that a ball pushes out and draws up, in rings of this height.
+std::vector<double> bent_bore(double ring_height_mm) {
+  SceneSpec scene = thin_scene(true);
+  scene.lump.ring_height_mm = ring_height_mm;
+  scene.lump.rings = static_cast<std::size_t>(120.0 / ring_height_mm + 0.5);
+  scene.lump.max_rings = 2 * scene.lump.rings;
+  Wheel wheel = Wheel::build(scene).value();
+  Hand hand(wheel);
+  hand.place_at(28.0, 40.0);
+  hand.move_to(36.0, 40.0, 20.0);
+  hand.move_to(37.0, 90.0, 30.0);
+  hand.move_to(20.0, 100.0, 50.0);
+  std::vector<double> radii;
+  for (double y = 0.25; y < 105.0; y += 0.5) radii.push_back(ring_at(wheel, y).inner_mm());
+  return radii;
+}
+
+/// The result does not depend on the height of the rings, to first order.
+TEST(ThinWall, BendsAlikeInRingsOfAnyHeight) {
+  const auto difference = [](double h) {
+    const auto coarse = bent_bore(h), fine = bent_bore(0.5 * h);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < fine.size(); ++k) sum += std::abs(coarse[k] - fine[k]);
+    return sum / static_cast<double>(fine.size());
+  };
+  const double coarse = difference(0.4), fine = difference(0.2);
+  EXPECT_LT(coarse, 0.03);
+  EXPECT_LT(fine, 0.6 * coarse);
+}
+
+/// A wall that is thinner than the minimum from the start: no stroke thickens it.
 TEST(ThinWall, AWallBelowTheMinimumKeepsWhatItHas) {
   SceneSpec scene = thin_scene(true);
   scene.lump.inner_radius_mm = 42.0;
