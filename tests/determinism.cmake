@@ -20,12 +20,15 @@ foreach(compiler g++ clang++)
       run(${CMAKE_COMMAND} --build ${build} --target replay_pot)
     endif()
     set(all "")
-    foreach(sample bowl vase bottle cylinder collapse
+    # The strokes of the bowl bend the wall of the vase at its minimum.
+    foreach(sample bowl vase bottle cylinder collapse vase,bowl
             paper/bowl paper/vase paper/bottle paper/cylinder paper/collapse)
+      string(REGEX REPLACE ",.*" "" scene ${sample})
+      string(REGEX REPLACE ".*," "" session ${sample})
       foreach(model "" paper)
         execute_process(
-          COMMAND ${replay_pot} ${SOURCE}/samples/${sample}.scene.json
-                  ${SOURCE}/samples/${sample}.session ${model}
+          COMMAND ${replay_pot} ${SOURCE}/samples/${scene}.scene.json
+                  ${SOURCE}/samples/${session}.session ${model}
           OUTPUT_VARIABLE pot COMMAND_ERROR_IS_FATAL ANY)
         string(SHA256 hash "${pot}")
         string(APPEND all "${sample} ${model} ${hash}\n")
