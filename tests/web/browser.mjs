@@ -1,7 +1,7 @@
 // A browser with the page in it, for the tests: starts it, opens pages, waits for what they
 // announce. Chromium by CDP, Firefox by WebDriver BiDi.
 import assert from 'node:assert/strict';
-import {existsSync} from 'node:fs';
+import {existsSync, readdirSync} from 'node:fs';
 import {join} from 'node:path';
 import puppeteer from 'puppeteer-core';
 
@@ -83,6 +83,19 @@ export async function openPage(browser, folder, url, size, before = null) {
   return page;
 }
 
+/// Clicks on "Throw it" of the bowl, again if a slow page has not drawn the gallery yet.
+export async function beginBowl(page) {
+  const begun = () => page.waitForFunction(() =>
+    document.getElementById('events').textContent.includes('work started: bowl'),
+    {timeout: 6000}).then(() => true, () => false);
+  for (let i = 0; i < 10; ++i) {
+    await pause(1000);
+    await page.mouse.click(302, 478);
+    if (await begun()) return;
+  }
+  await page.says('work started: bowl');
+}
+
 export async function chord(page, key, ...held) {
   for (const mod of held) await page.keyboard.down(mod);
   await page.keyboard.press(key);
@@ -93,7 +106,8 @@ export async function downloaded(folder, name) {
   const unfinished = [join(folder, name + '.part'), join(folder, name + '.crdownload')];
   for (let i = 0; i < 900; ++i, await pause(100))
     if (existsSync(join(folder, name)) && !unfinished.some(existsSync)) break;
-  assert.ok(existsSync(join(folder, name)), `expected the download ${name}`);
+  assert.ok(existsSync(join(folder, name)),
+    `expected the download ${name}, found ${readdirSync(folder).join(', ')}`);
   await pause(300);
   return join(folder, name);
 }

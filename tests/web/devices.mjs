@@ -2,9 +2,9 @@
 // recorded work: its poses are the tool's path, in mm and ms. Expected speeds: docs/studio.md, "Pen
 // and gamepad", and docs/devices.md.
 import assert from 'node:assert/strict';
-import {readFileSync, rmSync} from 'node:fs';
-import {join} from 'node:path';
-import {chord, downloaded, pause} from './browser.mjs';
+import {readdirSync, readFileSync, rmSync} from 'node:fs';
+import {basename, join} from 'node:path';
+import {beginBowl, chord, downloaded, pause} from './browser.mjs';
 
 const kQuantumMm = 2 ** -16;  // of positions in a work
 
@@ -70,23 +70,23 @@ const turns = (page, ms) => page.evaluate(ms => new Promise(done => {
 /// The lump of the bowl on the wheel; `before` runs before the scripts of the page.
 async function lump(open, before) {
   const page = await open(before);
-  await pause(1000);
-  await page.mouse.click(302, 478);
-  await page.says('work started: bowl');
+  await beginBowl(page);
   await page.says('checked: proved');
   return page;
 }
 
 /// Saves the work and returns its strokes.
 export async function saved(page, folder) {
-  rmSync(join(folder, 'bowl.work'), {force: true});
+  for (const name of readdirSync(folder)) if (name.endsWith('.work')) rmSync(join(folder, name));
   await page.focus('#canvas');
   await chord(page, 'KeyS', 'Control');
   await page.says('action: file.save');
   await pause(500);
   await page.keyboard.press('Enter');
-  await page.says('saved:');
-  return strokesOf(await downloaded(folder, 'bowl.work'));
+  await page.says('saved: ');
+  // Beside an older bowl.work in the page's storage it is bowl-2.work.
+  const {text} = await page.lastLine('saved: ');
+  return strokesOf(await downloaded(folder, basename(text.slice('saved: '.length))));
 }
 
 // The lump is a cylinder of 48 mm radius and 40 mm height. Strokes are made at half of its height, by

@@ -8,7 +8,7 @@ import {mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import {inflateRawSync} from 'node:zlib';
-import {chord, downloaded as downloadedIn, launch as launchIn, openPage as openPageIn, pause} from './browser.mjs';
+import {beginBowl, chord, downloaded as downloadedIn, launch as launchIn, openPage as openPageIn, pause} from './browser.mjs';
 import {gamepad, pen, saved, spaceMouse} from './devices.mjs';
 import {serve} from './server.mjs';
 
@@ -61,8 +61,7 @@ async function throwAndExport(browser) {
   const page = await openPage(browser, kDesktop);
   await pause(1500);
   await picture(page, 'gallery');
-  await page.mouse.click(302, 478);  // Throw it, of the bowl
-  await page.says('work started: bowl');
+  await beginBowl(page);
   await page.says('checked: proved');
   await pause(2500);
   const lump = await page.lastLine('work started');
@@ -184,8 +183,7 @@ async function offline(browser) {
   await assert.rejects(fetch(own.address));
   await page.goto(own.address);
   await page.says('window open');
-  await pause(1000);
-  await page.mouse.click(302, 478);
+  await beginBowl(page);
   await page.says('checked: proved');  // by the worker, whose files are kept too
   await context.close();
   console.log('started without the server');
@@ -197,8 +195,7 @@ async function repeated(browser) {
   const own = await serve(site, missing);
   const context = await browser.createBrowserContext();
   const page = await openPage(context, kDesktop, '', own.address);
-  await pause(1000);
-  await page.mouse.click(302, 478);
+  await beginBowl(page);
   await page.says('error: worker: claystack.wasm: the server answers 404');
   await pause(1000);
   await page.shows('pot', /Not checked$/);
@@ -216,9 +213,7 @@ async function repeated(browser) {
 async function recover() {
   let browser = await launch();
   const page = await openPage(browser, kDesktop);
-  await pause(1000);
-  await page.mouse.click(302, 478);
-  await page.says('work started: bowl');
+  await beginBowl(page);
   await drag(page);
   await pause(2500);
   const {turned} = await page.lastLine('stroke started');
@@ -306,9 +301,7 @@ async function quota() {
   let limit = await storageLimit(browser);
   await limit(kLeft);
   let page = await openPage(browser, kDesktop);
-  await pause(1000);
-  await page.mouse.click(302, 478);
-  await page.says('work started: bowl');
+  await beginBowl(page);
   await page.says('checked: proved');
   await page.shows('status', kFull);
   await limit(undefined);
