@@ -145,7 +145,7 @@ void bend(const RulePress& press, const ClayStack& stack, Contact& contact, bool
           RuleWork& work) noexcept {
   const Band& band = work.bands[0];
   const double min_wall = press.plan.removal.min_wall_mm;
-  const bool bends = press.plan.clay.thin_wall_yields;
+  const bool yields = press.plan.clay.thin_wall_yields;
   const Shell shell = shell_at(stack, work.walls, band, min_wall, press.motion.upward_mm_s,
                                speed_into(contact.side, press.motion));
   if (!(shell.share > 0.0)) return;
@@ -153,13 +153,13 @@ void bend(const RulePress& press, const ClayStack& stack, Contact& contact, bool
   const double about = std::max(kAbout * shell.wall_mm / h, 0.5);
   const MeanGive gives(contact.rings, shell.share, about, work.gives);
   work.shift.lay(
-      stack, work.walls, band, shell, {contact.side == Side::expansive, hoop, min_wall, bends},
+      stack, work.walls, band, shell, {contact.side == Side::expansive, hoop, min_wall, yields},
       [&](std::size_t first, std::span<float> by) {
         gives.move(first, by);
         hold_foot(shell, h, first, by);
       },
       [&](std::size_t first, std::span<float> by) {
-        if (bends)
+        if (yields)
           bend_thin(contact.rings, work.walls.thickness(first), shell, min_wall, h, first, by);
       });
 }

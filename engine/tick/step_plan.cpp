@@ -139,8 +139,8 @@ void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
                           : none});
   const bool yields = any && s.clay->thin_wall_yields;
   lines.push_back({"thin wall", yields,
-                   yields ? "at the minimum wall it bends on; a cut leaves no ledge at the rim"
-                   : any  ? "at the minimum wall it stays, and the tool goes through"
+                   yields ? "a wall at its minimum bends outward; a cut leaves no ledge"
+                   : any  ? "a tool from inside goes through a wall at its minimum"
                           : none});
 }
 

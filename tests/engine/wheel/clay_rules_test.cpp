@@ -42,10 +42,7 @@ TEST(ClayRules, CollaringThickensTheWallByHalfTheHoopStrain) {
 std::vector<double> heaved_profile(double ring_height_mm) {
   ClaySpec clay = no_rules();
   clay.heave = clay.rim = true;
-  SceneSpec scene = cylinder_scene(clay);
-  scene.lump.ring_height_mm = ring_height_mm;
-  scene.lump.rings = static_cast<std::size_t>(60.0 / ring_height_mm + 0.5);
-  scene.lump.max_rings = 2 * scene.lump.rings;
+  SceneSpec scene = in_rings_of(ring_height_mm, 60.0, cylinder_scene(clay));
   scene.lump.inner_radius_mm = 20.0;
   scene.removal.min_wall_mm = 2.0;
   Wheel wheel = Wheel::build(scene).value();
@@ -61,13 +58,7 @@ std::vector<double> heaved_profile(double ring_height_mm) {
 /// Heave compares walls over a way, not from ring to ring: else its limit would fall with the
 /// height of the rings, and more and more clay would go elsewhere.
 TEST(ClayRules, AHeavedWallHasALimitAsRingsGetLower) {
-  const auto difference = [](double h) {
-    const auto coarse = heaved_profile(h), fine = heaved_profile(0.5 * h);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < fine.size(); ++k) sum += std::abs(coarse[k] - fine[k]);
-    return sum / static_cast<double>(fine.size());
-  };
-  EXPECT_LT(difference(0.05), 0.01);  // 0.007; from ring to ring it is 0.013
+  EXPECT_LT(change_by_halving(0.05, heaved_profile), 0.01);  // 0.007; from ring to ring it is 0.013
 }
 
 TEST(ClayRules, WithoutHoopAShiftKeepsTheClayOfEachRing) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -31,6 +32,24 @@ inline SceneSpec cylinder_scene(ClaySpec clay) {
   scene.force.reset();
   scene.clay = clay;
   return scene;
+}
+
+/// A cylinder of this height in rings of another height.
+inline SceneSpec in_rings_of(double ring_height_mm, double height_mm, SceneSpec scene) {
+  scene.lump.ring_height_mm = ring_height_mm;
+  scene.lump.rings = static_cast<std::size_t>(height_mm / ring_height_mm + 0.5);
+  scene.lump.max_rings = 2 * scene.lump.rings;
+  return scene;
+}
+
+/// Mean difference between what `radii_in` gives for rings of a height and of half of it [mm].
+template <class RadiiIn>
+double change_by_halving(double ring_height_mm, RadiiIn radii_in) {
+  const std::vector<double> coarse = radii_in(ring_height_mm),
+                            fine = radii_in(0.5 * ring_height_mm);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < fine.size(); ++k) sum += std::abs(coarse[k] - fine[k]);
+  return sum / static_cast<double>(fine.size());
 }
 
 /// A wheel with a pot of these radii, `outer` and `inner` by the height of a ring's middle.

@@ -53,11 +53,7 @@ TEST(ThinWall, BendsOutwardKeepsItsThicknessAndSinks) {
 
 /// r every 0.5 mm of a wall that a ball pushes out and draws up, in rings of this height.
 std::vector<double> bent_bore(double ring_height_mm) {
-  SceneSpec scene = thin_scene(true);
-  scene.lump.ring_height_mm = ring_height_mm;
-  scene.lump.rings = static_cast<std::size_t>(120.0 / ring_height_mm + 0.5);
-  scene.lump.max_rings = 2 * scene.lump.rings;
-  Wheel wheel = Wheel::build(scene).value();
+  Wheel wheel = Wheel::build(in_rings_of(ring_height_mm, 120.0, thin_scene(true))).value();
   Hand hand(wheel);
   hand.place_at(28.0, 40.0);
   hand.move_to(36.0, 40.0, 20.0);
@@ -70,13 +66,7 @@ std::vector<double> bent_bore(double ring_height_mm) {
 
 /// The result does not depend on the height of the rings, to first order.
 TEST(ThinWall, BendsAlikeInRingsOfAnyHeight) {
-  const auto difference = [](double h) {
-    const auto coarse = bent_bore(h), fine = bent_bore(0.5 * h);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < fine.size(); ++k) sum += std::abs(coarse[k] - fine[k]);
-    return sum / static_cast<double>(fine.size());
-  };
-  const double coarse = difference(0.4), fine = difference(0.2);
+  const double coarse = change_by_halving(0.4, bent_bore), fine = change_by_halving(0.2, bent_bore);
   EXPECT_LT(coarse, 0.03);
   EXPECT_LT(fine, 0.6 * coarse);
 }

@@ -125,9 +125,9 @@ struct ClaySpec {
   double floor_mm = 0.0;     ///< no tool opens the solid bottom below this height; 0: no stop
   /// Length of the finger in a bore, behind which no thick wall closes; absent: the tool alone.
   std::optional<double> finger_mm = std::nullopt;
-  /// At the minimum wall. False: the wall stays where it is, and the tool goes through. True: a
-  /// press from inside bends it (needs `shift`), and the rim sinks for the clay that it then needs;
-  /// a cut takes a tip off the rim that would stand out as a ledge.
+  /// At the minimum wall. False: a tool from inside goes through the wall. True: the press bends it
+  /// (needs `shift`), and the rim sinks for the clay that it then needs; a cut takes a tip off the
+  /// rim that would stand out as a ledge. A press from outside bends the wall in any case.
   bool thin_wall_yields = false;
   friend bool operator==(const ClaySpec&, const ClaySpec&) = default;
 };
