@@ -242,8 +242,15 @@ Result<int> batch(BatchOptions options, const Console& console) {
                 });
   if (!written) return tl::make_unexpected(written.error());
   if (!ran) return tl::make_unexpected(ran.error());
-  if (!console.quiet && !options.results.empty())
-    console.print(fmt::format("{}: {} done, {} failed; results in {} before: {}",
+  if (options.results.empty()) return failed == 0 ? kDone : kUnsound;
+  if (console.json)
+    print_json({{"jobs", asked},
+                {"done", asked - failed},
+                {"failed", failed},
+                {"skipped", skipped},
+                {"results", options.results}});
+  else if (!console.quiet)
+    console.print(fmt::format("{}: {} done, {} failed; skipped, with a result in {}: {}",
                               counted(asked, "job"), asked - failed, failed, options.results,
                               skipped));
   return failed == 0 ? kDone : kUnsound;

@@ -38,7 +38,8 @@ void set_finish(const ExportChoices& choices, solid::ExportOptions& options) {
   if (choices.foot_width_mm > 0.0)
     options.finish.foot = solid::FootRing{choices.foot_width_mm, choices.foot_depth_mm, {}};
   options.finish.floor_fillet_mm = choices.floor_fillet_mm;
-  options.finish.glaze_mm = choices.glaze_mm;
+  options.finish.glaze_mm = choices.glaze_mm * solid::enlargement(options.shrinkage);
+  if (choices.drain_mm > 0.0) options.drain_mm = choices.drain_mm;
   if (choices.lip_fillet_mm > 0.0) options.lip_fillet_mm = choices.lip_fillet_mm;
 }
 
@@ -63,6 +64,7 @@ solid::Goal goal_of(const ExportChoices& choices) {
   solid::Goal goal;
   goal.fired = choices.shrinkage_percent > 0.0;
   if (choices.size == ExportSize::capacity) goal.holds_ml = choices.holds_ml;
+  if (choices.size == ExportSize::weight) goal.weighs_g = choices.weighs_g;
   if (choices.size == ExportSize::height) goal.height_mm = choices.height_mm;
   if (choices.size == ExportSize::diameter) goal.diameter_mm = choices.diameter_mm;
   return goal;
@@ -120,6 +122,7 @@ ExportFigures figures_of(const solid::ExportReport& report, const solid::ExportO
       .height_mm = report.size.height_mm,
       .shrinkage = shrinkage,
       .capacity_ml = capacity_of(report.maker),
+      .weight_g = report.maker ? report.maker->in_use().weight_g : 0.0,
       .fallen = report.collapsed.has_value(),
       .thinnest_mm = report.thinnest_mm(),
       .thinnest_at_mm = thinnest.from.y,

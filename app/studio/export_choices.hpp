@@ -23,10 +23,10 @@ inline constexpr double kFinestMm = 0.001, kCoarsestMm = 1.0;  // tolerance [mm]
 inline constexpr double kThickestDemandMm = 20.0;
 inline constexpr double kLongestFairingMm = 50.0;
 inline constexpr double kWidestFootMm = 20.0, kDeepestFootMm = 20.0, kLargestFilletMm = 20.0;
-inline constexpr double kThickestGlazeMm = 2.0;
+inline constexpr double kThickestGlazeMm = 2.0, kWidestDrainMm = 20.0, kMostGoalG = 10000.0;
 
 /// The size of the finished pot: fired, if it shrinks.
-enum class ExportSize { as_thrown, capacity, height, diameter };
+enum class ExportSize { as_thrown, capacity, weight, height, diameter };
 
 /// The settings of the export dialog.
 struct ExportChoices {
@@ -45,10 +45,11 @@ struct ExportChoices {
   /// As for --foot, --floor-fillet and --lip-fillet, as thrown; 0: none.
   double foot_width_mm = 0.0, foot_depth_mm = 4.0;
   double floor_fillet_mm = 0.0, lip_fillet_mm = 0.0;  ///< of the lip also: that of the process
-  double glaze_mm = 0.0;                              ///< as for --glaze-allowance
-  /// As for --holds, --height and --diameter, with --fired if there is a shrinkage.
+  double glaze_mm = 0.0;                              ///< as for --glaze-allowance, fired
+  double drain_mm = 0.0;                              ///< as for --drain; 0: none
+  /// As for --holds, --weighs, --height and --diameter, with --fired if there is a shrinkage.
   ExportSize size = ExportSize::as_thrown;
-  double holds_ml = 350.0, height_mm = 100.0, diameter_mm = 100.0;
+  double holds_ml = 350.0, weighs_g = 400.0, height_mm = 100.0, diameter_mm = 100.0;
   friend bool operator==(const ExportChoices&, const ExportChoices&) = default;
 };
 
@@ -69,6 +70,7 @@ struct ExportFigures {
   std::vector<Mesh> meshes;
   double diameter_mm = 0.0, height_mm = 0.0, shrinkage = 0.0;
   double capacity_ml = 0.0;  ///< of the finished pot, to the brim; 0: it holds nothing
+  double weight_g = 0.0;     ///< of the finished pot, without glaze
   bool fallen = false;       ///< walls are not measured
   double thinnest_mm = 0.0, thinnest_at_mm = 0.0;
   bool thinnest_in_floor = false;  ///< then the height is that of no wall

@@ -109,12 +109,12 @@ auto members(Like<studio::PotCheck> auto& of) {
 auto members(Like<studio::ExportChoices> auto& of) {
   auto& [meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm, smoothing,
          smooth_length_mm, process, min_wall_mm, shrinkage_percent, material, foot_width_mm,
-         foot_depth_mm, floor_fillet_mm, lip_fillet_mm, glaze_mm, size, holds_ml, height_mm,
-         diameter_mm] = of;
+         foot_depth_mm, floor_fillet_mm, lip_fillet_mm, glaze_mm, drain_mm, size, holds_ml,
+         weighs_g, height_mm, diameter_mm] = of;
   return std::tie(meshes, step, section, dxf, pdf, report, pot, folder, name, tolerance_mm,
                   smoothing, smooth_length_mm, process, min_wall_mm, shrinkage_percent, material,
-                  foot_width_mm, foot_depth_mm, floor_fillet_mm, lip_fillet_mm, glaze_mm, size,
-                  holds_ml, height_mm, diameter_mm);
+                  foot_width_mm, foot_depth_mm, floor_fillet_mm, lip_fillet_mm, glaze_mm, drain_mm,
+                  size, holds_ml, weighs_g, height_mm, diameter_mm);
 }
 auto members(Like<ExportQuestion> auto& of) {
   auto& [kind, choices, pot] = of;
@@ -129,12 +129,12 @@ auto members(Like<studio::ExportFigures::Mesh> auto& of) {
   return std::tie(format, bytes);
 }
 auto members(Like<studio::ExportFigures> auto& of) {
-  auto& [has_solid, triangles, meshes, diameter_mm, height_mm, shrinkage, capacity_ml, fallen,
-         thinnest_mm, thinnest_at_mm, thinnest_in_floor, faired_mm, moved_mm, moved_at_mm, problems,
-         failed, marks] = of;
+  auto& [has_solid, triangles, meshes, diameter_mm, height_mm, shrinkage, capacity_ml, weight_g,
+         fallen, thinnest_mm, thinnest_at_mm, thinnest_in_floor, faired_mm, moved_mm, moved_at_mm,
+         problems, failed, marks] = of;
   return std::tie(has_solid, triangles, meshes, diameter_mm, height_mm, shrinkage, capacity_ml,
-                  fallen, thinnest_mm, thinnest_at_mm, thinnest_in_floor, faired_mm, moved_mm,
-                  moved_at_mm, problems, failed, marks);
+                  weight_g, fallen, thinnest_mm, thinnest_at_mm, thinnest_in_floor, faired_mm,
+                  moved_mm, moved_at_mm, problems, failed, marks);
 }
 
 auto members(Like<strokes::Stroke> auto& of) {

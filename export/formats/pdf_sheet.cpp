@@ -1,3 +1,4 @@
+#include "core/text.hpp"
 #include "export/formats/sheet.hpp"
 
 #include <cairo-pdf.h>

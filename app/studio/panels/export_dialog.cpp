@@ -109,6 +109,8 @@ void draw_finish(const ViewModel& model, ExportChoices& choices) {
                 choices.process.empty() ? "none" : "by the process");
   choose_tenths("Glaze allowance", choices.glaze_mm, 0.0, kThickestGlazeMm, unit, "none");
   tip("The thickness of the glaze. The pot is thinner by as much, except at its foot.");
+  choose_tenths("Drain hole", choices.drain_mm, 0.0, kWidestDrainMm, unit, "none");
+  tip("The diameter of a hole through the foot that opens a closed cavity.");
 }
 
 /// Begins with the goal of the panel, or with the size of the pot.
@@ -122,33 +124,41 @@ void begin_size(const ViewModel& model, ExportChoices& choices) {
   const double fired = 1.0 - present.shrinkage;
   if (choices.size == ExportSize::capacity)
     begin(choices.holds_ml, goal.holds_ml, present.capacity_ml);
+  if (choices.size == ExportSize::weight) begin(choices.weighs_g, 0.0, present.weight_g);
   if (choices.size == ExportSize::height)
     begin(choices.height_mm, goal.height_mm, fired * present.height_mm);
   if (choices.size == ExportSize::diameter)
     begin(choices.diameter_mm, goal.diameter_mm, fired * present.diameter_mm);
 }
 
-/// Scales the pot, in whole millimetres or millilitres, as shown.
+/// Scales the pot, in whole millimetres, millilitres or grams, as shown.
 void draw_size(const ViewModel& model, ExportChoices& choices) {
-  constexpr std::array kTitles = {"As thrown", "Capacity", "Height", "Diameter"};
-  constexpr double kLeastMm = 10.0, kLeastMl = 10.0;
+  constexpr std::array kTitles = {"As thrown", "Capacity", "Weight", "Height", "Diameter"};
+  constexpr double kLeastMm = 10.0, kLeastMl = 10.0, kLeastG = 10.0;
   form_row("Scale to");
   if (const int chosen = choice_row("##size", kTitles, static_cast<int>(choices.size));
       chosen >= 0) {
     choices.size = static_cast<ExportSize>(chosen);
     begin_size(model, choices);
   }
-  tip("The finished pot has this capacity or size: fired, if a shrinkage is set.");
+  tip("The finished pot has this capacity, weight or size: fired, if a shrinkage is set.");
   const auto length = [&](const char* label, double& mm) {
     if (form_length(label, mm, kLeastMm, kMostGoalMm, model.settings.unit)) mm = std::round(mm);
   };
   if (choices.size == ExportSize::height) length("Height", choices.height_mm);
   if (choices.size == ExportSize::diameter) length("Diameter", choices.diameter_mm);
-  if (choices.size != ExportSize::capacity) return;
-  float ml = static_cast<float>(choices.holds_ml);
-  if (form_slider("Capacity", ml, static_cast<float>(kLeastMl), static_cast<float>(kMostGoalMl),
-                  capacity_text(1e3 * choices.holds_ml), ImGuiSliderFlags_Logarithmic))
-    choices.holds_ml = std::round(static_cast<double>(ml));
+  const auto amount = [](const char* label, double& value, double least, double most,
+                         const std::string& text) {
+    float shown = static_cast<float>(value);
+    if (form_slider(label, shown, static_cast<float>(least), static_cast<float>(most), text,
+                    ImGuiSliderFlags_Logarithmic))
+      value = std::round(static_cast<double>(shown));
+  };
+  if (choices.size == ExportSize::capacity)
+    amount("Capacity", choices.holds_ml, kLeastMl, kMostGoalMl,
+           capacity_text(1e3 * choices.holds_ml));
+  if (choices.size == ExportSize::weight)
+    amount("Weight", choices.weighs_g, kLeastG, kMostGoalG, mass_text(choices.weighs_g));
 }
 
 void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actions) {
@@ -201,6 +211,9 @@ void draw_figures(const ViewModel& model, const ExportFigures& figures) {
     value_row(
         colours, "Capacity to the brim",
         capacity_text(1e3 * figures.capacity_ml) + (figures.shrinkage > 0.0 ? ", fired" : ""));
+  if (figures.weight_g > 0.0)
+    value_row(colours, "Weight",
+              mass_text(figures.weight_g) + (figures.shrinkage > 0.0 ? ", fired" : ""));
   if (!figures.fallen)
     value_row(colours, "Thinnest wall",
               length_text(figures.thinnest_mm, unit, 1) +

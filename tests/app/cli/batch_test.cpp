@@ -80,9 +80,13 @@ TEST_F(Batch, ResumesAfterTheJobsThatHaveAVerdict) {
       0);
   const Ran again = run("-o " + results);
   EXPECT_EQ(again.status, 0) << again.err;
-  EXPECT_EQ(again.out, "2 jobs: 2 done, 0 failed; results in " + results + " before: 1\n");
+  EXPECT_EQ(again.out, "2 jobs: 2 done, 0 failed; skipped, with a result in " + results + ": 1\n");
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json"))) << "it was not thrown again";
   EXPECT_EQ(results_in(read_text(results)).at("absent").at("status"), 0);
+  const nlohmann::json summary = nlohmann::json::parse(run("--json -o " + results).out);
+  EXPECT_EQ(summary,
+            (nlohmann::json{
+                {"jobs", 2}, {"done", 2}, {"failed", 0}, {"skipped", 2}, {"results", results}}));
 }
 
 TEST_F(Batch, IsolatesAJobThatTakesTooLong) {
@@ -126,7 +130,7 @@ TEST_F(Batch, ResumesFromResultsThatDoNotFitInMemory) {
   write_text(results, many + one);
   const Ran resumed = run("--memory 64MiB -o " + results);
   EXPECT_EQ(resumed.status, 0) << resumed.err;
-  EXPECT_NE(resumed.out.find(" before: 1\n"), std::string::npos) << resumed.out;
+  EXPECT_TRUE(resumed.out.ends_with(": 1\n")) << resumed.out;
 }
 
 TEST_F(Batch, RefusesAWrongLineBeforeTheFirstJob) {

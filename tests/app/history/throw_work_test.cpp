@@ -95,7 +95,7 @@ TEST(ThrowFrom, ContinuesAPotByHand) {
   ASSERT_EQ(claystack("throw " + scene + " -o " + pot).status, 0);
   const auto run =
       claystack("throw " + scene + " --from " + pot +
-                " --device simulated --soften --seconds 3 --record " + session + " -o " + live);
+                " --device simulated --seconds 3 --record " + session + " -o " + live);
   ASSERT_EQ(run.status, 0) << run.err;
   ASSERT_EQ(
       claystack("throw " + scene + " --from " + pot + " -s " + session + " -o " + again).status, 0);

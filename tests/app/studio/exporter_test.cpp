@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <regex>
 #include <utility>
 #include <vector>
@@ -128,16 +129,38 @@ TEST_F(Exporting, WritesTheFinishOfTheCommand) {
   choices.floor_fillet_mm = 3.0;
   choices.lip_fillet_mm = 1.5;
   choices.glaze_mm = 0.3;
+  choices.shrinkage_percent = 20.0;
   exporter.write(pot, choices);
   const auto done = outcome();
   ASSERT_TRUE(done.done) << done.done.error().message;
   const std::string pot_path = folder.file("given.pot.json"), stl = folder.file("command.stl");
   write_text(pot_path, write_pot(*pot, PotEncoding::json));
-  const auto ran =
-      claystack("export -q " + pot_path + " " + stl +
-                " --foot 6x2.5 --floor-fillet 3 --lip-fillet 1.5 --glaze-allowance 0.3");
+  const auto ran = claystack("export -q " + pot_path + " " + stl +
+                             " --foot 6x2.5 --floor-fillet 3 --lip-fillet 1.5 --glaze-allowance 0.3"
+                             " --shrinkage 20%");
   ASSERT_LE(ran.status, 1) << ran.err;
   EXPECT_EQ(read_text(folder.file("cup.stl")), read_text(stl));
+}
+
+TEST_F(Exporting, OpensAClosedCavity) {
+  auto closed = std::make_shared<Pot>(*standing_cup());
+  std::vector<Ring> rings(closed->stack.rings().begin(), closed->stack.rings().end());
+  for (std::size_t i = rings.size() - 10; i < rings.size(); ++i) rings[i].inner2 = 0;
+  closed->stack =
+      ClayStack::from_rings(closed->stack.ring_height_mm(), rings, 0, rings.size()).value();
+  choices = {};
+  exporter.preview(closed, choices);
+  const auto before = outcome();
+  ASSERT_TRUE(before.done);
+  EXPECT_EQ(before.done->problems.size(), 1u) << "the cavity";
+  choices.drain_mm = 5.0;
+  exporter.preview(closed, choices);
+  const auto after = outcome();
+  ASSERT_TRUE(after.done) << after.done.error().message;
+  EXPECT_TRUE(after.done->problems.empty()) << after.done->problems[0];
+  // The hole of 5 mm through the floor of 10 mm.
+  EXPECT_NEAR(before.done->weight_g - after.done->weight_g,
+              1e-3 * closed->density_g_cm3 * std::numbers::pi * 2.5 * 2.5 * 10.0, 2e-3);
 }
 
 TEST_F(Exporting, WritesTheSizeOfTheCommand) {
@@ -147,6 +170,7 @@ TEST_F(Exporting, WritesTheSizeOfTheCommand) {
   choices.pot = true;
   choices.folder = folder.path().string();
   choices.holds_ml = 123.0;
+  choices.weighs_g = 345.0;
   choices.height_mm = 61.0;
   choices.diameter_mm = 47.0;
   for (const char* sub : {"command", "given"})
@@ -157,6 +181,7 @@ TEST_F(Exporting, WritesTheSizeOfTheCommand) {
     std::string options;
   };
   for (const Case& c : {Case{ExportSize::capacity, 12.0, "--holds 123ml --fired --shrinkage 12%"},
+                        Case{ExportSize::weight, 9.0, "--weighs 345g --fired --shrinkage 9%"},
                         Case{ExportSize::height, 0.0, "--height 61mm"},
                         Case{ExportSize::diameter, 0.0, "--diameter 47mm"}}) {
     choices.name = "cup" + std::to_string(static_cast<int>(c.size));
@@ -167,6 +192,9 @@ TEST_F(Exporting, WritesTheSizeOfTheCommand) {
     ASSERT_TRUE(done.done) << done.done.error().message;
     if (c.size == ExportSize::capacity) {
       EXPECT_NEAR(done.done->capacity_ml, 123.0, 1e-3);
+    }
+    if (c.size == ExportSize::weight) {
+      EXPECT_NEAR(done.done->weight_g, 345.0, 1e-3);
     }
     const std::string pot_path = folder.file("given/" + choices.name + ".pot.json");
     write_text(pot_path, write_pot(*pot, PotEncoding::json));

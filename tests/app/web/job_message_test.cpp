@@ -134,8 +134,10 @@ TEST(JobMessage, CarriesTheWholeExport) {
                    .floor_fillet_mm = 2.3,
                    .lip_fillet_mm = 1.4,
                    .glaze_mm = 0.2,
+                   .drain_mm = 2.1,
                    .size = studio::ExportSize::height,
                    .holds_ml = 351.0,
+                   .weighs_g = 401.0,
                    .height_mm = 101.0,
                    .diameter_mm = 102.0};
   const Question received = question_in(message_of(asked));
@@ -154,6 +156,7 @@ TEST(JobMessage, CarriesFiguresFilesAndErrors) {
                                             .height_mm = 0.2,
                                             .shrinkage = 0.3,
                                             .capacity_ml = 0.8,
+                                            .weight_g = 0.9,
                                             .fallen = true,
                                             .thinnest_mm = 0.4,
                                             .thinnest_at_mm = 0.5,
@@ -172,9 +175,10 @@ TEST(JobMessage, CarriesFiguresFilesAndErrors) {
   ASSERT_EQ(figures.meshes.size(), 1u);
   EXPECT_EQ(figures.meshes[0].format, solid::MeshFormat::obj);
   EXPECT_EQ(figures.meshes[0].bytes, 5'000'000'000u);
-  EXPECT_EQ((std::vector{figures.diameter_mm, figures.height_mm, figures.shrinkage,
-                         figures.thinnest_mm, figures.thinnest_at_mm, figures.capacity_ml}),
-            (std::vector{0.1, 0.2, 0.3, 0.4, 0.5, 0.8}));
+  EXPECT_EQ(
+      (std::vector{figures.diameter_mm, figures.height_mm, figures.shrinkage, figures.thinnest_mm,
+                   figures.thinnest_at_mm, figures.capacity_ml, figures.weight_g}),
+      (std::vector{0.1, 0.2, 0.3, 0.4, 0.5, 0.8, 0.9}));
   EXPECT_EQ(figures.problems, std::vector<std::string>{"thin"});
   ASSERT_EQ(figures.marks.size(), 1u);
   EXPECT_EQ(figures.marks[0].place_mm, glm::dvec2(0.6, 0.7));
