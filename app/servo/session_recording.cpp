@@ -70,10 +70,8 @@ Result<void> SessionRecording::lock_aside() {
     if (descriptor_ < 0) return failed("open");
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
       const bool taken = errno == EWOULDBLOCK;
-      auto error = taken ? failure(ErrorKind::io, path_ + ": another program is recording to it")
-                         : failed("lock");
-      aside_.clear();  // belongs to the other program
-      return error;
+      return taken ? failure(ErrorKind::io, path_ + ": another program is recording to it")
+                   : failed("lock");
     }
     struct stat locked {
     }, named{};
@@ -89,17 +87,17 @@ Result<void> SessionRecording::lock_aside() {
 Result<void> SessionRecording::clear_aside() {
   struct stat status {};
   if (fstat(descriptor_, &status) != 0) return failed("read");
-  if (status.st_size == 0) return {};
+  owns_aside_ = status.st_size == 0;
+  if (owns_aside_) return {};
   const std::string name = aside_.string();
   const auto left = read_file(aside_).and_then(
       [&](const std::string& text) { return parse_session(text, name); });
-  if (!left || !left->poses.empty()) {
-    aside_.clear();
+  if (!left || !left->poses.empty())
     return failure(ErrorKind::io, name +
                                       ": holds an unfinished recording; play it with "
                                       "--session, then rename or remove it");
-  }
   if (ftruncate(descriptor_, 0) != 0) return failed("shorten");
+  owns_aside_ = true;
   return {};
 }
 
@@ -123,15 +121,14 @@ Result<void> SessionRecording::finish() {
   if (aside_.empty()) return {};
   // Renamed while it is still locked, so that no other program treats it as unfinished.
   if (rename(aside_.c_str(), target_.c_str()) != 0) return failed("replace");
-  aside_.clear();
+  owns_aside_ = false;
   const fs::path folder = target_.parent_path();
   sync_folder(folder.empty() ? fs::path(".") : folder);
   return {};
 }
 
 void SessionRecording::discard() noexcept {
-  if (!aside_.empty()) (void)unlink(aside_.c_str());
-  aside_.clear();
+  if (std::exchange(owns_aside_, false)) (void)unlink(aside_.c_str());
 }
 
 /// Describes `errno`.

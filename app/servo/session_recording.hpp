@@ -44,6 +44,7 @@ class SessionRecording final : public PoseSink {
   std::string path_;              ///< path as given
   std::filesystem::path target_;  ///< path with symbolic links resolved
   std::filesystem::path aside_;   ///< empty: written in place
+  bool owns_aside_ = false;       ///< it holds nothing but this recording
   int descriptor_ = -1;
   std::size_t poses_ = 0;  ///< number of poses recorded
 };

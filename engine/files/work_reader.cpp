@@ -28,7 +28,7 @@ class WorkBuilder {
       return take_node(line).map([&] { make_room(work_.nodes.back().poses, rest); });
     if (root.contains("at")) return take_at(line);
     if (root.contains("saved")) return take_saved(line);
-    if (root.contains("rings")) return take_start(line);
+    if (root.contains("rings") || root.contains("rounded_rings")) return take_start(line);
     if (root.contains("lump")) return take_scene(line);
     return wrong(line, "a scene, a pot, a node, poses, an end, a place (at, saved)");
   }
