@@ -269,8 +269,8 @@ void add_batch_command(CLI::App& app, Console& console, int& exit) {
                        fmt::format("{}", fmt::join(kRunnable, ", ")))
       ->required();
   command->add_option("-o,--output", options->results,
-                      "File for the results, appended; jobs whose results it has are skipped, but "
-                      "those that could not be done run again (default: standard output)");
+                      "File for the results, appended; jobs that have a result with status 0 or 1 "
+                      "in it are skipped (default: standard output)");
   command
       ->add_option("-j,--jobs", options->processes,
                    "Number of jobs that run at the same time (default: one for each core)")
@@ -286,7 +286,7 @@ void add_batch_command(CLI::App& app, Console& console, int& exit) {
       "  claystack batch samples/jobs.jsonl -o results.jsonl\n"
       "  claystack batch samples/jobs.jsonl -j 4 --time-limit 60\n"
       "  claystack batch samples/jobs.jsonl --part 1/2 -o results-1.jsonl\n\n"
-      "Exit status: 0 every job ended with 0; 1 one did not; 2 a line of the file is "
+      "Exit status: 0 every job ended with 0; 1 a job did not; 2 a line of the file is "
       "wrong, and no job ran.");
   command->callback([options, &console, &exit] {
     const auto done = batch(*options, console);

@@ -60,7 +60,7 @@ Result<void> check_job_outputs(const std::vector<BatchJob>& jobs, const std::str
       const auto [writer, first] = writers.emplace(name, &job);
       if (!first && writer->second != &job)
         return failure(ErrorKind::bad_input,
-                       path + ": expected a file of its own for each job, found " + output +
+                       path + ": expected a separate output file for each job, found " + output +
                            " written by " + writer->second->id + " and " + job.id);
     }
   return {};

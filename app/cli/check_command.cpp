@@ -158,7 +158,7 @@ void add_repair_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& comm
              kLeastMm, kMostMm)
       ->excludes("--cap");
   add_length(*sub, "--wrap", command->repair_options.wrap_mm,
-             "With --repair, if all else fails: replace the surface by a wrap at this distance "
+             "With --repair, as a last resort: replace the surface by a wrap at this distance "
              "around it [mm], which loses smaller details; default: such a mesh is refused",
              kLeastMm, kMostMm);
 }

@@ -21,8 +21,7 @@ using solid::TriangleMesh;
 
 void report_wall(const solid::SampledWall& wall, const solid::WallLimit& limit, bool united,
                  const CheckCommand& command, Verdict& verdict) {
-  const std::string sampled =
-      united ? "sampled where a slicer unites the shells" : std::string("sampled");
+  const std::string sampled = united ? "sampled on the united shells" : std::string("sampled");
   if (wall.rays < command.wall_samples())
     verdict.add(
         "walls", Grade::warn,

@@ -171,7 +171,7 @@ Result<void> check_packed_pot(const solid::PackedParts& parts, const TriangleMes
   return holds(pot.map([](const Pot&) {}), "contents", "the pot inside", verdict)
       .map([&](bool reads) {
         if (!reads) return;
-        verdict.add("contents", Grade::pass, "carries the pot, to be thrown on with throw --from");
+        verdict.add("contents", Grade::pass, "carries the pot; throw --from continues it");
         const auto sizes = pot->collapse ? std::nullopt : other_size(mesh, *pot);
         if (sizes)
           verdict.notes.push_back("the pot inside is before shrinkage and finish: " + *sizes);

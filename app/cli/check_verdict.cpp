@@ -102,8 +102,8 @@ void print_wall(const Console& console, const solid::SampledWall& wall) {
                     "value, not a bound",
                     wall.least_mm, wall.place.x, wall.place.y, wall.place.z, wall.rays));
   if (wall.escaped > 0)
-    console.print(
-        fmt::format("  {} of {} left through an opening", wall.escaped, counted(wall.rays, "ray")));
+    console.print(fmt::format("  {} of {} passed through an opening", wall.escaped,
+                              counted(wall.rays, "ray")));
 }
 
 void print_repair(const Console& console, const RepairSummary& summary, const Verdict& verdict) {
@@ -123,7 +123,7 @@ void print_repair(const Console& console, const RepairSummary& summary, const Ve
     console.print(fmt::format("  wrapped: a new surface {:.4g} mm outside of the old one",
                               *summary.wrapped_mm));
   if (const auto& wall = summary.thickened)
-    console.print(fmt::format("  thickened: {:.4g} mm asked, thinnest sample {:.4g} mm",
+    console.print(fmt::format("  thickened: {:.4g} mm requested, thinnest sample {:.4g} mm",
                               wall->asked_mm, wall->least_mm));
   if (!summary.repaired.empty())
     console.print(

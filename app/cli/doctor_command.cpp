@@ -185,8 +185,8 @@ void print(const std::vector<Finding>& findings, const Console& console) {
 void add_doctor_command(CLI::App& app, Console& console, int& exit) {
   CLI::App* command = app.add_subcommand(
       "doctor",
-      "Check this machine: graphics, screen, devices, priority, memory; and the command that fixes "
-      "what is missing");
+      "Check this machine: graphics, screen, devices, priority, memory; show the commands that "
+      "fix what is missing");
   command->footer(
       "\nExamples:\n  claystack doctor\n  claystack doctor --json\n\n"
       "Exit status: 0 nothing is missing; 1 something is.");

@@ -272,8 +272,8 @@ Result<int> export_pot(ExportCommand& command, Console console) {
   const bool streams = std::ranges::count(command.outputs, "-") > 0;
   if (streams && command.request.certificates)
     return failure(ErrorKind::bad_input,
-                   "-: expected no --certificate with it, because a certificate stands beside its "
-                   "file");
+                   "-: expected no --certificate with it, because a certificate is a file beside "
+                   "its mesh");
   console.quiet = console.quiet || streams;
   Progress progress(console, "exporting", 0);
   progress.stage("reading");
@@ -382,11 +382,11 @@ void add_goal_options(CLI::App* sub, const SharedCommand& command) {
                "Scale the pot to this weight, such as 400g");
   add_size("--height", command->goal.height_mm,
            "Scale the pot to this height, such as 120mm; with one more of these options, "
-           "height and radius are scaled apart");
+           "height and radius are scaled separately");
   add_size("--diameter", command->goal.diameter_mm, "Scale the pot to this largest diameter");
   sub->add_flag("--fired", command->goal.fired,
-                "The goal is of the finished pot: after --shrinkage, and with the glaze of "
-                "--glaze-allowance, which has no weight; else of the pot as thrown");
+                "The goal applies to the finished pot: after --shrinkage, and with the glaze of "
+                "--glaze-allowance, which has no weight (default: to the pot as thrown)");
 }
 
 /// How the steps of the rings become walls.
@@ -404,7 +404,7 @@ void add_smoothing_options(CLI::App* sub, const SharedCommand& command) {
              command->length_of_tool = !*length;
            }
          },
-         "With --smooth fair: continuous curvature; what is shorter along the height than this is "
+         "With --smooth fair: continuous curvature; marks shorter along the height than this are "
          "smoothed away, such as 9mm; tool: the radius of the pot's tool; 0: straight from ring to "
          "ring (default: tool; 0 without clay rules, "
          "or for a tolerance above 0.1 mm)")
@@ -440,7 +440,7 @@ void add_solid_options(CLI::App* sub, const SharedCommand& command) {
 
 /// Requirements on the solid, and their proof.
 void add_demand_options(CLI::App* sub, const SharedCommand& command) {
-  begin_group(*sub, "Demands and proof");
+  begin_group(*sub, "Requirements and proof");
   command->walls.add_to(*sub);
   sub->add_flag("--pieces", command->request.options.allow_pieces,
                 "Accept a pot of several pieces that do not touch");
@@ -496,7 +496,8 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
       "Files to write: " + solid::format_endings(solid::FormatUse::write) + "; " +
           solid::section_endings() +
           "; .pot.json or .pot.cbor for the pot; - for a binary STL on standard output");
-  sub->add_option("-o,--output", command->named_outputs, "A file to write, like out; repeatable")
+  sub->add_option("-o,--output", command->named_outputs,
+                  "File to write, like the argument out; repeatable")
       ->allow_extra_args(false);
   add_solid_options(sub, command);
   add_clay_options(sub, command);

@@ -256,7 +256,7 @@ class Page {
   }
 
   void walls() {
-    table("Walls and making", [&] {
+    table("Walls and process", [&] {
       row({"minimum wall of the files",
            at_least_mm(report_.thinnest_mm(), report_.walls.limit ? 3 : 2) + ", at " +
                thinnest_height(report_)},

@@ -62,12 +62,13 @@ std::vector<std::string> warnings_about(const MeshPot& made, bool rings_asked) {
   if (made.noise_mm > 0.0)
     warnings.push_back(fmt::format(
         "expected points on a surface of revolution, found noise of about {:.3f} mm (standard "
-        "deviation): faces that rise by less are made level, and the rings aim at {:.3f} mm",
+        "deviation): faces that rise by less are made level, and the rings may deviate by {:.3f} "
+        "mm",
         made.noise_mm, made.aimed_mm));
   if (!rings_asked && made.off_mm > made.aimed_mm)
     warnings.push_back(
-        fmt::format("expected rings within {:.3f} mm of the section, found {:.3f} mm; rings of "
-                    "{:.4g} mm are not nearer if they are lower: smooth the mesh, or choose with "
+        fmt::format("expected rings within {:.3f} mm of the section, found {:.3f} mm; rings "
+                    "lower than {:.4g} mm are not closer: smooth the mesh, or set the height with "
                     "--ring-height",
                     made.aimed_mm, made.off_mm, made.pot.stack.ring_height_mm()));
   return warnings;

@@ -159,7 +159,7 @@ clay::Result<void> check_command_name(const CLI::App& app, std::string_view name
   if (name == "bench")
     return clay::failure(
         clay::ErrorKind::bad_input,
-        "bench: expected a program built with its measurements (cmake --preset release "
+        "bench: expected a program built with the benchmarks (cmake --preset release "
         "-DCLAYSTACK_BENCH=ON), found one without");
 #endif
   return clay::failure(clay::ErrorKind::bad_input,

@@ -55,7 +55,8 @@ void add_look(CLI::App& sub, render::PictureChoices& choices) {
          [&choices](const std::string& name) {
            choices.style = name == "clay" ? render::Style::clay : render::Style::geometry;
          },
-         "geometry: the pot as its rings are; clay: with throwing lines, specks, a rounded rim and "
+         "geometry: the exact shape of the pot; clay: with throwing lines, specks, a rounded rim "
+         "and "
          "a bare foot below a glaze, which are not in the pot")
       ->check(one_of({"geometry", "clay"}))
       ->default_str("geometry");

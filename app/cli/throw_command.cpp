@@ -126,11 +126,12 @@ Result<void> check_gaps(const Session& session, const SceneSpec& scene,
   const bool of_pot = options.scene.empty();
   return failure(
       ErrorKind::bad_input,
-      fmt::format("{}: expected one tool throughout, as {} no tool.gap_mm, found a gap of {:.6g} "
-                  "mm at {:.3f} s{}",
-                  options.session, of_pot ? "the pot " + options.from + " holds" : "the scene sets",
-                  pose->gap_mm, 1e-6 * static_cast<double>(pose->time_us),
-                  of_pot ? "; name the scene of the session before --from" : ""));
+      fmt::format(
+          "{}: expected one tool throughout, because {} no tool.gap_mm, found a gap of {:.6g} "
+          "mm at {:.3f} s{}",
+          options.session, of_pot ? "the pot " + options.from + " holds" : "the scene sets",
+          pose->gap_mm, 1e-6 * static_cast<double>(pose->time_us),
+          of_pot ? "; name the scene of the session before --from" : ""));
 }
 
 ReplayStats play(Wheel& wheel, const Session& session, TraceWriter* trace, const Console& console) {

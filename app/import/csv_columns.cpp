@@ -126,7 +126,7 @@ Result<CsvColumns> csv_columns(const std::vector<std::string>& names) {
   };
   if (wall_table(names))
     return refused(
-        ": the walls of a pot, as export writes them, which are no outline; import "
+        ": the walls of a pot, as export writes them, which are not an outline; import "
         "reads the drawing that export writes, .svg or .dxf, with --layer section");
   for (std::size_t i = 0; i < names.size(); ++i) {
     const NamedColumn named = column_of(names[i], i);

@@ -46,15 +46,16 @@ bool asks(View view) { return view.ui.shows<UnsavedDialog>(); }
 bool asks_to_replace(View view) { return view.ui.shows<ReplaceDialog>(); }
 bool recoverable(View view) { return !view.recoverable.empty(); }
 const char* why_no_file_name(const std::string& name) {
-  return name.empty()                          ? "the files need a name"
-         : name.find('/') != std::string::npos ? "a name has no \"/\": choose the folder below it"
-                                               : nullptr;
+  return name.empty() ? "the files need a name"
+         : name.find('/') != std::string::npos
+             ? "a name cannot contain \"/\": choose the folder below"
+             : nullptr;
 }
 const char* why_no_write(View view) {
   if (view.ui.shows<PictureDialog>())
     return view.picture_running ? "a picture is being written"
                                 : why_no_file_name(view.ui.pictures.file.name);
-  if (!view.ui.shows<ExportDialog>()) return "no dialog of an export is open";
+  if (!view.ui.shows<ExportDialog>()) return "no export dialog is open";
   if (view.writing()) return "an export is in progress";
   const ExportChoices& choices = view.ui.exporting.choices;
   if (const char* why = why_no_file_name(choices.name)) return why;
@@ -95,7 +96,7 @@ bool has_rules(View view) {
 const char* why_no_rules(View view) {
   return !has_work(view)   ? why_no_work(view)
          : has_rules(view) ? nullptr
-                           : "this pot was thrown without the clay rules, which it needs";
+                           : "this tool needs a pot thrown with the clay rules";
 }
 bool pinching(View view) { return view.settings.tool.mode == ToolMode::pinch; }
 bool rearmable(View view) { return view.waits_for_rearm(); }

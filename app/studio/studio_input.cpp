@@ -137,7 +137,7 @@ void Studio::plug_gamepad(const std::string& name) {
   if (name.empty())
     note(state_, Grade::note, lost + " is disconnected", kNoteS);
   else
-    note(state_, Grade::note, name + " is connected: F1 lists what it does", kNoteS);
+    note(state_, Grade::note, name + " is connected: F1 lists its buttons", kNoteS);
 }
 
 void Studio::gamepad(const GamepadState& pad) {

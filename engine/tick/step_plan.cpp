@@ -125,13 +125,13 @@ void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
   const auto line = [&](const char* stage, unsigned rule, const char* in, const char* out) {
     lines.push_back({stage, (rules & rule) != 0, (rules & rule) ? in : any ? out : none});
   };
-  line("lift", kLift, "what two tools squeeze out becomes height", "off in the scene");
+  line("lift", kLift, "clay that two tools squeeze out becomes height", "off in the scene");
   line("shift", kShift, "a tool on one side moves the wall", "off in the scene");
   line("rim", kRim, "a new ring copies the rim", "off in the scene");
   line("hoop", kHoop, "half of a hoop strain becomes height", "off in the scene, or shift is");
   line("heave", kHeave, "displaced clay leaves no steep slope", "off in the scene");
   line("smear", kSmear, "a wet finger evens out the surface",
-       "off in the scene, or the wheel stands");
+       "off in the scene, or the wheel stands still");
   const bool finger = (rules & kHeave) && finger_mm(s) > 0.0;
   lines.push_back({"finger", finger,
                    finger ? "in a bore, no clay closes behind the tool"
@@ -157,7 +157,7 @@ std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
       {"tool state", true, "pose, time step, direction of motion"},
       {"contact", true, "equations (1), (2), then the rings touched"},
       {"removal", true,
-       s.model == Model::paper ? "k (R - r) a tick"
+       s.model == Model::paper ? "k (R - r) per tick"
                                : "at rate (R - r), less above the yield depth"},
       {"outer surface", true, press ? "equations (5), (7)" : "cut"},
       {"inner surface", hollow,

@@ -89,7 +89,7 @@ Result<DracoGrid> choose_grid(const std::vector<glm::vec3>& points, const DracoS
   }
   std::string what = "cannot write .drc: a vertex error of ";
   append_number(what, settings.max_error_mm);
-  what += " mm needs more than 30 bits; the least that can be promised is ";
+  what += " mm needs more than 30 bits; the smallest possible is ";
   append_number(what, error_bound_mm(double{extent.side}, double{extent.farthest}, kMaxDracoBits));
   return failure(ErrorKind::bad_input, what + " mm");
 }

@@ -86,7 +86,7 @@ void draw_present_step(const ViewModel& model, Actions& actions) {
 
 void draw_fallen(const ViewModel& model, Actions& actions) {
   draw_title(model, "The pot has fallen");
-  ImGui::TextWrapped("The clay could not carry its own weight. Go back to the pot before.");
+  ImGui::TextWrapped("The clay could not carry its own weight. Undo the last stroke.");
   const Command& undo = *find_command("edit.undo");
   if (main_button(undo.title, model.colours(), undo.enabled(model)))
     actions.emplace_back(RunCommand{undo.id});

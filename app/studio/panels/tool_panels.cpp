@@ -29,9 +29,9 @@ const char* help_text(ToolMode mode) {
     case ToolMode::smooth:
       return "A wet sponge: evens out the surface and cuts nothing.";
     case ToolMode::needle:
-      return "Drag the needle through the wall: what is above it comes off.";
+      return "Drag the needle through the wall: the clay above it is removed.";
     case ToolMode::wire:
-      return "Drag the wire through the pot to the axis: the pot comes off the wheel there.";
+      return "Drag the wire through the pot to the axis: it cuts the pot off the wheel there.";
     case ToolMode::trim_foot:
       break;
   }

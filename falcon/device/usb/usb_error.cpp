@@ -34,7 +34,7 @@ DeviceError usb_error(const std::string& place, const std::string& action, int c
     case LIBUSB_ERROR_ACCESS:
       return {DeviceFault::no_permission, what + "no permission", kRule};
     case LIBUSB_ERROR_BUSY:
-      return {DeviceFault::busy, what + "another program has it", kOtherProgram};
+      return {DeviceFault::busy, what + "another program uses it", kOtherProgram};
     case LIBUSB_ERROR_NO_DEVICE:
     case LIBUSB_ERROR_NOT_FOUND:
       return {DeviceFault::unplugged, what + "it was unplugged", "plug it in again"};
@@ -51,9 +51,10 @@ DeviceResult<void> check_usb_access(libusb_device* device) {
     return tl::make_unexpected(usb_error(place, "open", code));
   const Handle handle(raw, &libusb_close);
   if (libusb_kernel_driver_active(raw, 0) == 1)
-    return device_failure(DeviceFault::driver_bound, place + ": a kernel driver has it (ftdi_sio?)",
-                          "opening it here takes it from the driver; to end that for good, remove "
-                          "0403 cb48 by the driver's remove_id");
+    return device_failure(DeviceFault::driver_bound,
+                          place + ": a kernel driver uses it (ftdi_sio?)",
+                          "opening it here detaches the driver; to detach it permanently, remove "
+                          "0403 cb48 through the driver's remove_id");
   const int claimed = libusb_claim_interface(raw, 0);
   if (claimed != 0) return tl::make_unexpected(usb_error(place, "claim", claimed));
   libusb_release_interface(raw, 0);
@@ -64,7 +65,7 @@ DeviceError node_error(const std::string& place) {
   const std::string what = place + ": could not open: ";
   // hidapi does not report the cause, and its libusb backend has no node to check.
   if (place.front() != '/' || access(place.c_str(), R_OK | W_OK) == 0)
-    return {DeviceFault::busy, what + "another program has it, or no permission", kRule};
+    return {DeviceFault::busy, what + "another program uses it, or no permission", kRule};
   if (errno == ENOENT || errno == ENODEV)
     return {DeviceFault::unplugged, what + "it is not there", "plug it in again"};
   return {DeviceFault::no_permission, what + std::strerror(errno), kRule};

@@ -91,7 +91,7 @@ TEST(CsvDrawing, NamesTheTableOfWallsThatExportWrites) {
   EXPECT_THAT(refusal_of(read_drawing("piece,face,arc_mm,rho_mm,y_mm,thickness_mm,opposite_rho_mm,"
                                       "opposite_y_mm\n0,outer,0.02,34.1,0.02,20.4,32.4,5.6\n",
                                       "w.csv")),
-              HasSubstr("the walls of a pot, as export writes them, which are no outline"));
+              HasSubstr("the walls of a pot, as export writes them, which are not an outline"));
 }
 
 TEST(CsvDrawing, RefusesAmbiguousColumns) {

@@ -119,7 +119,7 @@ TEST(Drc, RefusesUnreachableErrorLimits) {
   };
   EXPECT_EQ(message({.max_error_mm = 1e-9})
                 .rfind("cannot write .drc: a vertex error of 1e-09 mm needs more than 30 bits; "
-                       "the least that can be promised is 1.",
+                       "the smallest possible is 1.",
                        0),
             0u)
       << message({.max_error_mm = 1e-9});
