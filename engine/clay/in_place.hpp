@@ -4,8 +4,8 @@
 
 namespace clay {
 
-/// place = make(), without a copy. A copy of what has just been written member by member would
-/// wait until all of it has reached the memory.
+/// place = make(), without a copy. A copy of data that was just written member by member would wait
+/// until all of it has reached the memory.
 template <class Value, class Make>
 void make_in_place(Value& place, Make make) noexcept {
   static_assert(std::is_trivially_destructible_v<Value>);

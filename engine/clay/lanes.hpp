@@ -16,8 +16,8 @@ namespace clay {
 CLAYSTACK_INLINE inline double lesser(double a, double b) noexcept { return a < b ? a : b; }
 CLAYSTACK_INLINE inline double greater(double a, double b) noexcept { return a > b ? a : b; }
 
-/// 0, 1, 2, ... as doubles. To convert a counter, a loop would take eight rows at a time, and what
-/// is left of them one by one.
+/// 0, 1, 2, ... as doubles. To convert a counter, a loop would take eight rows at a time, and the
+/// remaining ones one by one.
 alignas(64) inline constexpr auto kLevels = [] {
   std::array<double, 128> levels{};
   for (std::size_t k = 0; k < levels.size(); ++k) levels[k] = static_cast<double>(k);
@@ -42,7 +42,7 @@ inline constexpr double kMostLaneQuanta = 0x1p50;
 /// Only a test or a benchmark that compares the two writes this.
 inline bool four_lanes = __builtin_cpu_supports("avx2") != 0;
 
-/// A copy of the loop: what it has captured is then in registers, not read again after every store.
+/// A copy of the loop: its captures are then in registers, not read again after every store.
 template <class Loop>
 __attribute__((target("avx2"))) void in_four_lanes(const Loop& loop) noexcept {
   const Loop own = loop;
@@ -52,7 +52,7 @@ __attribute__((target("avx2"))) void in_four_lanes(const Loop& loop) noexcept {
 inline bool four_lanes = false;
 #endif
 
-/// A loop that is inline, as is all that it calls: else it stays with two.
+/// The loop and all that it calls must be inline; otherwise it stays with two.
 template <class Loop>
 void in_lanes(const Loop& loop) noexcept {
 #if defined(__x86_64__)

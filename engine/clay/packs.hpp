@@ -64,8 +64,8 @@ inline constexpr std::size_t kPackBytes = 64;
   return (rows + kWidestFloats - 1) / kWidestFloats * kWidestFloats;
 }
 
-/// Calls loop(n) with the number of rows of a pack, a constant of the type. The loop is inline, as
-/// is all that it calls.
+/// Calls loop(n) with the number of rows of a pack, a constant of the type. The loop and all that
+/// it calls are inline.
 template <class Loop>
 void in_packs(const Loop& loop) noexcept {
 #if defined(__x86_64__)
@@ -129,7 +129,7 @@ CLAYSTACK_INLINE inline Vector greater(Vector a, double b) noexcept {
 template <class Vector>
 using Number = std::remove_reference_t<decltype(std::declval<Vector&>()[0])>;
 
-/// All rows as one, by halves: row after row each would wait for the one before. `fold` is called
+/// Combines all rows, by halves: row by row, each would wait for the one before. `fold` is called
 /// with vectors and with numbers.
 template <class Vector, class Fold>
 CLAYSTACK_INLINE inline Number<Vector> folded(Vector x, Fold fold) noexcept {
@@ -215,7 +215,7 @@ template <std::size_t n>
 CLAYSTACK_INLINE inline std::array<Doubles<n>, 2> halves(TwiceFloats<n> x) noexcept {
   return {doubles<n>(low_half<n>(x)), doubles<n>(high_half<n>(x))};
 }
-/// Roots to single precision: of a length that decides how far clay moves, not how much there is.
+/// Roots to single precision: for a length that decides how far clay moves, not how much there is.
 template <std::size_t n>
 CLAYSTACK_INLINE inline Doubles<n> rough_roots(Doubles<n> x) noexcept {
   return doubles<n>(root(floats(x)));
@@ -254,7 +254,7 @@ CLAYSTACK_INLINE inline Quantas<kRowsOf<Vector>> quanta_below(Vector x) noexcept
 }
 
 /// Room for rings on the stack. An array of Ring would be set to 0 first, which takes longer than
-/// what is then done with it.
+/// its use.
 template <std::size_t most>
 class RawRings {
  public:
@@ -269,8 +269,8 @@ template <std::size_t n>
 struct RingPack {
   Quantas<n> outer2, inner2;
 };
-/// Ring by ring: a load of two that have just been written apart would wait until both writes are
-/// done.
+/// Ring by ring: a load of two rings that have just been written separately would wait until both
+/// writes are done.
 template <std::size_t n>
 CLAYSTACK_INLINE inline RingPack<n> load_rings(const Ring* rings) noexcept {
   const auto a = load<Quantas<2>>(rings), b = load<Quantas<2>>(rings + 1);

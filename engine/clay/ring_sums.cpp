@@ -30,8 +30,8 @@ CLAYSTACK_INLINE inline Quantas<n> volumes_of(const Ring* rings) noexcept {
     return __builtin_shufflevector(a, b, 0, 4, 2, 6) - __builtin_shufflevector(a, b, 1, 5, 3, 7);
 }
 
-/// Of an even number of packs, of which the second ones do not wait for the first. What the sum of
-/// 64 bits lacks follows from the sum of the upper halves.
+/// Of an even number of packs; the second of each two does not wait for the first. The overflow of
+/// the sum of 64 bits follows from the sum of the upper halves.
 template <std::size_t n>
 CLAYSTACK_INLINE inline void add_packs(const Ring* rings, std::size_t count,
                                        Stretch* stretch) noexcept {
@@ -49,7 +49,7 @@ CLAYSTACK_INLINE inline void add_packs(const Ring* rings, std::size_t count,
   }
   least = second < least ? second : least;
   for (std::size_t k = 0; k < n; ++k) {
-    // The lower halves: what is left of the sum, as long as 2^32 rings have no more.
+    // The lower halves: the rest of the sum, if there are at most 2^32 rings.
     const auto low = static_cast<std::uint64_t>(sum[k] - (high[k] << 32));
     stretch->volume += (WideQuanta{high[k]} << 32) + WideQuanta{low};
     stretch->least = std::min(stretch->least, Quanta{least[k]});

@@ -35,7 +35,7 @@ class RingSums {
   [[nodiscard]] WideQuanta above(std::span<const Ring> rings, std::size_t i) const noexcept;
 
   /// Searches the stack from the top. Calls scan(first, last, weight) for the stretches of at most
-  /// 64 rings for which suspect(weight, least) is true, for themselves and for every stretch that
+  /// 64 rings for which suspect(weight, least) is true, for them and for every stretch that
   /// contains them. The weight of scan is the load on ring `last`; that of suspect also includes
   /// the stretch itself. `crown` is the load on the top ring.
   template <class Suspect, class Scan>

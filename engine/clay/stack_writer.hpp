@@ -70,7 +70,7 @@ class StackWriter {
   }
   void gain(WideQuanta amount) noexcept { gained_ += amount; }
   /// R^2 and r^2 of the rings from `first` on change by these amounts; no bore opens or closes, and
-  /// no radius is beyond its limit. The caller reports what they get with `gain`.
+  /// no radius is beyond its limit. The caller reports the clay that they get with `gain`.
   void change(std::size_t first, std::span<const Ring> changes) noexcept {
     in_lanes([rings = stack_.rings_.data() + first, from = changes.data(), count = changes.size()]()
                  CLAYSTACK_INLINE {
@@ -83,7 +83,7 @@ class StackWriter {
                  });
   }
   /// Clay along a surface, the outer one or that of a bore: amounts from the rings `from` on to the
-  /// rings `to` on. First what all give, then what all get: a ring that does both would wait for
+  /// rings `to` on. First the losses of all rings, then the gains: a ring with both would wait for
   /// itself.
   void smear(std::size_t from, std::size_t to, std::span<const Quanta> amounts,
              bool outside) noexcept {

@@ -5,12 +5,12 @@
 namespace clay {
 namespace {
 
-// A wall is bent by what gives way over such a height. Clay that the end of a rib has just entered
-// gives way fastest, over a height that goes to zero with that of the rings.
+// The clay that gives way over such a height bends the wall. Clay that the end of a rib has just
+// entered gives way fastest, over a height that goes to zero with the ring height.
 constexpr double kBendingMm = 4.0;
 
-/// How far the surface gives way in the mean over `kBendingMm` about the peak, or over the contact
-/// where that is lower. The outermost rings reach to the ends of the band.
+/// How far the surface gives way on average over `kBendingMm` about the peak, or over the contact
+/// if that is lower. The outermost rings reach to the ends of the band.
 double mean_give(const TouchedRings& rings, const Band& band, double h) noexcept {
   const double height = std::max(band.height_mm(), h), length = std::min(kBendingMm, height);
   const double low = std::clamp(band.peak_mm - 0.5 * length, band.low_mm,

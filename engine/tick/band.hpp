@@ -13,15 +13,15 @@ namespace clay {
 struct Band {
   double low_mm = 0.0, high_mm = 0.0;  ///< ends of the contact above the wheel head
   double peak_mm = 0.0;                ///< where the surface gives way most (`Peak`)
-  double give_mm = 0.0;                ///< how far it does about there, in the mean over 4 mm
+  double give_mm = 0.0;                ///< how far it gives way near the peak, the mean over 4 mm
   double deepest_mm = 0.0;             ///< of the tool in the clay
   std::size_t ring = 0;                ///< of the peak
 
   [[nodiscard]] double height_mm() const noexcept { return high_mm - low_mm; }
 };
 
-/// The mean place of those rings that give way most, by the eighth power of how far they do: where
-/// many give way alike, as to a rib, it is the middle of them, and a breath does not move it.
+/// The mean position of the rings that give way most, weighted by the eighth power of their give.
+/// If many give way equally, as to a rib, it is their middle, and a tiny change does not move it.
 struct Peak {
   double weight = 0.0, sum = 0.0;  ///< levels in ring heights
 
@@ -34,8 +34,8 @@ struct Peak {
   void settle(double ring_height_mm, Band& band) const noexcept;
 };
 
-/// How deep the tool is in a ring; below 0 by how much it is clear of it. Of a ring whose middle is
-/// beyond an end of the tool: -1e300.
+/// The depth of the tool in a ring; below 0: minus the distance that it is clear of it. For a ring
+/// whose middle is beyond an end of the tool: -1e300.
 [[nodiscard]] double signed_depth(const Tool& tool, const ClayStack& stack, double hip_y,
                                   std::size_t ring, const Contact& contact) noexcept;
 

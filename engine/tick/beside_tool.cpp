@@ -12,7 +12,7 @@ void radii_beside(const Tool& tool, double h, double hip_y, std::size_t first, s
   const double start = static_cast<double>(first) + 0.5, low = tool.low(), high = tool.high();
   std::visit(
       [=](const auto& profile) {
-        // Whole fours: what would be left of them is done row by row.
+        // Whole fours: a remainder would be done row by row.
         in_lanes([=, &profile, rows = (count + 3) / 4 * 4]() CLAYSTACK_INLINE {
           for (std::size_t k = 0; k < rows; ++k) {
             const double t = (start + kLevels[k]) * h - hip_y;

@@ -1,5 +1,5 @@
 #pragma once
-// A wall that one of two tools is deeper in is pushed over to the other, never past the middle.
+// If one of two tools is deeper in a wall, the wall is pushed to the other, never past the middle.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tick.hpp"
@@ -15,8 +15,8 @@
 
 namespace clay {
 
-/// How far each ring between two tools may be pushed over from the one that is deeper in it [mm]:
-/// until both push back alike, for then the overlap with both loses energy all the way. Storage is
+/// How far each ring between two tools may be pushed away from the tool that is deeper in it [mm]:
+/// until the clay pushes back equally on both. So the energy of the overlap only falls. Storage is
 /// reserved once.
 class PushOver {
  public:
@@ -28,7 +28,7 @@ class PushOver {
 
   [[nodiscard]] std::size_t from() const noexcept { return from_; }
   [[nodiscard]] std::size_t to() const noexcept { return from_ + count_; }
-  /// Of a ring from() .. to()-1. Nothing limits one whose middle is beyond an end of the tools:
+  /// Of a ring from() .. to()-1. A ring whose middle is beyond an end of the tools has no limit:
   /// 1e300.
   [[nodiscard]] double inward_mm(std::size_t ring) const noexcept { return inward_[ring - from_]; }
   [[nodiscard]] double outward_mm(std::size_t ring) const noexcept {
@@ -44,7 +44,7 @@ class PushOver {
   std::vector<double> inward_, outward_;  ///< whole packs
 };
 
-/// Lays `shift` for two tools, whose contacts have given way, and lessens the depths by it.
+/// Sets `shift` for two tools, whose contacts have given way, and reduces the depths by it.
 void centre(const StepPlan& plan, const ClayStack& stack, const ToolState& tool,
             const std::array<Band, 2>& bands, std::span<ToolRemoval> removals, WallRadii& walls,
             PushOver& over, Shift& shift) noexcept;

@@ -129,7 +129,7 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
   }
 }
 
-/// What of a touched ring gives way and cannot be squeezed out, for the minimum wall, moves.
+/// A touched ring moves at least by its give beyond the spare wall above the minimum.
 void bend_thin(const TouchedRings& rings, const float* walls, const Shell& shell, double min_wall,
                double h, std::size_t first, std::span<float> by) noexcept {
   const std::size_t end = std::min(first + by.size(), rings.to());
@@ -224,8 +224,8 @@ WideQuanta upward_part(WideQuanta amount, const Motion& motion, const ToolState&
 }
 
 /// The part of the clay that one tool squeezes aside that goes inside: the scene's share. It is
-/// less if a tool squeezes from outside a wall that is thicker than the contact is high: the flow
-/// of a punch does not reach through.
+/// less if a tool squeezes a wall from outside that is thicker than the contact is high: the flow
+/// of a punch does not reach through it.
 std::int64_t inside_share(const StepPlan& plan, const ClayStack& stack, const Contact& contact,
                           const Band& band) noexcept {
   if (contact.side == Side::expansive) return plan.inside_share;
@@ -235,7 +235,7 @@ std::int64_t inside_share(const StepPlan& plan, const ClayStack& stack, const Co
   return (plan.inside_share * through) >> 20;
 }
 
-/// Lays what one tool squeezed aside beside it. Returns what becomes height.
+/// Lays the clay that one tool squeezed aside beside it. Returns the part that becomes height.
 template <unsigned rules>
 WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removals, RuleWork& work,
                     WideQuanta amount, ClayStack& stack, Rim* rim) noexcept {
@@ -270,7 +270,7 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
   return flow(up + flow(amount - up, false), true);
 }
 
-/// Takes what stands in the cones beyond the contacts. Returns the clay.
+/// Removes the clay in the cones beyond the contacts. Returns it.
 WideQuanta relieve(const RulePress& press, std::span<const ToolRemoval> removals,
                    const RuleWork& work, const ClayStack& stack, StackWriter& writer) noexcept {
   WideQuanta removed = 0;
@@ -286,7 +286,7 @@ WideQuanta relieve(const RulePress& press, std::span<const ToolRemoval> removals
   return removed;
 }
 
-/// Smears what each tool presses, once in a third of a period.
+/// Smears the surface that each tool presses, once in a third of a period.
 void smear_surfaces(const RulePress& press, std::span<const ToolRemoval> removals,
                     const RuleWork& work, const ClayStack& stack, StackWriter& writer) noexcept {
   const StepPlan& plan = press.plan;
@@ -298,9 +298,9 @@ void smear_surfaces(const RulePress& press, std::span<const ToolRemoval> removal
             writer);
 }
 
-/// A cutter cannot thin a rim at its minimum, but what is below it. Takes off the tip, no higher
-/// than it is thick, that the cutter is in and that stands out over the ring below, both by more
-/// than a ring is high. Returns its clay.
+/// A cutter cannot thin a rim at its minimum, but the clay below it. Cuts off a tip no higher than
+/// thick, if the cutter's depth in it and its projection over the ring below exceed the ring
+/// height. Returns its clay.
 WideQuanta cut_ledge(const StepPlan& plan, const Contact& contact, const ClayStack& stack,
                      StackWriter& writer, Flow& flow) noexcept {
   constexpr double kNearMm = 1e-3;

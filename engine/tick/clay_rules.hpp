@@ -1,6 +1,6 @@
 #pragma once
-// The rules of real clay on top of model `conserving` (docs/model.md): what gives way moves the
-// wall (shift), becomes height (lift, hoop), or heaves up beside the tool; a wet finger smears.
+// The rules of real clay on top of model `conserving` (docs/model.md): clay that gives way moves
+// the wall (shift), becomes height (lift, hoop), or heaves up beside the tool; a wet finger smears.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tick.hpp"
@@ -20,7 +20,7 @@
 
 namespace clay {
 
-/// The tool's mean motion goes on by a tick.
+/// Advances the tool's mean motion by a tick.
 void follow(Motion& motion, const ToolState& tool) noexcept;
 
 /// Data that the stages of one part of a tick pass on. Storage is reserved once.
@@ -28,12 +28,12 @@ struct RuleWork {
   WallRadii walls;
   Shift shift;
   PushOver over;                             ///< of a pinch
-  std::vector<double> gives;                 ///< for sums over what one tool's rings give way
+  std::vector<double> gives;                 ///< for sums over the give of one tool's rings
   std::array<Band, 2> bands;                 ///< of each tool
   Shoulders shoulders;                       ///< of the tool
   std::array<std::array<Cone, 2>, 2> cones;  ///< of each tool: at its lower end, at its upper end
   Finger finger;                             ///< of one tool
-  std::array<double, 2> reach_mm{};          ///< of what each tool heaves
+  std::array<double, 2> reach_mm{};          ///< of the clay that each tool heaves
   std::size_t lowest = 0, highest = 0;       ///< rings that the flow may change
 
   void reserve(const Tool& tool, const ClayStack& stack);
@@ -47,10 +47,10 @@ struct RulePress {
   bool trim = false;
 };
 
-/// The two stages for a set of rules. A rule that is off is not in their code.
+/// The two stages for a set of rules. Their code omits a rule that is off.
 struct RuleSteps {
   /// How far the clay gives way, and how much of that is a motion of the wall. Sets the depths of
-  /// the contacts to what remains. Writes no clay.
+  /// the contacts to the rest. Writes no clay.
   void (*yield)(const RulePress&, const ClayStack&, std::span<ToolRemoval>,
                 RuleWork&) noexcept = nullptr;
   /// Moves the clay.

@@ -38,8 +38,8 @@ Side side_at(const ClayStack& stack, double hip_y, double axis_distance) noexcep
                                                                    : Side::expansive;
 }
 
-/// The ring, met over from..to, counted from the HIP. It yields from when an end of the tool has
-/// passed its middle; what the tool has gone is the rise of its surface since.
+/// The ring, met over from..to, counted from the HIP. It yields from the moment an end of the tool
+/// passes its middle; the tool's advance is the rise of its surface since.
 template <class Profile>
 bool meet(const Profile& profile, const Tool& tool, const Ring& ring, double middle, double from,
           double to, const Contact& contact, RingContact& touch) noexcept {

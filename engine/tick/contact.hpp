@@ -21,8 +21,8 @@ struct Contact {
   Side side = Side::compressive;
   std::size_t bottom = 0;  ///< candidate range by (1), (2), counted from 0
   std::size_t top = 0;
-  /// How far the rings below `bottom` and above `top` lie farther from the tool's end than the
-  /// kernel's table has them, in ring heights. There the end lies in the middle of its ring.
+  /// By how much the rings below `bottom` and above `top` are farther from the tool's end than in
+  /// the kernel's table, in ring heights. In the table the end lies in the middle of its ring.
   double down_offset = 0.0, up_offset = 0.0;
   double axis_distance_mm = 0.0;  ///< d
   double approach_mm = 0.0;       ///< of the tool's axis to the wall, since the last pose
@@ -45,7 +45,7 @@ struct Contact {
   return ring.outer_mm() - ring.inner_mm();
 }
 
-/// How deep a tool of radius f at its height is in the ring.
+/// The depth in the ring of a tool with radius f at its height.
 [[nodiscard]] inline double depth_of(const Ring& ring, double f, const Contact& contact) noexcept {
   return contact.side == Side::compressive ? ring.outer_mm() + f - contact.axis_distance_mm
                                            : contact.axis_distance_mm + f - ring.inner_mm();

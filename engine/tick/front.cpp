@@ -84,7 +84,7 @@ std::array<Felt, 2> rings_at(const Lead& lead, Contact& contact) noexcept {
   return rings;
 }
 
-/// A ring that yields late, as a whole, has done so in truth, as the one behind has.
+/// A ring that yields late, as a whole, has really yielded, like the one behind it.
 void yield_in_time(const StepPlan& plan, const Lead& lead, std::array<Felt, 2>& rings,
                    Contact& contact) noexcept {
   const double* const behind = felt_of(contact, lead.up ? lead.ring - 2 : lead.ring + 2).depth_mm;
@@ -93,7 +93,7 @@ void yield_in_time(const StepPlan& plan, const Lead& lead, std::array<Felt, 2>& 
     if (ring.depth_mm != nullptr) *ring.depth_mm = std::min(*ring.depth_mm, yielded);
 }
 
-/// Divides what yields behind the lead into pieces, finer than rings.
+/// Divides the clay that yields behind the lead into pieces, finer than rings.
 template <class Profile>
 void measure_lead(const Profile& profile, const StepPlan& plan, const ClayStack& stack,
                   const Lead& lead, Contact& contact) noexcept {
@@ -130,7 +130,7 @@ void measure_lead(const Profile& profile, const StepPlan& plan, const ClayStack&
   if (rings[1].depth_mm != nullptr) *rings[1].coverage = std::min(all - reach, h) / h;
 }
 
-/// How deep an end of the tool is in the clay that it has not passed, or has left behind.
+/// The depth of an end of the tool in the clay that it has not passed, or has left behind.
 double depth_at_end(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
                     bool upper) noexcept {
   const double t = upper ? tool.high() : tool.low(), h = stack.ring_height_mm();
@@ -139,7 +139,7 @@ double depth_at_end(const Tool& tool, const ClayStack& stack, double hip_y, cons
   if (contact.has_front && (contact.rise_mm > 0.0) == upper && contact.rise_mm != 0.0)
     return contact.front[0].depth_mm;
   auto ring = static_cast<std::size_t>(std::min(level, size - 1.0));
-  // An end between two rings belongs to the one inside the tool, at both ends alike.
+  // An end between two rings belongs to the ring inside the tool, at both ends.
   if (upper && ring > 0 && static_cast<double>(ring) == level) --ring;
   for (std::size_t k = 0; k < contact.edge_count; ++k)
     if (contact.edge_end[k] == (level >= size ? 0 : upper ? 1 : -1))

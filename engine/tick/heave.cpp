@@ -40,7 +40,7 @@ struct Rows {
   float spare;  ///< growth over them
 };
 
-/// A heap on its way from the band: what of it lies up to each face of a ring, in whole quanta. Up
+/// A heap on its way from the band: the part of it up to each face of a ring, in whole quanta. Up
 /// to a distance t of the reach, from 0 to 1, it is the part t^3 (10 - 15 t + 6 t^2); each half
 /// from its own end, so that rounding cannot make it fall.
 struct Way {
@@ -214,8 +214,8 @@ class Heaving {
     in_packs([=, b = &block_](auto n) CLAYSTACK_INLINE { divide<n>(*b, rows, count, way); });
   }
 
-  /// How far each ring may grow before it stands in the tool [mm]; one that is not beside it: a
-  /// long way.
+  /// How far each ring may grow before it touches the tool [mm]; very far for a ring that is not
+  /// beside it.
   void find_clearance(std::size_t first, std::size_t count) noexcept {
     std::fill_n(block_.clear, in_packs_of(count), kFar);
     beside_tool(first, count);
@@ -245,7 +245,7 @@ class Heaving {
     });
   }
 
-  /// Nothing is laid into a finger. Where a wall yields to it in part, there is some room.
+  /// No clay is laid into a finger. If a wall yields to it only in part, there is some room.
   void beside_finger(const Finger& finger, std::size_t first, std::size_t count) noexcept {
     for (std::size_t k = 0; k < count; ++k) {
       const double middle = (static_cast<double>(first + k) + 0.5) * h_;
@@ -268,7 +268,7 @@ class Heaving {
     const float thinner = std::min(*(wall - walls_.apart()), wall[walls_.apart()]);
     const double room = thinner + steepest_mm_ - *wall;
     if (!(room > 0.0)) return;
-    // No more than these, however small the radii are.
+    // At most these, even if the radii are small.
     const double out =
         0.5 * kMm2PerQuantum * static_cast<double>(carry_.outside) / *walls_.outer(i);
     const double in =

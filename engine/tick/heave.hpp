@@ -1,5 +1,5 @@
 #pragma once
-// Where clay goes that a tool squeezes aside: it heaves up the wall beside the contact.
+// The place of clay that a tool squeezes aside: it heaves up the wall beside the contact.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tick.hpp"
@@ -29,8 +29,8 @@ struct Heap {
 /// which begins and ends with slope 0. No ring becomes thicker than its thinner neighbour by more
 /// than half of its height (a slope that a tool of any size leaves; of rings below 0.085 mm: than
 /// the ring 0.17 mm away by half of that), and none grows into the tool;
-/// what a ring cannot take goes on to the next. Returns what found no place within the reach.
-/// The caller counts what was placed (`StackWriter::gain`).
+/// clay that a ring cannot take goes to the next. Returns the clay that found no place within the
+/// reach. The caller counts the placed clay (`StackWriter::gain`).
 Quanta heave(const Tool& tool, const ClayStack& stack, WallRadii& walls, double hip_y,
              const Contact& contact, const Band& band, const Heap& heap,
              StackWriter& writer) noexcept;

@@ -50,7 +50,7 @@ Amount place(std::size_t ring, Amount inside, Amount outside, StackWriter& write
 }
 
 /// Gives `count` rings their shares, the j-th of them being ring_of(j). Returns what is left over.
-/// With a rim the last of them is the top ring: the rim notes what one above would have got more.
+/// With a rim the last of them is the top ring: the rim records how much more the next would get.
 template <class Amount, class RingOf>
 Amount distribute(const RayleighKernel& kernel, double offset, Amount clay_inside,
                   Amount clay_outside, std::size_t count, RingOf ring_of, Rim* rim,
@@ -110,8 +110,8 @@ void level(Rim* rim, std::span<const ToolRemoval> removals, std::size_t count) n
       (contact.side == Side::compressive ? rim->outside : rim->inside) = 0;
 }
 
-/// A copy of the top ring, and what the rim has had more. A quarter of the ring at most, so that
-/// it stays a ring.
+/// A copy of the top ring, plus the excess of the rim. A quarter of the ring at most, so that it
+/// stays a ring.
 Ring next_ring(const Ring& top, const Rim* rim) noexcept {
   static const Quanta smallest = quanta_from_radius(kMinRadiusMm);
   static const Quanta largest = quanta_from_radius(kMaxRadiusMm);
@@ -138,7 +138,7 @@ template <Model model, class NextRing>
 void grow(Flow& flow, ClayStack& stack, Ledger& ledger, StackWriter& writer, Rim* rim,
           NextRing next) noexcept {
   const auto excess = [&] { return model == Model::paper ? ledger.outside : stack.crown(); };
-  // With less than half of the top ring no ring can grow: none above it is smaller.
+  // With less than half of the top ring no ring can grow: no ring above it is smaller.
   while (2 * excess() >= stack.rings().back().volume()) {
     const auto [ring, at] = next();
     if (ring.volume() <= 0 || excess() < ring.volume()) return;
@@ -164,8 +164,8 @@ void grow(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim, StackWriter& w
   });
 }
 
-/// The rim as it is: its middle line goes on upright, for a wall that is lifted keeps its radius,
-/// and a rim thicker than the wall below it tapers back to that.
+/// The unchanged rim: its middle line continues upright, because a lifted wall keeps its radius,
+/// and a rim thicker than the wall below it tapers back to that wall.
 Ring copied_rim(const ClayStack& stack) noexcept {
   const auto rings = stack.rings();
   const Ring& top = rings.back();
@@ -181,8 +181,8 @@ Ring copied_rim(const ClayStack& stack) noexcept {
   return {quanta_from_radius(outer - by), quanta_from_radius(inner + by)};
 }
 
-/// Where a lip begins that is thinner than the wall below it: it rises and sinks as it is. It is as
-/// high as that wall is thick, and begins above the tools and above the bottom of the bore. The
+/// Where a lip begins that is thinner than the wall below it; it rises and sinks unchanged. It is
+/// as high as that wall is thick, and begins above the tools and above the bottom of the bore. The
 /// stack's size where there is none, or where a tool stands beside it.
 std::size_t lip_of(const ClayStack& stack, const Tool& tool, double hip_y,
                    std::span<const ToolRemoval> removals) noexcept {

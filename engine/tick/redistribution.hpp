@@ -32,15 +32,15 @@ struct Flow {
 /// kernel: upward from above the candidate range by (5), (6) when the tool moves up, downward from
 /// below it by (7), (8) when it moves down. One tool, or the two of a pinch, which have one
 /// candidate range. alpha goes inside as far as each bore has room (r_j^2 >= share), the rest
-/// outside. Clay that finds no ring below goes up; clay that finds none above becomes height.
+/// outside. Clay that finds no ring below goes up; clay that finds no ring above becomes height.
 ///
-/// `conserving` lays the kernel to the tool's ends, not to the ends of their rings (Contact's
-/// offsets), and gives new rings what `rim` has counted; without a rim they are copies.
+/// `conserving` starts the kernel at the tool's ends, not at the ends of their rings (Contact's
+/// offsets), and gives new rings the excess in `rim`; without a rim they are copies.
 template <Model model>
 Flow press_clay(const StepPlan& plan, std::span<const ToolRemoval> removals, bool upward,
                 ClayStack& stack, Ledger& ledger, Rim* rim = nullptr) noexcept;
 
-/// The paper's chiselling (section 8): what is bitten off leaves the pot and is booked as trimmed.
+/// The paper's chiselling (section 8): the removed clay leaves the pot and is counted as trimmed.
 template <Model model>
 Flow trim_clay(std::span<const ToolRemoval> removals, ClayStack& stack, Ledger& ledger,
                Rim* rim = nullptr) noexcept;
@@ -52,13 +52,13 @@ WideQuanta remove_clay(std::span<const ToolRemoval> removals, ClayStack& stack, 
 /// alpha of an amount, as long as some ring has a bore.
 [[nodiscard]] WideQuanta inside_part(WideQuanta amount, std::int64_t inside_share,
                                      const ClayStack& stack) noexcept;
-/// Spreads an amount by the kernel; returns what finds no ring.
+/// Spreads an amount by the kernel; returns the clay that finds no ring.
 WideQuanta flow_by_kernel(const StepPlan& plan, WideQuanta amount, bool up, const Contact& contact,
                           Rim* rim, ClayStack& stack) noexcept;
 /// Whole rings from the crown: with a rim as `press_clay` makes them, without one below the lip,
 /// which is lifted as it is. Where a tool stands beside the lip, on top, as copies of the rim that
 /// taper to the wall below where the rim is thicker. A ring rises beside the tools, not into them;
-/// where they leave it less than half of its clay, the crown waits.
+/// if they leave room for less than half of it, the clay waits in the crown.
 void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const ToolRemoval> removals,
               ClayStack& stack, Rim* rim, StackWriter& writer) noexcept;
 /// Takes rings out below the lip until the crown is no longer below 0; where a tool stands beside

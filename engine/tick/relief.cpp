@@ -23,7 +23,7 @@ Cone cone_of(const Tool& tool, const Shoulders& shoulders, double h, double hip_
   const bool before = up ? ring > level : ring < level;
   cone.from_mm = before ? (ring + 0.5) * h : from;
   cone.beside = static_cast<std::size_t>(ring);
-  // On the tool, not on the clay: a ring that an end has just entered still stands far out.
+  // On the tool, not on the clay: a ring that an end has just entered still projects far.
   const double out = tool.radius(cone.from_mm - hip_y);
   cone.base_mm = contact.axis_distance_mm + (cone.outside ? step_mm - out : out - step_mm);
   return cone;
@@ -40,9 +40,9 @@ double excess(const Cone& cone, const Ring& ring, double middle_mm) noexcept {
   return cone.excess(middle_mm, cone.outside ? ring.outer_mm() : ring.inner_mm());
 }
 
-/// The clay that leaves a ring whose surface stands out by `out`: d out / dt = -kappa (R - r)
-/// min(1, out / yield depth), by a step that cannot go too far. Moves `out` to how far the surface
-/// goes.
+/// The clay that leaves a ring whose surface projects by `out`: d out / dt = -kappa (R - r) min(1,
+/// out / yield depth), by a step that cannot go too far. Afterwards `out` is the distance by which
+/// the surface moves.
 Quanta yielded(const RemovalPlan& plan, double dt_s, const Ring& ring, bool outside,
                double& out) noexcept {
   static const Quanta smallest = quanta_from_radius(kMinRadiusMm);
@@ -70,7 +70,7 @@ double end_of(const Tool& tool, bool up) {
   return in;
 }
 
-/// A ring as a shift and what is removed leave it.
+/// A ring after the shift and the removal.
 Ring left_of(std::size_t i, const ClayStack& stack, const Squeeze& squeeze,
              std::span<const ToolRemoval> removals) noexcept {
   Ring ring = squeeze.ring(i, stack.rings());
@@ -129,8 +129,8 @@ Finger finger_of(const StepPlan& plan, const ToolState& tool, const ClayStack& s
   const double widest = plan.tool.widest();
   const double bore = contact.axis_distance_mm - Finger::kBehind * widest;
   if (!(bore > 0.0)) return {};
-  // A hand's tick lays far less on a wall than this, so most bores are clear of the finger. What a
-  // longer tick lays into it, the next one takes.
+  // A hand's tick lays far less on a wall than this, so most bores are clear of the finger. The
+  // next tick removes what a longer tick lays into it.
   constexpr double kNearMm = 5.0;
   const Quanta near = quanta_from_radius(bore + kNearMm);
   const auto rings = stack.rings();

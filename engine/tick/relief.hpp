@@ -21,8 +21,8 @@ inline constexpr double kReliefMm = 12.0;
 inline constexpr double kReliefSlope = 2.0;
 
 /// Where a tool's surface becomes steeper than 2 : 1 toward its ends, measured from the HIP [mm];
-/// of a tool with flat ends: its ends. A shaft that widens from there as a cone stands for the rest
-/// of the finger: what is in its way yields as fast as clay that the tool touches.
+/// of a tool with flat ends: its ends. A shaft that widens from there as a cone represents the rest
+/// of the finger: clay in its way yields as fast as clay that the tool touches.
 struct Shoulders {
   double low_mm = 0.0, high_mm = 0.0;
 };
@@ -36,15 +36,15 @@ struct Cone {
   bool outside = true, up = true;
   bool meets = false;  ///< clay beyond the contact
 
-  /// How far a surface at a height stands out into the cone.
+  /// How far a surface at a height projects into the cone.
   [[nodiscard]] double excess(double up_mm, double surface_mm) const noexcept {
     const double way = up ? up_mm - from_mm : from_mm - up_mm;
     return (outside ? surface_mm - base_mm : base_mm - surface_mm) - kReliefSlope * way;
   }
 };
 
-/// The cones at the lower and the upper end of one of the contacts, which has given way. What
-/// stands in them takes more from the rings that the tool touches, and lessens their depth. Those
+/// The cones at the lower and the upper end of one of the contacts, which has given way. For clay
+/// in them, more is removed from the rings that the tool touches, and their depth decreases. Those
 /// of a cutter begin 1 mm inside the clay: it leaves small steps of its own shape, at a lip.
 [[nodiscard]] std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoulders,
                                                   const ClayStack& stack, const ToolState& tool,
@@ -53,9 +53,9 @@ struct Cone {
                                                   std::size_t which, bool trim) noexcept;
 
 /// The rest of a finger, above a tool in a bore. It stands behind the tool, toward the axis, and
-/// leans away by 1 : 8. So clay may heave up over the tool, which takes it along on its way out,
-/// but does not close behind it. A wall that is thinner than the tool gets out of its way less, and
-/// none that is half as thick: a belly may be wider than the neck over it.
+/// leans away by 1 : 8. So clay may heave up over the tool, which carries it along on its way out,
+/// but does not close behind it. A wall that is thinner than the tool yields less, and a wall half
+/// as thick as the tool does not yield: a belly may be wider than the neck over it.
 struct Finger {
   static constexpr double kLean = 0.125, kBehind = 2.0;  ///< of the tool's greatest radius
   double from_mm = 0.0, to_mm = 0.0;  ///< heights of its ends above the wheel head
@@ -66,20 +66,20 @@ struct Finger {
   [[nodiscard]] double bore_at(double up_mm) const noexcept {
     return bore_mm - kLean * (up_mm - from_mm);
   }
-  /// The part of what a wall of this thickness yields in its way.
+  /// The fraction by which a wall of this thickness yields to it.
   [[nodiscard]] double part(double wall_mm) const noexcept {
     return std::clamp(wall_mm / tool_mm - 1.0, 0.0, 1.0);
   }
 };
-/// None where all of the bore is far wider than it.
+/// None if all of the bore is far wider than the finger.
 [[nodiscard]] Finger finger_of(const StepPlan& plan, const ToolState& tool, const ClayStack& stack,
                                const Contact& contact) noexcept;
-/// Takes what stands in its way above the contact, as in `relieve_beyond`. Returns the clay.
+/// Removes the clay in its way above the contact, as in `relieve_beyond`. Returns that clay.
 WideQuanta relieve_finger(const StepPlan& plan, const Finger& finger, const ClayStack& stack,
                           double dt_s, const Contact& contact, StackWriter& writer) noexcept;
 
-/// Takes what stands in a cone beyond the contact, never through the minimum wall, nor where there
-/// is no bore. Returns the clay.
+/// Removes the clay in a cone beyond the contact, never through the minimum wall, nor where there
+/// is no bore. Returns that clay.
 WideQuanta relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack,
                           double dt_s, const Contact& contact, StackWriter& writer) noexcept;
 

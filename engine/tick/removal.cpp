@@ -21,7 +21,7 @@ Quanta spare_outside(const Ring& ring) noexcept {
 }
 Quanta spare_inside(const Ring& ring) noexcept { return ring.volume() - 1; }
 
-/// Delta v of a surface that moves by eps, as far as the ring has it to spare.
+/// Delta v of a surface that moves by eps, limited by the clay that the ring can lose.
 Quanta take_outside(const Ring& ring, double outer_mm, double eps) noexcept {
   const Quanta asked = quanta_from_mm2(eps * (2.0 * outer_mm - eps));
   return std::clamp<Quanta>(asked, 0, std::max<Quanta>(spare_outside(ring), 0));
@@ -194,7 +194,7 @@ CLAYSTACK_INLINE inline bool take_rows(Squeezed& s, std::size_t count, bool outs
   return !any(much);
 }
 
-/// Of a slice: squeezes out what has given way and was not moved.
+/// Of a slice: squeezes out the clay that has given way and was not moved.
 void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
              const TouchedRings::Slice& slice, Quanta* removed) noexcept {
   const std::size_t count = slice.size();
@@ -208,7 +208,7 @@ void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
     squeeze_rows<n>(*to, *of, outside, min_wall);
     if (!on_floor) *ok = take_rows<n>(*to, count, outside, smallest);
   });
-  // On the floor row by row: what has no bore stays closed.
+  // On the floor row by row: a ring without a bore stays closed.
   for (std::size_t k = 0; on_floor && k < count; ++k)
     if (shifted[k].inner2 == 0 && squeeze.of_floor(slice.ring + k, rings))
       slice.rows.depth[slice.begin + k] += std::exchange(s.eps[k], 0.0);

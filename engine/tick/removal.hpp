@@ -23,12 +23,12 @@ struct ToolRemoval {
 ///
 /// `paper`: eps = k (R - r).
 /// `conserving`: as yielding.hpp says, never past the tool's surface and never through the minimum
-/// wall. Sets the contact's depths to what remains. Two half steps remove what one step does.
+/// wall. Sets the contact's depths to the rest. Two half steps remove the same as one step.
 template <Model model>
 void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
                      std::vector<Quanta>& removed) noexcept;
 
-/// Clay rules: how what gives way is squeezed out of rings that a shift has moved.
+/// Clay rules: how clay is squeezed out of rings that a shift has moved.
 struct Squeeze {
   double min_wall_mm = 0.0;
   std::size_t floor_rings = 0;   ///< RulesPlan
@@ -52,8 +52,8 @@ struct Squeeze {
 /// (`TouchedRings::give`), by a shift or by being squeezed.
 void give_way(const RemovalPlan& plan, const ClayStack& stack, double dt_s,
               Contact& contact) noexcept;
-/// Second half: what of that the shift has not moved is removed, as far as minimum wall and floor
-/// allow. Sets the contact's depths to what remains.
+/// Second half: removes the part that the shift has not moved, as far as minimum wall and floor
+/// allow. Sets the contact's depths to the rest.
 void squeeze_out(const Squeeze& rules, const ClayStack& stack, Contact& contact,
                  std::vector<Quanta>& removed) noexcept;
 
@@ -63,7 +63,7 @@ void squeeze_out(const Squeeze& rules, const ClayStack& stack, Contact& contact,
 /// `paper`: k (R - r) each.
 /// `conserving`: dR/dt = -kappa (R - r) and dr/dt = kappa (R - r), each until its tool's surface is
 /// reached, both until the minimum wall is; solved in closed form, and no faster than a surface
-/// yields to one tool near it. Both surfaces move alike: the middle of the wall stays.
+/// yields to one tool near it. Both surfaces move equally: the middle of the wall stays.
 template <Model model>
 void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, double gap_mm,
                            double dt_s, ToolRemoval& outer, ToolRemoval& inner,

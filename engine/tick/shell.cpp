@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPunch = 2.570796326794897;  // (2 + pi) / 2: a flat punch on a Tresca half-space
 constexpr double kNoFoot = -1e300;
-constexpr double kRoot = 0.5;  // of the wall: how far up what is solid holds it
+constexpr double kRoot = 0.5;  // of the wall: how far up the solid clay holds it
 
 /// The wall at a height, between the middles of two rings. [mm]
 struct Wall {
@@ -101,7 +101,7 @@ double free_length(const ClayStack& stack, WallRadii& walls, double end_mm, bool
   const double level = std::clamp(end_mm / h, 0.0, static_cast<double>(rings.size()));
   const std::size_t first = std::min(static_cast<std::size_t>(level), rings.size() - 1);
   const std::size_t there = up ? rings.size() - first : first + 1;
-  // Most walls have no stop there. The loop below sees two rings less; nearly a stop is left to it.
+  // Most walls have no stop there. The loop below sees two rings less; it decides near a stop.
   const auto rings_seen = static_cast<std::size_t>(most / h) + 3;
   if (const std::size_t seen = std::min(rings_seen, there); up || seen == rings_seen) {
     const std::size_t from = up ? first : first + 1 - seen;
@@ -149,10 +149,10 @@ double foot_of(const ClayStack& stack, const Band& band) noexcept {
   return static_cast<double>(i) * h;
 }
 
-/// How much of the wall behind a tool still moves with it. A tool that goes along the wall lays
-/// it down as it passes; the wall behind would have to be bent back again. Of the two mechanisms
-/// the one that stretches the wall by half the square of the way's slope costs less for slopes
-/// below 2 sqrt(w / R).
+/// The part by which the wall behind a tool still moves with it. A tool that moves along the wall
+/// leaves it in place; the wall behind would have to be bent back. Of the two mechanisms the one
+/// that stretches the wall by half the square of the path's slope costs less for slopes below 2
+/// sqrt(w / R).
 double trailing(double along_mm_s, double into_mm_s, double thinness) noexcept {
   const double into2 = into_mm_s * into_mm_s + kSlowMmS * kSlowMmS;
   return into2 / (into2 + 4.0 * thinness * along_mm_s * along_mm_s);
@@ -209,7 +209,7 @@ Shell shell_at(const ClayStack& stack, WallRadii& walls, const Band& band, doubl
   const double shift_load = thinness * hoop + 0.25 * w * w * hinge, punch_load = kPunch * c;
   const double ratio = shift_load / punch_load, ratio2 = ratio * ratio;
   const double thinned = band.give_mm * (ratio2 * ratio2 / (1.0 + ratio2 * ratio2));
-  // Clay that the minimum wall keeps from being squeezed out bends.
+  // Clay that cannot be squeezed out, because of the minimum wall, bends.
   shell.share = pliant * (1.0 - std::min(thinned, std::max(w - min_wall_mm, 0.0)) / band.give_mm);
   return shell;
 }

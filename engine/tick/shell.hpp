@@ -1,5 +1,5 @@
 #pragma once
-// How a wall answers to a tool on one side of it: as a plastic shell, by limit analysis.
+// How a wall responds to a tool on one side of it: as a plastic shell, by limit analysis.
 
 #include "claystack/engine/clay.hpp"
 #include "engine/clay/packs.hpp"
@@ -11,7 +11,7 @@
 
 namespace clay {
 
-/// Farthest from a band that a shell is bent: bounds the work of a tick for pots of any size.
+/// The largest distance from a band at which a shell bends: bounds the work of a tick for any pot.
 inline constexpr double kLongestShellMm = 35.0;
 
 /// A motion that is slower than this has no direction: clay flows to both sides of it.
@@ -22,24 +22,24 @@ inline constexpr double kSlowMmS = 5.0;
 ///     below  trail_below * S(1 - x / below_mm)
 ///     above  trail_above * S(1 - turn x / above_mm), and for turn <= 0: 1 - turn x / above_mm
 ///
-/// with S(t) = t^2 (3 - 2t), from 0 to 1. About the peak one trail passes into the other.
+/// with S(t) = t^2 (3 - 2t), from 0 to 1. Near the peak the two trails blend.
 struct Shell {
-  double share = 0.0;  ///< of what gives way, by which the wall moves instead of being squeezed
+  double share = 0.0;  ///< of the give: the wall moves by it instead of being squeezed
   double below_mm = 1.0, above_mm = 1.0;        ///< where the wall stands still again
   double turn = 1.0;                            ///< below 1 near the rim, which turns with the wall
   double trail_below = 1.0, trail_above = 1.0;  ///< less than 1 on the side the tool comes from
   double wall_mm = 1.0;                         ///< at the peak
-  double foot_mm = -1e300;                      ///< where the wall stands on what is solid
-  double root_mm = 1.0;                         ///< above the foot: so far the solid holds the wall
+  double foot_mm = -1e300;                      ///< where the wall stands on solid clay
+  double root_mm = 1.0;                         ///< above the foot: in it the solid holds the wall
 
-  /// Less than 1 where the solid below holds the wall.
+  /// Less than 1 where the solid clay below holds the wall.
   [[nodiscard]] double hold(double up_mm) const noexcept {
     const double t = (up_mm - foot_mm) / root_mm;
     return t > 0.0 ? (t < 1.0 ? t * t * (3.0 - 2.0 * t) : 1.0) : 0.0;
   }
 };
 
-/// A wall moves less near the solid clay that it stands on: so do the rings from `first` on.
+/// A wall moves less near the solid clay that it stands on: reduces `by_mm` from ring `first` on.
 void hold_foot(const Shell& shell, double ring_height_mm, std::size_t first,
                std::span<float> by_mm) noexcept;
 
@@ -61,8 +61,8 @@ template <class Number>
 /// sigma w^2 / 4 and hoop force N0 = sigma w per mm). The mechanism of least power has the length
 /// L = sqrt(R w); near the rim it turns, near the floor it is clamped. Its load Q_s, and that of a
 /// punch that squeezes the clay aside, Q_i = (2 + pi) / 2 sigma c, are two yielding mechanisms in
-/// series under one force, each with a rate ~ (Q / Q_k)^n: hence the share. What the tool leaves
-/// behind on its way, at these speeds upward and into the wall, keeps its place.
+/// series under one force, each with a rate ~ (Q / Q_k)^n: hence the share. At these speeds, upward
+/// and into the wall, the wall behind the moving tool stays in place.
 [[nodiscard]] Shell shell_at(const ClayStack& stack, WallRadii& walls, const Band& band,
                              double min_wall_mm, double upward_mm_s, double into_mm_s) noexcept;
 

@@ -10,7 +10,7 @@ namespace {
 
 // Rings that one part of a tick may take out under the rim.
 constexpr std::size_t kMostSunk = 64;
-// A bore keeps half of its radius at least, however far a pose leaps.
+// A bore keeps half of its radius at least, even if a pose jumps far.
 constexpr float kMostOfBore = 0.75f;
 // The part of the wall's thickness, above and below the peak, over which one trail passes into the
 // other.
@@ -42,8 +42,8 @@ CLAYSTACK_INLINE inline F pushed_out(F outer, F inner, F u, float per_min_wall) 
   return lesser(F(by * (2.0f * inner + by)), F(left > 0.0f ? left : F{}));
 }
 
-// How far rings move, in three short loops: of one long chain of operations the processor works on
-// few rows at once.
+// How far rings move, in three short loops: with one long chain of operations the processor works
+// on few rows at once.
 
 /// Less where the wall is not thin. `rises`: thickness over the middle radius, times half.
 template <std::size_t n>
@@ -68,9 +68,9 @@ CLAYSTACK_INLINE inline void square(const float* outers, const float* inners, st
     store(by + k, lesser(greater(way, F(F{} - kMost)), F(F{} + kMost)));
   }
 }
-/// The same outward, where the wall keeps its minimum, or what it has of that: R^2 grows by more,
-/// and so much clay comes from above. At the largest radius it does not move. Afterwards `rises` is
-/// what becomes height, as a part of `by`.
+/// The same outward, where the wall keeps its minimum, or its thickness if that is less: R^2 grows
+/// by more, and this clay comes from above. At the largest radius it does not move. Afterwards
+/// `rises` is the part of `by` that becomes height.
 template <std::size_t n>
 CLAYSTACK_INLINE inline void stretch(const float* outers, const float* inners, std::size_t count,
                                      float hoop, float min_wall, float* by, float* rises) noexcept {
@@ -178,8 +178,8 @@ void Shift::move(const WallRadii& walls, const Push& push, std::size_t first, st
   raised_total_ += sum;
 }
 
-/// A wall that sinks must find its clay above it. Without that it does not sink: it thins, or, if
-/// it would have to stretch, stays.
+/// A wall that sinks needs its clay above it. Without that it does not sink: it thins, or, if it
+/// would have to stretch, stays in place.
 void Shift::settle(const ClayStack& stack, bool stretch) noexcept {
   if (raised_total_ >= 0) return;
   WideQuanta found = stack.crown();

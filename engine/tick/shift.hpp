@@ -23,12 +23,12 @@ class Shift {
   [[nodiscard]] std::size_t from() const noexcept { return from_; }
   [[nodiscard]] std::size_t to() const noexcept { return from_ + count_; }
 
-  /// Clay that the shift pushes up (outward: takes from above, below 0).
+  /// Clay that the shift pushes up; below 0: clay that an outward shift takes from above.
   [[nodiscard]] WideQuanta raised() const noexcept { return raised_total_; }
 
   /// R^2 and r^2 change alike, by q = u (2 R - u) where the wall is pushed in and u (2 r + u)
   /// where it is pushed out; half of the hoop strain q / (R^2 + r^2) becomes height. A wall that
-  /// stretches gets what it lacks of its minimum from its height, too.
+  /// stretches also takes the clay that it lacks for its minimum from its height.
   [[nodiscard]] Ring after(std::size_t i, const Ring& ring) const noexcept {
     const std::size_t k = i - from_;
     if (k >= count_) return ring;

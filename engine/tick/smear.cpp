@@ -186,7 +186,7 @@ void smear(const Tool& tool, const ClayStack& stack, double hip_y, double dt_s,
   if (!(end > first)) return;
   const auto stride = static_cast<std::size_t>(apart), from = static_cast<std::size_t>(first),
              to = static_cast<std::size_t>(end);
-  // Between two rings that the tool touches, nothing goes anywhere.
+  // Between two rings that the tool touches, no clay moves.
   const std::size_t touched = std::clamp(contact.rings.from(), from, to);
   const std::size_t free =
       std::clamp(contact.rings.to() - std::min(stride, contact.rings.to()), touched, to);

@@ -30,9 +30,9 @@ void note_worse(const StabilityPlan& plan, WideQuanta above, std::span<const Rin
     worst = Failure{i, stress};
 }
 
-/// Rings from..to downward; `above` is what stands on ring `from`. All are passed where the
-/// thinnest of them would carry them all besides, which is the rule. Else four are passed at a time
-/// where the thinnest of these would carry all four: four volumes still fit in 64 bits.
+/// Rings from..to downward; `above` is the load on ring `from`. Usually the thinnest of them would
+/// carry the load and all of them; then all pass. Otherwise four pass at a time if the thinnest of
+/// these would carry all four: four volumes still fit in 64 bits.
 void find_weakest(const StabilityPlan& plan, std::span<const Ring> rings, WideQuanta above,
                   std::size_t from, std::size_t to, std::optional<Failure>& worst) noexcept {
   const Threshold threshold(plan);
@@ -117,7 +117,7 @@ std::optional<Failure> StabilityWatch::check(const StabilityPlan& plan, const Cl
   return worst;
 }
 
-/// Rings came or went, and those above them moved.
+/// Rings were added or removed, and those above them moved.
 void StabilityWatch::note_lip(std::span<const Ring> rings, const Flow& flow, bool at_top) noexcept {
   const std::size_t top = rings.size() - 1;
   above_cursor_ += flow.grown_volume - flow.sunk_volume;

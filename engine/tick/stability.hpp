@@ -1,5 +1,5 @@
 #pragma once
-// Section 7: does every ring carry what stands on it?
+// Section 7: does every ring carry the load on it?
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tick.hpp"
@@ -23,13 +23,13 @@ struct Failure {
 }
 
 /// beta_i = g M_i / (pi (R_i^2 - r_i^2)) [kPa], M_i the mass of all above ring i, crown included.
-/// The paper leaves out g and so compares a mass per area; with g the threshold is a stress.
+/// The paper omits g and so compares a mass per area; with g the threshold is a stress.
 [[nodiscard]] double stress_kpa(const StabilityPlan& plan, WideQuanta above, Quanta ring) noexcept;
 
-/// Stress is looked at only where it can have risen. Clay moves locally, so the weight above a ring
-/// changes only between where clay left and where it came: rings lowest..highest of the flow. The
-/// weight above `highest` is carried along as the tool moves a little, and summed from stretches
-/// of rings when it leaps. The stretches are brought up to date when a few hundred rings have
+/// Stress is examined only where it can have risen. Clay moves locally, so the weight above a ring
+/// changes only between the places that lost clay and those that got it: rings lowest..highest of
+/// the flow. The weight above `highest` is carried along as the tool moves a little, and summed
+/// from stretches of rings when it jumps. The stretches are updated when a few hundred rings have
 /// changed, not at every tick.
 class StabilityWatch {
  public:
@@ -37,15 +37,15 @@ class StabilityWatch {
   /// O(N), with the memory for max_rings().
   explicit StabilityWatch(const ClayStack& stack);
 
-  /// Before the flow: makes the weight above ring `highest` known. Wherever the last flow was, it
-  /// takes no more steps than a constant and the length of that flow.
+  /// Before the flow: computes the weight above ring `highest`. It takes at most a constant number
+  /// of steps plus the length of the last flow, wherever that was.
   void move_to(const ClayStack& stack, std::size_t highest) noexcept;
 
   /// After it, with `highest` as given to move_to: the ring of greatest stress among those above
-  /// the threshold, if any; what check_all would say, if it found none before the flow. Reads the
-  /// rings of the flow and the new ones. Where clay has come on top from far below, also of the
-  /// others those stretches that are suspect: where the weight below them, on their thinnest ring,
-  /// would be too much.
+  /// the threshold, if any; the result of check_all, if that found none before the flow. Reads the
+  /// rings of the flow and the new ones. If clay has come on top from far below, it also reads the
+  /// suspect stretches of the others, in which the weight below them would be too much for their
+  /// thinnest ring.
   [[nodiscard]] std::optional<Failure> check(const StabilityPlan& plan, const ClayStack& stack,
                                              const Flow& flow) noexcept;
 
@@ -64,7 +64,7 @@ class StabilityWatch {
   WideQuanta above_cursor_ = 0;        ///< of rings above cursor_, without the crown
   WideQuanta volume_ = 0, crown_ = 0;  ///< of the stack, before the flow
   RingSums sums_;
-  std::size_t stale_first_ = 0, stale_end_ = 0;  ///< rings that sums_ does not know yet
+  std::size_t stale_first_ = 0, stale_end_ = 0;  ///< rings that sums_ does not include yet
 };
 
 }  // namespace clay

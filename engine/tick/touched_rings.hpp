@@ -17,18 +17,18 @@ struct RingContact {
   double slope = 0.0;       ///< f'(t); `paper` alone
   double coverage = 1.0;    ///< part of the ring's height that the tool's ends leave to it
   Facing facing = {};       ///< `conserving` alone, as what follows
-  double advance_mm = 0.0;  ///< of the depth, what the tool has gone since the last pose
+  double advance_mm = 0.0;  ///< the part of the depth that the tool has gone since the last pose
   double since = 1.0;       ///< part of the time since then in which the tool was at the ring
   double surface_mm = 0.0;  ///< radius of the surface that the tool meets
 };
 
 /// The neighbouring rings from() .. to()-1: the tool overlaps the first and the last of them, and
-/// of those between, the ones with a depth above 0. What is known of them stands side by side in
-/// plain arrays, which loops take two or four at a time.
+/// of those between, the ones with a depth above 0. Their data are side by side in plain arrays,
+/// which loops take two or four at a time.
 class TouchedRings {
  public:
   static constexpr std::size_t kBlock = 32;
-  /// Loops in lanes may go on behind the last ring, to a whole number of fours.
+  /// Loops in lanes may continue past the last ring, to a whole number of fours.
   [[nodiscard]] static constexpr std::size_t with_spare(std::size_t rings) noexcept {
     return (rings + 3) / 4 * 4;
   }
@@ -66,7 +66,7 @@ class TouchedRings {
   }
   void clear() noexcept { from_ = to_ = origin_, touched_ = 0; }
 
-  /// Leaves out what is not touched at either end, and counts what is.
+  /// Omits the rings that are not touched at either end, and counts the touched ones.
   void trim() noexcept {
     while (from_ < to_ && !(depth(from_) > 0.0)) ++from_;
     while (from_ < to_ && !(depth(to_ - 1) > 0.0)) --to_;
@@ -117,7 +117,7 @@ class TouchedRings {
     b.since[k] = touch.since;
     b.surface[k] = touch.surface_mm;
   }
-  /// Of a ring that is not touched: of no depth.
+  /// Of a ring that is not touched: no depth.
   [[nodiscard]] RingContact get(std::size_t ring) const noexcept {
     if (!has(ring)) return {.ring = ring};
     const Block& b = blocks_[(ring - origin_) / kBlock];

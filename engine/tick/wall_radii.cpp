@@ -107,7 +107,7 @@ void WallRadii::cover(const ClayStack& stack, std::size_t first, std::size_t end
 void WallRadii::measure(const ClayStack& stack, std::size_t first, std::size_t end) noexcept {
   assert(first >= origin_ && row(end) + apart_ + kSpare <= outer_.size());
   const std::size_t last = stack.size() - 1;
-  // The end ring stands for those beyond it. As many as packs of any width measure.
+  // The end ring represents those beyond it, as many as packs of any width measure.
   const std::size_t count = in_packs_of(end + (end > last ? apart_ + kWidestFloats : 0) - first);
   in_packs([=, rings = stack.rings().data(), outer = &outer_[row(first)],
             inner = &inner_[row(first)], thickness = &thickness_[row(first)]](auto n)

@@ -12,7 +12,7 @@ namespace {
 struct Approach {
   using Row = std::array<double, Yielding::kMost>;
   Row advance;  ///< of the depth, what the tool has gone in the clay [mm]
-  Row pace;     ///< wall times depth at which the clay gives way as fast as the tool comes [mm^2]
+  Row pace;     ///< wall times depth at which the clay yields as fast as the tool comes [mm^2]
   Row time;     ///< in which the tool is nearer than the knee, times kappa / knee [1/mm]
   Row at_most;  ///< that gives way [mm]
 };
@@ -36,7 +36,7 @@ CLAYSTACK_INLINE inline void approach_rings(const Pace& all, const Yielding& rin
     double advance = rings.advance[k], pace = advance * pace_of, q = turn, rest = 1.0;
     double at_most = wall * fraction;
     if constexpr (!plain) {
-      // A tool that was not in the clay before came to it on the way.
+      // A tool that was not in the clay before reached it during this step.
       const double part = lesser(1.0, depth / greater(advance, depth)) * rings.since[k];
       advance = lesser(advance, depth);
       pace = advance * knee / greater(turn * part, 1e-300);
@@ -56,7 +56,7 @@ CLAYSTACK_INLINE inline void approach_rings(const Pace& all, const Yielding& rin
   }
 }
 
-/// Below the knee: about the depth that stays. Three short loops: of one long chain of operations
+/// Below the knee: about the depth that stays. Three short loops: with one long chain of operations
 /// the processor works on few rows at once. They stay rolled, so that their code is short too.
 CLAYSTACK_INLINE inline void relax_rings(const RemovalPlan& plan, const Approach& how,
                                          Yielding& rings, std::size_t count) noexcept {

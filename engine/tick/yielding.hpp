@@ -1,6 +1,6 @@
 #pragma once
-// How clay gives way to a tool in it, for some rings at once: plain loops over arrays, which the
-// compiler does two or four at a time, of operations that IEEE 754 fixes.
+// How clay gives way to a tool in it, for some rings at once: plain loops over arrays, compiled for
+// two or four rows at a time, with operations that IEEE 754 defines exactly.
 
 #include "claystack/engine/tick.hpp"
 
@@ -27,7 +27,7 @@ struct Yielding {
   static constexpr std::size_t kMost = 32;
   std::array<double, kMost> wall;     ///< R - r before
   std::array<double, kMost> depth;    ///< of the tool as it stands, in the clay as it was; > 0
-  std::array<double, kMost> advance;  ///< of that, gone since the last pose; below 0 on its way out
+  std::array<double, kMost> advance;  ///< part of that since the last pose; below 0 on its way out
   std::array<double, kMost> since;    ///< part of the time in which the tool was at the ring
   std::array<double, kMost> target;   ///< wall that the tools on it leave in the end
   std::array<double, kMost> left;     ///< depth that is left
@@ -56,8 +56,8 @@ struct Yielding {
 ///
 /// Deeper than the yield depth the wall falls as exp(-kappa t); nearer to the surface depth
 /// and wall fall together, a logistic curve about the depth at which the clay gives way as fast as
-/// the tool comes. Of a tool that stands both are exact, so that two half steps are one step; of
-/// one that moves the wall on its way is its mean.
+/// the tool comes. For a tool that stands still both are exact, so two half steps equal one step;
+/// for a moving one, the wall during the step is replaced by its mean.
 void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept;
 
 }  // namespace clay

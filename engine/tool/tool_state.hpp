@@ -8,8 +8,8 @@ namespace clay {
 
 inline constexpr double kFarthestMm = 1e6;
 
-/// Effects that take turns, or that are slow, follow the clock of the poses, so that a pot need not
-/// remember when they were due. Poses later by whole periods are the same throw.
+/// Effects that alternate, or that are slow, follow the clock of the poses, so that a pot need not
+/// store their phase. Poses that are later by whole periods give the same throw.
 inline constexpr std::int64_t kClockPeriodUs = 9'000;
 
 /// A valid pose, with the data derived from its predecessors.

@@ -50,7 +50,7 @@ struct Wheel::State {
 
 namespace {
 
-// On such a way the clay changes little; the bound keeps a tick short when a pose leaps.
+// Over such a distance the clay changes little; the bound keeps a tick short when a pose jumps.
 constexpr double kLongestWayMm = 0.05;
 constexpr int kMostParts = 32;
 
@@ -78,7 +78,7 @@ std::uint32_t rings_of(std::span<const ToolRemoval> removals) noexcept {
   return static_cast<std::uint32_t>(rings);
 }
 
-/// Into how many parts a tick is cut, so that a fast hand leaves what a slow one does.
+/// The number of parts of a tick, so that a fast hand gives the same pot as a slow one.
 template <Model model>
 int parts_of(const ToolState& tool) noexcept {
   if constexpr (model == Model::paper) return 1;
@@ -131,7 +131,7 @@ std::uint32_t settle_flow(State& s, const Flow& flow, const ToolState& tool) noe
          (s.failure ? kCollapsed : 0u);
 }
 
-/// Moves the clay that is displaced, and sees whether the stack still stands.
+/// Moves the displaced clay, and checks whether the stack still stands.
 template <unsigned stages, class State>
 std::uint32_t deform(State& s, const ToolState& tool,
                      std::span<const ToolRemoval> removals) noexcept {
@@ -152,7 +152,7 @@ std::uint32_t deform(State& s, const ToolState& tool,
   return settle_flow<stages>(s, flow, tool);
 }
 
-/// Clay that a tool kept from rising becomes rings when the tool has gone.
+/// Clay that a tool prevented from rising becomes rings after the tool has left.
 template <unsigned stages, class State>
 std::uint32_t raise_crown(State& s, const ToolState& tool) noexcept {
   if (s.stack.crown() < s.stack.rings().back().volume()) return 0;
@@ -208,7 +208,7 @@ ToolState track_tool(const StepPlan& plan, ToolTracker& tracker, const Pose& pos
   return tool;
 }
 
-/// The tick for a set of stages. A stage that the scene does not need is not in the code it runs.
+/// The tick for a set of stages. Its code omits the stages that the scene does not need.
 template <unsigned stages, class State>
 StepReport tick(State& s, const Pose& pose) noexcept {
   StepReport report;
@@ -242,7 +242,7 @@ StepReport tick(State& s, const Pose& pose) noexcept {
   return report;
 }
 
-/// The force of a tick and no more: contact as the last part of its way would find it.
+/// Only the force of a tick: with the contact that the last part of the tick would find.
 template <unsigned stages, class State>
 StepReport probe(State& s, const Pose& pose) noexcept {
   StepReport report;
@@ -273,7 +273,7 @@ StepReport probe(State& s, const Pose& pose) noexcept {
   return report;
 }
 
-// From the axis, where there is no bore: as good as through.
+// From the axis, where there is no bore: counts as through.
 constexpr double kThroughMm = 2.0;
 
 /// Whether a point at this height is beyond the wall, seen from outside.
@@ -282,8 +282,8 @@ bool through_wall(const Ring& ring, const glm::dvec3& hip_mm) noexcept {
   return d <= std::max(ring.inner_mm(), kThroughMm);
 }
 
-/// The tick of a needle or a wire. It cuts once, between the nearest rings, as the HIP goes through
-/// the wall. At least a ring stays.
+/// The tick of a needle or a wire. It cuts once, between the nearest rings, when the HIP goes
+/// through the wall. At least one ring stays.
 template <class State>
 StepReport cut_tick(State& s, const Pose& pose) noexcept {
   StepReport report;

@@ -140,7 +140,7 @@ struct Ledger {
 };
 
 // ---- pot -----------------------------------------------------------------------------
-// A finished (or half finished) pot as a value: what a session leaves on the wheel.
+// A finished (or half finished) pot as a value: the result of a session.
 
 /// A collapse (paper, section 7): the rings above `failed_ring` moved as one rigid body in the
 /// upright plane through the pot's axis and `pivot_mm`, the HIP when it happened: first
@@ -215,7 +215,7 @@ struct Pot {
 /// would no longer touch each other, an outer radius beyond the limits of ClayStack.
 Result<Pot> rounded_pot(const Pot& pot, double precision_mm);
 
-/// What rounding added to the clay (negative: took away) [mm^3]; 0 of a pot that is not rounded.
+/// The clay that rounding added (negative: took away) [mm^3]; 0 of a pot that is not rounded.
 [[nodiscard]] double volume_change_mm3(const Pot& pot) noexcept;
 
 }  // namespace clay

@@ -134,7 +134,7 @@ struct WorkRecord {
 [[nodiscard]] std::vector<std::size_t> way_to(std::span<const WorkNode> nodes, std::size_t node);
 /// Makes `node` the current one; redo from each of its ancestors leads to it.
 void go_to(WorkRecord& work, std::size_t node);
-/// The same throw: shifted by whole periods of 9 ms so that the first pose is in the first period.
+/// Gives the same throw: shifts the times by whole periods of 9 ms, the first pose to the first.
 [[nodiscard]] std::vector<Pose> from_zero(std::span<const Pose> poses);
 
 /// The work that was read, and the state of its end.

@@ -62,7 +62,7 @@ enum class ToolMode {
   smooth,
   /// Cuts the rim level at the height of the HIP as soon as the HIP has gone through the wall.
   needle,
-  /// Cuts the pot off the wheel at the height of the HIP; what is above stays and is set down.
+  /// Cuts the pot off the wheel at the height of the HIP; the upper part stays and is set down.
   wire,
   /// The pot stands upside down on the wheel, and the tool trims: for the foot. Poses and forces
   /// are those of the hand; the pot in memory and in files stays upright.
@@ -115,19 +115,19 @@ struct StabilitySpec {
 /// Rules of real clay on top of `conserving` (docs/model.md), each a separate stage. The paper's
 /// model has none of them.
 struct ClaySpec {
-  bool lift = true;          ///< what two tools squeeze out becomes height
+  bool lift = true;          ///< clay that two tools squeeze out becomes height
   bool shift = true;         ///< a tool on one side moves the wall as a plastic shell
   bool rim = true;           ///< a new ring copies the rim
   bool hoop = true;          ///< half of a hoop strain becomes height
-  bool heave = true;         ///< displaced clay leaves no slope that is steeper than a tool
+  bool heave = true;         ///< displaced clay leaves no slope steeper than a tool leaves
   bool smear = true;         ///< a wet finger evens out the surface below it
   double wheel_rpm = 120.0;  ///< for smear
   double floor_mm = 0.0;     ///< no tool opens the solid bottom below this height; 0: no stop
-  /// Length of the finger in a bore, behind which no thick wall closes; absent: the tool alone.
+  /// Length of the finger in a bore; no thick wall closes behind it. Absent: the tool alone.
   std::optional<double> finger_mm = std::nullopt;
   /// At the minimum wall. False: a tool from inside goes through the wall. True: the press bends it
-  /// (needs `shift`), and the rim sinks for the clay that it then needs; a cut takes a tip off the
-  /// rim that would stand out as a ledge. A press from outside bends the wall in any case.
+  /// (needs `shift`), and the rim sinks to supply the clay; a cut removes a tip of the rim that
+  /// would project as a ledge. A press from outside always bends the wall.
   bool thin_wall_yields = false;
   friend bool operator==(const ClaySpec&, const ClaySpec&) = default;
 };

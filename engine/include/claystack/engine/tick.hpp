@@ -18,13 +18,13 @@ namespace clay {
 /// [mm]; 0 without rings.
 [[nodiscard]] double largest_radius_mm(const ClayStack& stack) noexcept;
 
-/// What every ring bears [kPa], bottom to top: beta_i = g M_i / (pi (R_i^2 - r_i^2)), M_i the mass
-/// of all above it, crown included (paper, section 7). To the last bit what the stability of a
-/// scene compares with its StabilitySpec::max_stress_kpa.
+/// The stress in every ring [kPa], bottom to top: beta_i = g M_i / (pi (R_i^2 - r_i^2)), M_i the
+/// mass of all above it, crown included (paper, section 7). Equal, to the last bit, to the stress
+/// that a scene compares with its StabilitySpec::max_stress_kpa.
 [[nodiscard]] std::vector<double> stresses_kpa(const ClayStack& stack, double density_g_cm3);
 
-/// What the bore that opens at the top holds when it is filled to the brim [mm^3], exact for the
-/// steps as they are, of a pot in one piece; 0 where there is none, or where it goes right through.
+/// Capacity of the bore that opens at the top, filled to the brim [mm^3]; exact for the steps of a
+/// pot in one piece. 0 without such a bore, or if it goes through the whole pot.
 [[nodiscard]] double capacity_mm3(const ClayStack& stack) noexcept;
 
 // ---- rayleigh kernel -----------------------------------------------------------------
@@ -35,18 +35,18 @@ class RayleighKernel {
  public:
   /// Q_p(x) = x / sigma^2 exp(-x^2 / 2 sigma^2) at x = h j, for L1 = round(reach / h) rings, at
   /// most `max_rings`. sigma = 0 puts all into j = 1; sigma = inf makes the weights linear in j;
-  /// reach = 0 leaves no ring at all, so that everything goes into height.
+  /// reach = 0 gives no ring a share, so that everything goes into height.
   RayleighKernel(double sigma_mm, double reach_mm, double ring_height_mm, std::size_t max_rings);
 
   [[nodiscard]] std::size_t length() const noexcept { return cumulative_.size() - 1; }  ///< L1
-  /// The rings that get something. The rest of L1, where sigma is much less than the reach, has
-  /// weights that are 0 as integers.
+  /// The rings that get clay. If sigma is much less than the reach, the other rings of L1 have
+  /// weights that round to the integer 0.
   [[nodiscard]] std::size_t effective_length() const noexcept { return effective_length_; }
 
-  /// The distribution as far as ring 1, 2, .. in their order. `offset` (in ring heights, at least
-  /// -1) moves all rings away from the tool: ring j then reaches from j - 1 + offset to j + offset
-  /// in a distribution that is even within each ring of the table, and ring 1 has what lies before
-  /// it too. A negative offset leaves something to ring L1 + 1.
+  /// The cumulative distribution up to ring 1, 2, ... `offset` (in ring heights, at least -1) moves
+  /// all rings away from the tool: ring j then reaches from j - 1 + offset to j + offset in a
+  /// distribution that is even within each ring of the table. Ring 1 also gets the part before it.
+  /// A negative offset leaves a part for ring L1 + 1.
   class ShareCursor {
    public:
     explicit ShareCursor(const RayleighKernel& kernel, double offset = 0.0) noexcept
@@ -54,7 +54,7 @@ class RayleighKernel {
           at_(static_cast<std::int64_t>(std::floor(offset)) + 1),
           between_(static_cast<std::int64_t>((offset - std::floor(offset)) * kBetweenOne)),
           below_(kernel.cumulative(at_)) {}
-    /// The part of the whole that the rings get up to and with the next one, in 2^-40.
+    /// The part of the whole that the rings get, up to and including the next one, in 2^-40.
     std::int64_t next() noexcept {
       const std::int64_t below = below_;
       below_ = kernel_->cumulative(++at_);
@@ -71,9 +71,9 @@ class RayleighKernel {
     std::int64_t below_;    ///< C at at_
   };
 
-  /// Deals an amount out by the parts that a ShareCursor names, to the quantum: what rings 1..L1
-  /// get adds up to it. Quanta or WideQuanta, which give the same shares: what an ordinary tick
-  /// moves fits into 64 bits, which is one multiplication instead of three.
+  /// Divides an amount by the parts that a ShareCursor returns; the shares of rings 1..L1 add up to
+  /// the amount, to the quantum. Quanta and WideQuanta give the same shares: the amounts of an
+  /// ordinary tick fit into 64 bits, which takes one multiplication instead of three.
   template <class Amount>
   class Shares {
    public:
@@ -110,7 +110,7 @@ class RayleighKernel {
 inline constexpr double kStandardGravity = 9.80665;  ///< m/s^2 (ISO 80000-3)
 inline constexpr double kPaperRateHz = 1000.0;  ///< the paper's tick, for what it states per tick
 
-/// Stages that a scene may do without. A stage that is out is not compiled into the tick it runs.
+/// Stages that a scene can omit. An omitted stage is not compiled into the tick that runs.
 enum Stage : unsigned {
   kPaperModel = 1u,
   kForce = 2u,
@@ -121,7 +121,7 @@ enum Stage : unsigned {
 };
 inline constexpr unsigned kStageSets = 64;
 
-/// Clay rules that a scene may do without, as the stages above.
+/// Clay rules that a scene can omit, like the stages above.
 enum Rule : unsigned {
   kLift = 1u,
   kShift = 2u,

@@ -131,8 +131,8 @@ struct ExportOptions {
   std::function<Result<void>(std::uint64_t bytes)> expect_memory;
 };
 
-/// A length for fairing that leaves what the tool was made for: the radius of the tool, or half of
-/// its height if that is less [mm]. 0 if the pot does not remember its tool.
+/// A length for fairing that keeps the shapes that the tool made: the radius of the tool, or half
+/// of its height if that is less [mm]. 0 if the pot does not remember its tool.
 [[nodiscard]] double tool_length_mm(const Pot& pot);
 
 /// `tool_length_mm` of a pot that was thrown with clay rules, up to a tolerance of 0.1 mm; beyond,
@@ -325,7 +325,7 @@ struct Problem {
 
 /// Fails: a wall below the limit, a size above it, a closed cavity in a fired process. Warnings:
 /// without a limit a wall that no process allows, other closed cavities, overhangs above the
-/// limit, several bodies or pieces, in a file a lip with a smaller fillet than asked for.
+/// limit, several bodies or pieces, in a file a lip with a smaller fillet than requested.
 [[nodiscard]] std::vector<Problem> problems_of(const ExportReport& report);
 /// The same for the solid, of which no mesh need be written.
 [[nodiscard]] std::vector<Problem> problems_of_solid(const ExportReport& report);

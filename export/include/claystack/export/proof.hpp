@@ -125,7 +125,7 @@ struct MeshReport {
   std::size_t degenerate = 0;  ///< triangles of zero area
   std::size_t triangles = 0;
   bool has_volume = false;  ///< closed, and neighbours agree; any other volume is undefined
-  double volume_mm3 = 0.0;  ///< the sum over the triangles; of an open mesh it means nothing
+  double volume_mm3 = 0.0;  ///< the sum over the triangles; meaningless for an open mesh
   double area_mm2 = 0.0;    ///< of all triangles
   glm::dvec3 size_mm{0.0};  ///< width, depth and height, without points that no triangle uses
   bool out_of_memory =

@@ -33,7 +33,7 @@ struct SmoothingOptions {
   /// beyond a cut, the ring there counts as a continuation of the wall (see `extrapolated_mm`).
   /// Empty: the tolerance.
   std::optional<double> overshoot_limit_mm;
-  /// `fair`: walls have continuous curvature, and what is shorter along the height than this is
+  /// `fair`: walls have continuous curvature, and marks shorter along the height than this are
   /// smoothed away [mm]; at least two rings. 0: chords from middle to middle.
   double smooth_length_mm = 0.0;
 };
@@ -74,7 +74,7 @@ struct FairingReport {
   std::vector<ShortenedFairing> shortened;  ///< by piece and height
 };
 
-/// Why the fillet of a lip has a smaller radius than asked for.
+/// Why the fillet of a lip has a smaller radius than requested.
 enum class FilletLimit { none, lip_width, height_below };
 /// "half the height between ... does not allow more"; empty for `none`.
 [[nodiscard]] std::string_view reason_of(FilletLimit limit);
@@ -93,7 +93,7 @@ struct SmoothedProfile {
   /// this much thinner than the guard promises, solids twice as much [mm].
   double taken_mm = 0.0;
   double lip_fillet_asked_mm = 0.0;  ///< radius
-  double lip_fillet_mm = 0.0;        ///< radius as made: as asked, or as `lip_fillet_limit` allows
+  double lip_fillet_mm = 0.0;        ///< as made: requested, or as `lip_fillet_limit` allows
   FilletLimit lip_fillet_limit = FilletLimit::none;
   double volume_error_relative = 0.0;  ///< relative to the counted clay
   /// `exact`: maximum relative error of a ring's R^2 h or r^2 h, with levels in double precision;
@@ -119,7 +119,7 @@ struct SmoothedProfile {
 ///        With `smooth_length_mm` l, runs of at least four rings follow a curve of continuous
 ///        curvature instead: the cubic spline u of the height that minimises the sum over the rings
 ///        of h (u - R)^2 plus the integral of (l / 2 pi)^6 (d^3 u / dy^3)^2. A ripple of wavelength
-///        l keeps half of its height, and what is quadratic in the height stays. Within l of the
+///        l keeps half of its height, and a quadratic function of the height stays. Within l of the
 ///        end of a run, l is the distance to it, so that corners keep their place.
 /// exact  Walls follow a monotone interpolant of each wall's cumulative volume; frusta within the
 ///        rings are corrected so that every ring keeps R^2 h and r^2 h. A jump forces overshoot;

@@ -34,8 +34,8 @@ struct Wall {
 ///
 /// The boundary between the two points must be at least three diameters long, either way round.
 /// So the clay continues on both sides of the disc: a flange counts where it is longer than it is
-/// thick, and so does a lip. What protrudes less is an edge, a step or a rounded end. No angle
-/// decides: two faces that meet in a wedge of 2 atan(1/3) = 37 degrees or less are thin where they
+/// thick, and so does a lip. A shorter part is an edge, a step or a rounded end. There is no rule
+/// by angle: two faces that meet in a wedge of 2 atan(1/3) = 37 degrees or less are thin where they
 /// meet, and a blunter wedge is thin nowhere. A piece of clay in which no disc has that much
 /// boundary, such as a round hoop, is as thick as the largest disc in it (to 0.1 %): the thickness
 /// is never infinite.
@@ -66,10 +66,10 @@ struct WallBounds {
 /// level that reach the axis.
 enum class WallFace : std::uint8_t { foot, outer, rim, bore, floor, lid };
 
-/// The part of a section to which a wall belongs, by what its disc cuts off: the shorter way along
-/// the boundary between its two points, without the axis. A lip is cut off with the rim and without
-/// the foot, by a disc of which nine diameters are at least as long as that way; a flange is cut
-/// off with neither. All else is wall: floors, feet and stems too.
+/// The part of a section to which a wall belongs. It depends on the shorter path along the boundary
+/// between the two points of its disc, without the axis. A lip contains the rim but not the foot in
+/// a path of at most nine diameters of the disc; a flange contains neither. All else is wall:
+/// floors, feet and stems too.
 enum class WallPart : std::uint8_t { wall, lip, flange };
 
 struct WallSample {
