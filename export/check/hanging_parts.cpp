@@ -16,7 +16,7 @@
 namespace clay::solid::inline check {
 namespace {
 
-/// A lower layer than printers make: less counts as contact.
+/// Less than any printer's layer height: a smaller gap counts as contact.
 constexpr double kContactMm = 0.05;
 /// More pairs are not evaluated: such a mesh is no assembly of a few parts.
 constexpr std::size_t kMostPairs = 1'000'000;
@@ -79,8 +79,8 @@ class Parts {
     return pairs.size() < kMostPairs;
   }
 
-  /// The mesh with all that hangs moved down: what rests on another part then meets it, even if
-  /// rounding left a gap.
+  /// The mesh with all hanging parts moved down: a part that rests on another one then meets it,
+  /// even if rounding left a gap.
   [[nodiscard]] TriangleMesh lowered() {
     TriangleMesh mesh = mesh_;
     for (std::uint32_t v = 0; v < mesh.points.size(); ++v)
@@ -89,7 +89,7 @@ class Parts {
     return mesh;
   }
 
-  /// What lies in the clay of another part is one body with it: a cavity, or a shell that a slicer
+  /// A shell in the clay of another part is one body with it: a cavity, or a shell that a slicer
   /// fills. False: too much work.
   bool join_enclosed(bool intersect) {
     const BoxTree tree(mesh_);
@@ -133,7 +133,7 @@ class Parts {
   DisjointSets sets_;
   std::vector<std::uint32_t> lowest_;  ///< point, by set
   std::vector<std::uint32_t> roots_;
-  std::size_t count_ = 0;  ///< before contact joined them; a cavity is none
+  std::size_t count_ = 0;  ///< before contact joined them; cavities do not count
   double bed_mm_ = std::numeric_limits<double>::infinity();
 };
 

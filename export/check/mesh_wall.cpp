@@ -115,7 +115,7 @@ struct Found {
     wall.escaped += found.escaped;
   }
 
-  /// A compact body ends close to every ray. It is as thick as in its thickest place.
+  /// A compact body ends close to every ray. Its thickness is that of its thickest place.
   [[nodiscard]] SampledWall result() const {
     SampledWall result = wall;
     const bool compact = std::isinf(least.mm) && at_an_end.mm > 0.0;
@@ -159,7 +159,7 @@ class WallProbe {
     if (hit && one.wall.oblique == 0 && hit->mm) {
       const Shortest ray{*hit->mm, begin, triangle, sample};
       const Middle middle{begin + 0.5 * ray.mm * inward, inward, ray.mm, hit->facing};
-      // The sides are worth looking at only where the wall would be the thinnest.
+      // The sides are examined only where the wall would be the thinnest.
       const Beside beside = ray.mm < found.least.mm ? look_beside(middle, steps) : Beside{};
       if (is_end(middle, beside, steps)) {
         one.wall.oblique = 1;
@@ -197,8 +197,8 @@ class WallProbe {
     return hit ? *hit->mm : kFar;
   }
 
-  /// Looks for an end of the clay along some lines across the ray. The clay ends on one side of a
-  /// line only, as it does at the end of a lip or of a flange; a rod ends on both sides alike.
+  /// Looks for an end of the clay along some lines across the ray: the clay ends on one side of a
+  /// line only, as at the end of a lip or of a flange. A rod ends on both sides.
   [[nodiscard]] Beside look_beside(const Middle& middle, std::size_t& steps) const {
     const glm::dvec3& inward = middle.inward;
     const glm::dvec3 aside = std::abs(inward.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);

@@ -139,7 +139,7 @@ Result<void> check(const TriangleMesh& metres) {
   return {};
 }
 
-/// Views of compressed streams, of which the unpacked bytes are in no buffer.
+/// Views of compressed streams; their unpacked bytes are in no buffer.
 class Views {
  public:
   explicit Views(Packed& packed) : packed_(packed) {}

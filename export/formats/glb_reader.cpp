@@ -30,7 +30,7 @@ constexpr std::size_t kMaxJsonBytes = std::size_t{16} << 20;
 constexpr int kMaxJsonDepth = 32;
 constexpr std::size_t kMaxNodeDepth = 32;
 
-/// Thrown within this file; `guarded` makes an error of it.
+/// Thrown within this file; `guarded` turns it into an error.
 struct BadGlb : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -116,7 +116,7 @@ std::vector<double> numbers_in(const Json& json, const char* key, std::vector<do
 /// How a coordinate is stored.
 struct Component {
   std::size_t size = 0;  ///< bytes; 0: no coordinate is stored so
-  double most = 0.0;     ///< the number that stands for 1, if normalised; 0: none
+  double most = 0.0;     ///< the number that means 1, if normalised; 0: none
   double (*read)(const char* at) = nullptr;
 };
 
@@ -371,7 +371,7 @@ class GlbReader {
     return found;
   }
 
-  /// Whole numbers stand for themselves or, normalised, for a part of their largest.
+  /// Whole numbers are values or, if normalised, fractions of the largest number.
   void add_points(std::size_t index, std::vector<glm::dvec3>& points) {
     const Json& accessor = object_at(json_, "accessors", index);
     const Component component = component_of(count_in(accessor, "componentType"));

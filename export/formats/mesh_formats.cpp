@@ -85,7 +85,7 @@ std::string_view kind_of(std::string_view head, std::uint64_t file_bytes) {
   return stl ? "an STL mesh" : "";
 }
 
-/// The error of a reader; of a file that is empty or of another kind, one that states so.
+/// The error of a reader; for a file that is empty or of another kind, an error that states this.
 Error kind_stated(Error error, std::string_view head, std::uint64_t file_bytes, MeshFormat format,
                   std::string_view name) {
   const FormatFacts& facts = facts_of(format);

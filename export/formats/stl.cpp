@@ -156,7 +156,7 @@ bool is_text(std::string_view head) {
   return head.substr(0, kPrologueBytes).find('\0') == std::string_view::npos;
 }
 
-/// Surely no binary STL.
+/// Certainly not a binary STL.
 bool is_of_another_kind(std::string_view head) {
   return (!head.empty() && is_text(head)) ||
          (!begins_with_solid(head) && !known_kind(head).empty());

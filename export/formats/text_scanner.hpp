@@ -62,7 +62,7 @@ class TextScanner {
   std::optional<Error> fault_;
 };
 
-/// float32 by the shortest way; values too small for it are 0. Empty: not a number, or too large.
+/// Parsed directly as float32; values too small for it are 0. Empty: not a number, or too large.
 [[nodiscard]] std::optional<float> parse_float(std::string_view word) noexcept;
 
 /// A word for a message: in quotes, shortened; if it is empty, "the end of the line or file".

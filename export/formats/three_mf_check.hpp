@@ -5,8 +5,8 @@
 
 namespace clay::solid::inline formats {
 
-/// Whether the model part of a package is exactly this one: unpacked piece by piece, not held.
-/// Errors as for `decode_3mf`; `unsound` if it is another one.
+/// Whether the model part of a package is exactly this one: unpacked piece by piece, not kept in
+/// memory. Errors as for `decode_3mf`; `unsound` if it is another one.
 [[nodiscard]] Result<void> check_model_in_3mf(std::string_view bytes, std::string_view model,
                                               std::string_view name);
 

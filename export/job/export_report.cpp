@@ -74,12 +74,12 @@ std::optional<Problem> too_large(const ExportReport& report) {
       std::nullopt, true, ProblemKind::too_large};
 }
 
-/// Whether the thinnest wall has a place: not in a fallen pot.
+/// Whether the place of the thinnest wall is known: not in a fallen pot.
 bool placed_wall(const ExportReport& report) {
   return !report.collapsed && report.walls.thinnest.thickness_mm > 0.0;
 }
 
-/// Where no limit was asked for, a wall below that of each process is still worth a warning.
+/// Without a requested limit, a wall below the limit of every process still gets a warning.
 std::optional<std::string> below_each_process(const ExportReport& report) {
   const double smallest = smallest_allowed_wall_mm(), thinnest = report.thinnest_mm();
   if (report.walls.limit || thinnest <= 0.0 || thinnest >= smallest) return std::nullopt;
@@ -90,7 +90,7 @@ std::optional<std::string> below_each_process(const ExportReport& report) {
                      smallest);
 }
 
-/// Of a fallen pot those of the union: the parts may enclose one together, or fill one of a part.
+/// For a fallen pot the cavities of the union: the parts may enclose one together, or fill one.
 std::vector<Problem> cavities_of(const ExportReport& report) {
   const bool fired = report.process.limits && report.process.limits->fired;
   std::vector<Problem> cavities;
@@ -164,7 +164,7 @@ std::optional<Problem> small_lip_fillet(const ExportReport& report) {
 
 std::vector<Problem> problems_of(const ExportReport& report) {
   std::vector<Problem> problems = problems_with(report, thin_wall_of(report));
-  // A lip matters where it is made.
+  // The lip counts only if a file is made.
   const bool made = std::ranges::any_of(
       report.files, [](const FileReport& file) { return file.kind != FileKind::given; });
   if (auto fillet = small_lip_fillet(report); fillet && made)

@@ -20,7 +20,7 @@ constexpr double kClose = 1e-6;  // relative
 constexpr int kMostSteps = 40;
 constexpr double kFarthest = 50.0;  // of a factor from 1
 
-/// One asked number, and how it grows with the factor that is solved for.
+/// One requested number, and how it grows with the factor that is solved for.
 struct Aim {
   std::string name;
   double target = 0.0;
@@ -131,7 +131,7 @@ class GoalSearch {
       const double even = std::pow(ratios[0], 1.0 / powers);
       scale_ = {scale_.radius * even, scale_.height * even};
     } else {
-      // The length decides its own factor, the other number the other one.
+      // The length sets its own factor, the other number sets the other factor.
       const bool height = first.power_of_height == 1.0;
       double& own = height ? scale_.height : scale_.radius;
       double& other = height ? scale_.radius : scale_.height;

@@ -35,7 +35,7 @@ bool has_straight_walls(const ClayStack& stack) {
   return true;
 }
 
-/// A proved section, its revolve, and what is claimed of it.
+/// A proved section, its revolve, and the claims about it.
 struct Design {
   ProvedSection section;
   SolidSize size;
@@ -102,7 +102,7 @@ class RevolvedExport {
     return std::max(0.1 * largest_radius_mm(stack_), options_.tolerance_mm);
   }
 
-  /// Smoothing respects a limit only if the walls keep it then and not otherwise.
+  /// Smoothing respects a limit only if the walls keep it with that and not without.
   Result<Design> design_at(double tolerance_mm) {
     auto free = design_with(std::nullopt, tolerance_mm);
     if (!prepared_.limit) return free;

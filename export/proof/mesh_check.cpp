@@ -192,7 +192,7 @@ class Inspection {
     return geometry.outward;
   }
 
-  /// Shells against each other are a problem already; then the sum says nothing about its sign.
+  /// Contradicting shells are a problem already; then the sign of the sum has no meaning.
   void check_outward(bool outward, const SignedVolume& volume) {
     report_.oriented = outward;
     if (outward || (!report_.bounds_volume && !volume.sign_is_certain())) return;

@@ -47,8 +47,8 @@ Result<TriangleMesh> wrapped_or_error(const TriangleMesh& soup, double offset_mm
                                          report.problems.front().what);
 }
 
-/// A wall around an open surface. The triangles of a wrap cut off what is curved, so that the wall
-/// would be thinner there: the wrap is repeated farther out until rays find the thickness.
+/// A wall around an open surface. On curved surfaces the triangles of a wrap lie too low, so that
+/// the wall would be thinner there: the wrap is repeated farther out until rays find the thickness.
 Result<TriangleMesh> thickened(const TriangleMesh& soup, double asked_mm, const Error& reason,
                                ThickenedWall& wall) {
   constexpr int kMostWraps = 8;
@@ -111,8 +111,8 @@ bool is_closed(const TriangleMesh& soup) {
 }
 
 /// The union of closed solids that share edges, as the parts of a stacked cup do. No surface joins
-/// all of their triangles, but winding numbers tell what they enclose. Empty for an open soup, and
-/// if a solid is inside out: which one, only half-edges can show.
+/// all of their triangles, but winding numbers show what they enclose. Empty for an open soup, and
+/// if a solid is inside out: only half-edges can show which one.
 std::optional<TriangleMesh> united_solids(TriangleMesh soup, std::vector<Repair>& repaired,
                                           StageReport& stage) {
   if (!is_closed(soup)) return std::nullopt;
@@ -230,7 +230,7 @@ Result<RepairedMesh> guarded(const RepairOptions& options, const Work& work) try
 } catch (const std::exception& e) {
   return failure(ErrorKind::unsound, std::string("repair failed: ") + e.what());
 } catch (const Cancelled&) {
-  // Without a `cancelled` of its own, the cancellation belongs to an enclosing job.
+  // Without `cancelled`, an enclosing job decides the cancellation.
   if (!options.cancelled) throw;
   return failure(ErrorKind::io, "repair stopped: cancelled");
 }

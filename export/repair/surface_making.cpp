@@ -94,7 +94,7 @@ class Making {
     note_repair(repaired_, "triangle turned", count);
   }
 
-  /// A single triangle encloses nothing, even with a back face.
+  /// A single triangle does not enclose a volume, even with a back face.
   void drop_lone_triangles() {
     std::vector<Face> lone;
     for (const Face face : surface_.faces()) {

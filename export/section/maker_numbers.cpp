@@ -103,8 +103,8 @@ Result<void> check_part(std::string_view name, double value, double below) {
                                            in_percent(below) + ", found " + in_percent(value));
 }
 
-/// Visits the lines from the brim down the bore, each by its ends in the order against the walk.
-/// Returns whether they reach the axis: then there is a floor.
+/// Visits the lines from the brim down the bore, each by its ends in reverse order. Returns whether
+/// they reach the axis: then there is a floor.
 template <class Visit>
 bool along_bore(const Polygon& piece, std::size_t brim, Visit visit) noexcept {
   std::size_t at = brim;

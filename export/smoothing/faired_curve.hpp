@@ -31,10 +31,10 @@ inline constexpr double kLeastFairedLength = 2.0;
 ///   sum over the rings of h (u - R)^2, at their middles
 ///   + integral of (l / 2 pi)^6 (d^3 u / dy^3)^2 dy.
 ///
-/// A ripple of wavelength l keeps 1/2 of its height, of 2 l 98 %, of l / 2 less than 2 %. What is
-/// quadratic in the height stays as it is: cylinders, cones, paraboloids. The length l is that
-/// of the ring, but at most the distance to the nearer end of the run, so that foot, lip and
-/// corners stay, and at least two rings. The matrix has seven diagonals: linear time.
+/// A ripple of wavelength l keeps 1/2 of its height, of 2 l 98 %, of l / 2 less than 2 %. Quadratic
+/// functions of the height do not change: cylinders, cones, paraboloids. The length l is that of
+/// the ring, but at most the distance to the nearer end of the run, so that foot, lip and corners
+/// stay, and at least two rings. The matrix has seven diagonals: linear time.
 class FairedCurve {
  public:
   /// At least kLeastFairedRings; `lengths_mm`: above 0, for each ring of the piece.

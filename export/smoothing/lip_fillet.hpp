@@ -5,7 +5,7 @@
 namespace clay::solid::inline smoothing {
 
 /// Rounds both edges of the lip by arcs that touch the top and the wall (or a bend of the wall).
-/// The chords are within `tolerance_mm` of the arcs. The radius is smaller than asked for if the
+/// The chords are within `tolerance_mm` of the arcs. The radius is smaller than requested if the
 /// arcs of inside and outside would meet: in a straight wall half its thickness, more in a lip that
 /// is narrower than the wall below it. An edge without width stays, with a radius of 0.
 struct FilletedLip {

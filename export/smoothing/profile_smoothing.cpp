@@ -40,7 +40,7 @@ struct SmoothedPiece {
   FairingReport fairing;
 };
 
-/// Shorter than two rings the length has no effect.
+/// A length below two rings has no effect.
 double fairing_length_mm(const PieceWalls& piece, const SmoothingOptions& options) {
   if (options.mode != Smoothing::fair || options.smooth_length_mm == 0.0) return 0.0;
   return std::max(options.smooth_length_mm, kLeastFairedLength * piece.ring_height_mm);
@@ -302,7 +302,7 @@ Result<void> check_range(const std::string& option, double value, bool zero_allo
                                            ", found " + in_mm(value) + " mm");
 }
 
-/// An option that only `fair` has.
+/// An option for `fair` only.
 Result<void> check_fair(const std::string& option, double value, const SmoothingOptions& options) {
   if (options.mode == Smoothing::fair || value == 0.0) return {};
   return failure(ErrorKind::bad_input,

@@ -107,7 +107,7 @@ Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_t
 } catch (const std::exception& e) {
   return failure(ErrorKind::unsound, std::string("decimation failed: ") + e.what());
 } catch (const Cancelled&) {
-  // Without a `cancelled` of its own, the cancellation belongs to an enclosing job.
+  // Without `cancelled`, an enclosing job decides the cancellation.
   if (!options.cancelled) throw;
   return failure(ErrorKind::io, "decimation stopped: cancelled");
 }

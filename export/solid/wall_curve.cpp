@@ -178,7 +178,7 @@ WallCurve fitted(const Polygon& line, double tolerance_mm) {
     else
       ++i;
   }
-  // One knot in the middle may do for two.
+  // One knot in the middle may replace two.
   for (std::size_t i = 1; i + 2 < curve.knots.size(); ++i) {
     std::vector<double> knots = curve.knots;
     knots[i] = 0.5 * (knots[i] + knots[i + 1]);

@@ -1,11 +1,11 @@
 #pragma once
-// The largest disc in a piece of clay: how thick a piece is that has no wall.
+// The largest disc in a piece of clay: the thickness of a piece without a wall.
 
 #include "export/walls/edge_tree.hpp"
 
 namespace clay::solid::inline walls {
 
-/// How much smaller than the largest the disc found may be, as a part of it.
+/// By which fraction the disc found may be smaller than the largest.
 inline constexpr double kDiscTolerance = 1e-3;
 
 struct Disc {

@@ -145,8 +145,8 @@ class BallSearch {
     visit(Way{perimeter_ - way.begin, -way.per_u, -way.per_v});
   }
 
-  /// True if `b` follows `a`. Then they meet in a notch of air, or in an edge: its balls become
-  /// as small as one likes, if it is sharp, and else have too little boundary.
+  /// True if `b` follows `a`. Then they meet in a notch of air, or in an edge. The balls of a sharp
+  /// edge become arbitrarily small; those of any other have too little boundary.
   bool meet(const Face& a, const Face& b) {
     if (a.edge.to != b.edge.from) return false;
     const double cosine = -glm::dot(a.edge.inward, b.edge.inward);

@@ -39,7 +39,7 @@ class FaceNames {
   }
 
  private:
-  /// Edges within 45 degrees of level, from the axis on: the inside of a rim may look up, too.
+  /// Edges within 45 degrees of level, from the axis on: the inside of a rim may face up, too.
   void name_floors_and_lids(const Polygon& polygon) {
     const auto next = [&](std::size_t i) { return i + 1 == count_ ? 0 : i + 1; };
     const auto before = [&](std::size_t i) { return i == 0 ? count_ - 1 : i - 1; };

@@ -1,4 +1,4 @@
-// Walls in words: the table of a section, and what is wrong with it.
+// Walls in words: the table of a section, and its faults.
 
 #include "claystack/export/walls.hpp"
 #include "export/walls/part_names.hpp"
@@ -13,7 +13,7 @@
 namespace clay::solid::inline walls {
 namespace {
 
-constexpr std::size_t kMostStretches = 4;  // of a long list, people read the first few
+constexpr std::size_t kMostStretches = 4;  // people read only the first few of a long list
 
 struct Stretch {
   std::size_t piece = 0;
@@ -21,7 +21,7 @@ struct Stretch {
   double low_mm = 0.0, high_mm = 0.0;
 };
 
-/// The face, or the part where that says more: the face of a sharp lip may look up like a floor.
+/// The face, or the part if that is clearer: the face of a sharp lip may face up like a floor.
 std::string_view name_of(const WallSample& sample) {
   return sample.part == WallPart::wall ? name_of(sample.face) : name_of(sample.part);
 }
@@ -54,7 +54,7 @@ std::string text_of(const Stretch& stretch) {
 }  // namespace
 
 std::string wall_text(double thinnest_mm, const WallLimit& limit) {
-  // As many digits as tell a wall that fails from its limit.
+  // Enough digits to distinguish a wall that fails from its limit.
   const bool fails = thinnest_mm < limit.min_wall_mm;
   int digits = 3;
   while (fails && digits < 9 && limit.min_wall_mm - thinnest_mm < std::pow(10.0, -digits)) ++digits;
