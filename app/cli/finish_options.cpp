@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kSmallestMm = 1e-3, kLargestMm = 1e4;
 
-/// "60x6x4": diameter, width and depth; "6x4": width and depth. A unit at the end, "6x4cm", holds
-/// for all sizes without one of their own.
+/// "60x6x4": diameter, width and depth; "6x4": width and depth. A unit at the end, "6x4cm", applies
+/// to all sizes that have no unit.
 Result<solid::FootRing> foot_of(const std::string& text) {
   std::vector<std::string> parts;
   std::istringstream list(text);

@@ -240,7 +240,7 @@ class Page {
     });
   }
 
-  /// What the figures above rest on.
+  /// The assumptions behind the figures above.
   void assumptions() {
     if (json_["maker"].is_null()) return;
     table("Assumptions", [&] {

@@ -251,8 +251,8 @@ class Copier {
     return children(node, copied, inside);
   }
 
-  /// A page in percent has no size of its own. Without a width or a height it takes that of its
-  /// view box, with neither of them both.
+  /// A page in percent has no absolute size. A missing width or height, or both, is taken from its
+  /// view box.
   static void size_page(xmlNode* page) {
     for (const char* attribute : {"width", "height"})
       if (svg_attribute(page, attribute).ends_with('%'))

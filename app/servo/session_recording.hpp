@@ -14,9 +14,9 @@
 namespace clay::servo {
 
 /// A session that is being recorded. It grows in NAME.recording, locked, and becomes NAME in one
-/// step in `finish`: until then the session that had the name stays as it is. A program that dies
-/// leaves NAME.recording, which can be played like any session. A recording without a pose leaves
-/// nothing and replaces nothing. Pipes and devices have no NAME.recording: lines go straight there.
+/// step in `finish`: until then the session with that name does not change. A killed program leaves
+/// NAME.recording, which can be played like any session. A recording without a pose leaves no file
+/// and replaces none. Pipes and devices have no NAME.recording: lines are written to them directly.
 class SessionRecording final : public PoseSink {
  public:
   /// Refused while another program records to this name, and if NAME.recording holds poses of an

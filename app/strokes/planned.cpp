@@ -210,7 +210,7 @@ void pull(Hand& hand, const Stroke& stroke) {
   hand.hold(stroke.hold_s, stroke.trim);
 }
 
-// As far as the least wall allows: a tool that goes on bends the rim.
+// As far as the minimum wall allows: a tool that moves on bends the rim.
 void round_lip(Hand& hand, const Stroke& stroke) {
   const Section section(hand.wheel().stack());
   const StepPlan& plan = hand.wheel().plan();

@@ -482,8 +482,8 @@ struct Performer {
     state.ui.thumbs.clear();
     state.log("work started: " + state.document.scene().name);
   }
-  /// A work from a file goes on at its own speed of the wheel, so that the same stroke gives the
-  /// same pot.
+  /// A work from a file continues at its stored speed of the wheel, so that the same stroke gives
+  /// the same pot.
   void show_own_wheel() const {
     state.settings.wheel_rpm = std::clamp(state.document.wheel_rpm(), kSlowestRpm, kFastestRpm);
   }

@@ -88,8 +88,8 @@ glm::dvec3 MouseDevice::unstopped(const glm::dvec3& step_mm, const Overlap& now)
   return way;
 }
 
-/// What the strength of the hand permits of a step. Along the clay and away from it the hand is
-/// free: where the whole step is too much, the tool slides, out or up as far as that goes.
+/// The part of a step that the strength of the hand permits. Along the clay and away from it the
+/// hand is free: if the whole step is too much, the tool slides, out or up as far as it can.
 glm::dvec3 MouseDevice::permitted(const glm::dvec3& step_mm, double step_s,
                                   double bite_mm) noexcept {
   if (resistance_.clay == nullptr) return step_mm;

@@ -1,5 +1,5 @@
 #pragma once
-// Writes a picture or a turntable of the pot on a thread of its own: the drawing of `claystack
+// Writes a picture or a turntable of the pot on a separate thread: the drawing of `claystack
 // render`, so that the same choices give the same bytes.
 
 #include "app/history/work.hpp"

@@ -33,7 +33,7 @@ struct Settings {
   double wheel_rpm = 120.0;  ///< kSlowestRpm to kFastestRpm
   ToolChoice tool;
   bool wall_map = false;       ///< show wall thickness as colours on the pot
-  Material material = kWet;    ///< what the pot seems to be made of
+  Material material = kWet;    ///< the clay or glaze that is shown
   bool throwing_lines = true;  ///< show lines and specks, which are not in the pot
   bool full_section = false;   ///< show both halves of the section
   std::string process;         ///< process for walls and exports: a name or a file; empty: none

@@ -71,7 +71,7 @@ class StrokeController {
   /// Devices begin no stroke until `resume`.
   void hold_back() noexcept { device_waits_ = false; }
   [[nodiscard]] bool throwing() const noexcept { return live_.has_value(); }
-  /// How hard the mouse pulls at the tool: the way from the tool to its target [mm].
+  /// How hard the mouse pulls the tool: the distance from the tool to its target [mm].
   [[nodiscard]] double stretch_mm() const noexcept { return live_ ? mouse_.stretch_mm() : 0.0; }
 
   // --- Devices. ----------------------------------------------------------------------------------

@@ -170,7 +170,7 @@ void update_file_dialog(AppState& state) {
       apply(state, UseTarget{*chosen});
       break;
     case FileDialog::Kind::save:
-      apply(state, SaveFile{*chosen, true});  // the desktop has asked
+      apply(state, SaveFile{*chosen, true});  // the desktop's dialog has asked the user
       break;
     case FileDialog::Kind::folder:
       if (state.ui.shows<PictureDialog>())

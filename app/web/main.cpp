@@ -51,7 +51,7 @@ void announce() {
   page_announce(announced.c_str());
 }
 
-/// The studio draws into canvases of its own, so the page needs neither samples nor depth.
+/// The studio draws into separate canvases, so the page needs neither samples nor depth.
 bool create_context() {
   EmscriptenWebGLContextAttributes wish;
   emscripten_webgl_init_context_attributes(&wish);

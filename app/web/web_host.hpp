@@ -11,8 +11,8 @@
 namespace clay::web {
 
 /// Has no threads: the servo advances within a frame. Its time is that of the page while the page
-/// is visible, and never goes on by more than kLongestFrameMs between two frames: a page that was
-/// hidden or slow does not press on into the clay.
+/// is visible, and never advances by more than kLongestFrameMs between two frames: after a pause
+/// the page does not press on into the clay.
 class WebHost final : public studio::Host {
  public:
   static constexpr double kLongestFrameMs = 100.0;

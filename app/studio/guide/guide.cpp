@@ -34,7 +34,7 @@ Result<void> Guide::begin(const Sample& sample, Demonstration demonstration) {
 
 void Guide::next() {
   if (!active() || finished()) return;
-  // A step with a stroke is as good as the user wants it.
+  // The user decides when a step with a stroke is good enough.
   if (state_.tries == 0) state_.skipped.insert(state_.step);
   go_on();
 }

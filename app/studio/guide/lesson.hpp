@@ -49,8 +49,8 @@ struct LessonPlan {
   double left_mm2 = 0.0;        ///< difference of the pot from that, see `left_from`
   std::string problem;          ///< why there is no plan; then the path is empty
 
-  /// How far a pot is from the result: a pull is to make the wall thinner and taller, wherever it
-  /// stands; all other strokes move it.
+  /// How far a pot is from the result: a pull should make the wall thinner and taller, in any
+  /// place; all other strokes move it.
   [[nodiscard]] double left_from(const render::PotView& pot) const {
     return mode == ToolMode::pinch ? width_difference_mm2(pot, after) : difference_mm2(pot, after);
   }

@@ -95,7 +95,7 @@ void choose_tenths(const char* label, double& mm, double low_mm, double high_mm,
   if (form_length(label, mm, low_mm, high_mm, unit, none)) mm = std::round(10.0 * mm) / 10.0;
 }
 
-/// What is cut and filled after throwing; nothing at first.
+/// The cuts and fillets after throwing; none at first.
 void draw_finish(const ViewModel& model, ExportChoices& choices) {
   const LengthUnit unit = model.settings.unit;
   choose_tenths("Foot ring", choices.foot_width_mm, 0.0, kWidestFootMm, unit, "none");

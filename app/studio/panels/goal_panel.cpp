@@ -1,4 +1,4 @@
-// The goal: what the pot shall hold and measure, and the target profile.
+// The goal: the desired capacity and size of the pot, and the target profile.
 
 #include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"

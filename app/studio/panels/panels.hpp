@@ -11,7 +11,7 @@
 
 namespace clay::studio {
 
-/// Beside the view: what a potter needs, and a drawer with the rest, which is closed at first.
+/// Beside the view: the panels for a potter, and a drawer with the rest, which is closed at first.
 enum class Column { context, diagnostics };
 
 /// Key of the drawer in Settings::open.

@@ -83,7 +83,7 @@ void value_row(const Palette& colours, const char* name, const std::string& valu
 
 /// Opacity of the ground of texts over the view.
 inline constexpr float kOverView = 0.82f;
-/// Text on a ground of its own, readable over the view.
+/// Text on its own background, readable over the view.
 void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImVec4& colour);
 
 /// Begins a window in the middle of the dimmed view, as high as its content. Call ImGui::End() to
