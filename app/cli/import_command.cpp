@@ -65,7 +65,7 @@ std::vector<std::string> warnings_about(const ImportOptions& options, const Half
   if (!options.pot_settings.ring_height_mm && drawn.deviation.mm > kDrawnDeviationMm)
     warnings.push_back(fmt::format(
         "{}: expected rings within {:g} mm of the drawing, found {:.3f} mm; rings lower than {:g} "
-        "mm are not nearer, as the drawing has lower details",
+        "mm are not closer, because details of the drawing are lower still",
         options.drawing, kDrawnDeviationMm, drawn.deviation.mm, drawn.pot.stack.ring_height_mm()));
   return warnings;
 }
@@ -143,9 +143,7 @@ Result<void> import_drawing(const ImportOptions& options, const Console& console
   progress.stage("reading");
   const auto bytes = read_file(options.drawing);
   if (!bytes) return tl::make_unexpected(bytes.error());
-  auto drawing = read_drawing(*bytes, options.drawing, options.layer);
-  if (!drawing) return tl::make_unexpected(drawing.error());
-  const auto section = half_section(std::move(*drawing), options.section, options.drawing);
+  const auto section = read_half_section(*bytes, options.drawing, options.layer, options.section);
   if (!section) return tl::make_unexpected(section.error());
   for (const std::string& note : section->notes) console.warn(note);
   progress.stage("making rings");

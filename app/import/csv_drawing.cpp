@@ -26,7 +26,7 @@ std::optional<double> number_of(std::string field) {
 /// Reads a table row by row.
 class Table {
  public:
-  explicit Table(const std::string& name) : name_(name) {}
+  Table(const std::string& name, double scale) : name_(name), scale_(scale) {}
 
   Result<void> row(std::string_view text, std::size_t number) {
     text = trimmed(text.substr(0, text.find('#')));
@@ -91,11 +91,11 @@ class Table {
     bore_.clear();
   }
 
-  static std::optional<double> value(const std::vector<std::string>& fields,
-                                     const CsvColumn& column) {
+  [[nodiscard]] std::optional<double> value(const std::vector<std::string>& fields,
+                                            const CsvColumn& column) const {
     if (column.index >= fields.size()) return std::nullopt;
     const auto number = number_of(fields[column.index]);
-    return number ? std::optional(column.mm * *number) : std::nullopt;
+    return number ? std::optional(scale_ * (column.mm * *number)) : std::nullopt;
   }
 
   [[nodiscard]] tl::unexpected<Error> refusal(std::size_t line, const std::string& problem) const {
@@ -103,6 +103,7 @@ class Table {
   }
 
   const std::string& name_;
+  double scale_;
   Drawing drawing_{{}, true};
   PointLimits limits_;
   CsvColumns columns_;
@@ -113,9 +114,9 @@ class Table {
 
 }  // namespace
 
-Result<Drawing> read_csv(std::string_view text, const std::string& name) {
+Result<Drawing> read_csv(std::string_view text, const std::string& name, double scale) {
   text = without_byte_order_mark(text);
-  Table table(name);
+  Table table(name, scale);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     if (auto done = table.row(text.substr(0, end), number); !done)

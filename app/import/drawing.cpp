@@ -75,7 +75,7 @@ std::string PointLimits::problem_with(std::span<const glm::dvec2> points_mm) {
 }
 
 Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,
-                             const std::string& layer) {
+                             const std::string& layer, double scale) {
   std::string ending = name == "-" ? std::string(ending_of(bytes))
                                    : std::filesystem::path(name).extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -94,16 +94,18 @@ Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,
                    fmt::format("{}: expected a drawing with layers, SVG or DXF, for the layer "
                                "\"{}\", found a table",
                                name, layer));
-  auto read = svg   ? read_svg(bytes, name, layer)
-              : dxf ? read_dxf(bytes, name, layer)
-                    : read_csv(bytes, name);
+  auto read = svg   ? read_svg(bytes, name, layer, scale)
+              : dxf ? read_dxf(bytes, name, layer, scale)
+                    : read_csv(bytes, name, scale);
   if (!read && !(svg && bytes.starts_with('<')))
     return tl::make_unexpected(kind_error(std::move(read.error()), bytes, name,
                                           name == "-"
                                               ? "a drawing (SVG, DXF or CSV) on standard input"
                                               : "a drawing (" + ending + ")"));
-  return std::move(read).and_then(
-      [&](Drawing&& drawing) { return checked(std::move(drawing), name); });
+  return std::move(read).and_then([&](Drawing&& drawing) {
+    drawing.scale = scale;
+    return checked(std::move(drawing), name);
+  });
 }
 
 }  // namespace clay::importing

@@ -23,9 +23,10 @@ struct Drawing {
   /// The file defines the axis at x = 0, as a table of radii does.
   bool axis_at_zero = false;
   std::vector<std::string> notes{};  ///< what a reader left out, each for a warning
+  double scale = 1.0;                ///< of the points, from the lengths in the file
 };
 
-/// Maximum distance of chords from their curves.
+/// Maximum distance of chords from their curves, after scaling.
 inline constexpr double kFlatMm = 1e-3;
 /// Far above the needs of a pot; larger drawings are refused.
 inline constexpr std::size_t kMostPoints = 1'000'000;
@@ -42,8 +43,9 @@ inline constexpr std::size_t kMostBytes = 32u << 20;
 ///   empty row begins a new line of the drawing; text after # is ignored. The axis is at radius 0.
 /// For the name "-", standard input, the first bytes select it.
 /// `layer`: the only layer to read, by its name (SVG: label or id); empty: all that are shown.
+/// `scale`: multiplies all lengths, before curves become chords.
 /// Errors read "NAME: what was expected, what was found", with the line if there is one.
 Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,
-                             const std::string& layer = {});
+                             const std::string& layer = {}, double scale = 1.0);
 
 }  // namespace clay::importing

@@ -47,8 +47,9 @@ std::optional<double> upright(const Line& line) {
 
 /// Removes axis lines, which are straight, vertical, and connected to no other line, and returns
 /// where they are. `asked`: the axis, if it is given.
-Result<std::optional<double>> take_axis_lines(std::vector<Line>& lines, std::optional<double> asked,
+Result<std::optional<double>> take_axis_lines(Drawing& drawing, std::optional<double> asked,
                                               const std::string& name) {
+  std::vector<Line>& lines = drawing.lines;
   std::vector<double> found;
   for (const Line& line : lines)
     if (const auto x = upright(line)) found.push_back(*x);
@@ -61,7 +62,7 @@ Result<std::optional<double>> take_axis_lines(std::vector<Line>& lines, std::opt
         ErrorKind::bad_input,
         fmt::format("{}: expected one axis line, found unconnected vertical lines at x = "
                     "{:g} and {:g} mm; --axis chooses the axis, --layer one layer of a drawing",
-                    name, found.front(), found.back()));
+                    name, found.front() / drawing.scale, found.back() / drawing.scale));
   const double axis = asked.value_or(found.front());
   std::erase_if(lines, [&](const Line& line) {
     const auto x = upright(line);
@@ -108,10 +109,10 @@ Result<void> place_axis(HalfSection& section, Drawing& drawing, const HalfSectio
       settings.axis == AxisRule::by_itself && drawing.axis_at_zero ? AxisRule::at : settings.axis;
   std::optional<double> asked;
   if (section.axis == AxisRule::at)
-    asked = settings.axis == AxisRule::at ? settings.axis_mm : 0.0;
+    asked = settings.axis == AxisRule::at ? settings.axis_mm * drawing.scale : 0.0;
   else if (section.axis != AxisRule::by_itself)
     asked = section.axis == AxisRule::left ? bounds.low.x : middle;
-  const auto line = take_axis_lines(drawing.lines, asked, name);
+  const auto line = take_axis_lines(drawing, asked, name);
   if (!line) return tl::make_unexpected(line.error());
   if (section.axis == AxisRule::by_itself)
     section.axis = *line                                   ? AxisRule::line
@@ -129,7 +130,7 @@ Result<void> place_axis(HalfSection& section, Drawing& drawing, const HalfSectio
         "{}: expected a straight edge of the outline along the axis, or a vertical line beside it, "
         "found only a corner at the left end, x = {:g} mm, which is used as the axis; --axis "
         "places it",
-        name, section.axis_mm));
+        name, section.axis_mm / drawing.scale));
   return {};
 }
 
@@ -140,13 +141,14 @@ void turn_to_the_right(std::vector<Line>& lines, double axis_mm) {
     for (glm::dvec2& p : line.points_mm) p.x = 2.0 * axis_mm - p.x;
 }
 
-std::string hint_about(const std::vector<Line>& lines, const HalfSection& section, bool chosen) {
-  const Bounds bounds = bounds_of(lines);
+std::string hint_about(const Drawing& drawing, const HalfSection& section, bool chosen) {
+  const Bounds bounds = bounds_of(drawing.lines);
   const double middle = 0.5 * (bounds.low.x + bounds.high.x);
-  if (chosen || section.axis != AxisRule::left || !nearly_mirrored(lines, middle)) return {};
+  if (chosen || section.axis != AxisRule::left || !nearly_mirrored(drawing.lines, middle))
+    return {};
   return fmt::format(
       "; the drawing is nearly symmetric about x = {:g} mm: --axis middle uses its right half",
-      middle);
+      middle / drawing.scale);
 }
 
 }  // namespace clay::importing

@@ -15,8 +15,8 @@ struct Bounds {
 
 [[nodiscard]] Bounds bounds_of(const std::vector<Line>& lines);
 
-/// Sets the axis of the section, with a note if it is doubtful, and removes axis lines from the
-/// drawing.
+/// Sets the axis of the section as the scaled drawing has it, with a note if it is doubtful, and
+/// removes axis lines from the drawing. Notes and errors have the coordinates of the file.
 Result<void> place_axis(HalfSection& section, Drawing& drawing, const HalfSectionSettings& settings,
                         const std::string& name);
 
@@ -25,7 +25,7 @@ void turn_to_the_right(std::vector<Line>& lines, double axis_mm);
 
 /// A hint for an error about a drawing of both halves that is not quite symmetric, if the axis was
 /// not chosen.
-[[nodiscard]] std::string hint_about(const std::vector<Line>& lines, const HalfSection& section,
+[[nodiscard]] std::string hint_about(const Drawing& drawing, const HalfSection& section,
                                      bool chosen);
 
 }  // namespace clay::importing

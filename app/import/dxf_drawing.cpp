@@ -63,7 +63,8 @@ struct Insertion {
 /// Reads a DXF file section by section.
 class Reader {
  public:
-  Reader(const std::string& name, const std::string& layer) : name_(name), layer_(lower(layer)) {}
+  Reader(const std::string& name, const std::string& layer, double scale)
+      : name_(name), layer_(lower(layer)), scale_(scale) {}
 
   Result<Drawing> read(DxfGroups groups) {
     while (true) {
@@ -88,7 +89,7 @@ class Reader {
     if (kind == "HEADER") return header(start);
     if (kind == "ENTITIES") {
       Insertion page;
-      page.placement.turn *= unit_mm_;
+      page.placement.turn *= scale_ * unit_mm_;
       return entities(groups, page, "ENDSEC");
     }
     while (true) {
@@ -267,6 +268,7 @@ class Reader {
 
   const std::string& name_;
   const Name layer_;  ///< the only one to be drawn; empty: all
+  const double scale_;
   double unit_mm_ = 1.0;
   std::set<Name> ignored_, seen_layers_;
   std::map<Name, Block> blocks_;
@@ -277,11 +279,11 @@ class Reader {
 
 }  // namespace
 
-Result<Drawing> read_dxf(std::string_view bytes, const std::string& name,
-                         const std::string& layer) {
+Result<Drawing> read_dxf(std::string_view bytes, const std::string& name, const std::string& layer,
+                         double scale) {
   auto groups = DxfGroups::open(bytes, name);
   if (!groups) return tl::make_unexpected(groups.error());
-  return Reader(name, layer).read(*groups);
+  return Reader(name, layer, scale).read(*groups);
 }
 
 }  // namespace clay::importing

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -254,6 +255,30 @@ Result<std::vector<Slab>> slabs_within_tolerance(const std::vector<Line>& lines,
   return again ? again : slabs;
 }
 
+/// Moves the lines to the axis and the foot, and scales what the reader has not scaled.
+Result<void> move_to_axis(Drawing& drawing, double axis_mm, std::optional<double> height_mm,
+                          const std::string& name) {
+  const Bounds bounds = bounds_of(drawing.lines);
+  const double drawn_mm = bounds.high.y - bounds.low.y;
+  if (!(drawn_mm > 0.0) || !(bounds.high.x > axis_mm))
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected an outline right of the axis at x = {:g} mm, found "
+                               "one from x = {:g} to {:g}, {:g} mm high",
+                               name, axis_mm / drawing.scale, bounds.low.x / drawing.scale,
+                               bounds.high.x / drawing.scale, drawn_mm / drawing.scale));
+  const double scale = height_mm.value_or(drawn_mm) / drawn_mm;
+  for (Line& line : drawing.lines)
+    for (glm::dvec2& p : line.points_mm) p = scale * (p - glm::dvec2{axis_mm, bounds.low.y});
+  return {};
+}
+
+/// The height of a drawing; its width if it has no height, as chords of a flat curve may not.
+double size_of(const std::vector<Line>& lines) {
+  const Bounds bounds = bounds_of(lines);
+  const glm::dvec2 size = bounds.high - bounds.low;
+  return size.y > 0.0 ? size.y : size.x;
+}
+
 }  // namespace
 
 double HalfSection::volume_mm3() const noexcept {
@@ -271,27 +296,19 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
   HalfSection section;
   if (auto placed = place_axis(section, drawing, settings, name); !placed)
     return tl::make_unexpected(placed.error());
+  const double axis_mm = std::exchange(section.axis_mm, section.axis_mm / drawing.scale);
   if (drawing.lines.empty())
     return failure(ErrorKind::bad_input,
                    fmt::format("{}: expected an outline beside the axis, found only lines on the "
                                "axis at x = {:g} mm",
                                name, section.axis_mm));
-  turn_to_the_right(drawing.lines, section.axis_mm);
-  const auto with_hint = [&, drawn = drawing.lines](Error error) {
+  turn_to_the_right(drawing.lines, axis_mm);
+  const auto with_hint = [&, drawn = drawing](Error error) {
     error.message += hint_about(drawn, section, settings.axis != AxisRule::by_itself);
     return tl::make_unexpected(std::move(error));
   };
-  const Bounds bounds = bounds_of(drawing.lines);
-  const double drawn_mm = bounds.high.y - bounds.low.y;
-  if (!(drawn_mm > 0.0) || !(bounds.high.x > section.axis_mm))
-    return failure(ErrorKind::bad_input,
-                   fmt::format("{}: expected an outline right of the axis at x = {:g} mm, found "
-                               "one from x = {:g} to {:g}, {:g} mm high",
-                               name, section.axis_mm, bounds.low.x, bounds.high.x, drawn_mm));
-  const double scale = settings.height_mm.value_or(drawn_mm) / drawn_mm;
-  for (Line& line : drawing.lines)
-    for (glm::dvec2& p : line.points_mm)
-      p = scale * (p - glm::dvec2{section.axis_mm, bounds.low.y});
+  if (auto moved = move_to_axis(drawing, axis_mm, settings.height_mm, name); !moved)
+    return tl::make_unexpected(moved.error());
   straighten(drawing.lines);
   if (auto closed = close(drawing.lines, name); !closed)
     return with_hint(std::move(closed.error()));
@@ -302,6 +319,23 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
   section.slabs = std::move(*slabs);
   section.height_mm = section.slabs.back().to_mm;
   return section;
+}
+
+Result<HalfSection> read_half_section(std::string_view bytes, const std::string& name,
+                                      const std::string& layer,
+                                      const HalfSectionSettings& settings) {
+  // Chords that are long for the pot may be lower than their curve: the second factor corrects it.
+  constexpr int kMostReadings = 4;
+  constexpr double kSameScale = 1e-3;
+  auto drawing = read_drawing(bytes, name, layer);
+  for (int i = 1; drawing && settings.height_mm && i < kMostReadings; ++i) {
+    const double factor = *settings.height_mm / size_of(drawing->lines);
+    const double scale = factor * drawing->scale;
+    if (!std::isnormal(scale) || std::abs(factor - 1.0) <= kSameScale) break;
+    drawing = read_drawing(bytes, name, layer, scale);
+  }
+  return std::move(drawing).and_then(
+      [&](Drawing&& read) { return half_section(std::move(read), settings, name); });
 }
 
 }  // namespace clay::importing

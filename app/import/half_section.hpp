@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace clay::importing {
@@ -48,12 +49,21 @@ struct HalfSection {
 /// Floors, feet and rims may rise by this much where rings need level ones.
 inline constexpr double kLevelWithinMm = 0.02;
 
-/// Joins lines whose ends are within 0.01 mm of each other. Of the lines left open, one with both
+/// Joins lines whose ends are within 0.01 mm of each other, in the lengths of the drawing as it was
+/// read: read_half_section reads it in those of the pot. Of the lines left open, one with both
 /// ends on the axis is closed along it, and a single other one is used as the outside of a solid
 /// pot. Outlines that lie wholly left of the axis are mirrored. Refuses, naming the place, open
 /// ends, clay in two places at one height (a ring has one), heights without clay, and
 /// self-intersecting outlines.
 Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& settings,
                                  const std::string& name);
+
+/// Reads a drawing, and its half section. With a height, the drawing is read in the scale of the
+/// pot, so that chords (kFlatMm) and the 0.01 mm for ends and the axis are lengths of the pot: a
+/// drawing in metres gives the pot of the same drawing in mm. An axis line that is longer than the
+/// outline counts for that scale; the pot has the height exactly.
+Result<HalfSection> read_half_section(std::string_view bytes, const std::string& name,
+                                      const std::string& layer,
+                                      const HalfSectionSettings& settings);
 
 }  // namespace clay::importing

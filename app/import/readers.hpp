@@ -28,9 +28,11 @@ std::string_view trimmed(std::string_view text);
 /// case. Such layers are drawn only if they are asked for by name.
 bool for_construction(std::string_view layer_name);
 
-/// `layer`: the only layer to read; empty: all that are shown.
-Result<Drawing> read_svg(std::string_view bytes, const std::string& name, const std::string& layer);
-Result<Drawing> read_dxf(std::string_view bytes, const std::string& name, const std::string& layer);
-Result<Drawing> read_csv(std::string_view text, const std::string& name);
+/// `layer`: the only layer to read; empty: all that are shown. `scale`: as for read_drawing.
+Result<Drawing> read_svg(std::string_view bytes, const std::string& name, const std::string& layer,
+                         double scale);
+Result<Drawing> read_dxf(std::string_view bytes, const std::string& name, const std::string& layer,
+                         double scale);
+Result<Drawing> read_csv(std::string_view text, const std::string& name, double scale);
 
 }  // namespace clay::importing

@@ -76,6 +76,8 @@ Arc arc_between(glm::dvec2 first, glm::dvec2 last, glm::dvec2 radii, double turn
 /// Receives shapes from the library as moves, lines, cubics and arcs; stores them in mm.
 class Collector {
  public:
+  explicit Collector(double scale) : mm_per_px_(scale * kMmPerPx) {}
+
   std::vector<Line> lines;
 
   /// Lengths in the user's units: percentages are of the viewport around the element.
@@ -169,7 +171,7 @@ class Collector {
       throw Refusal(
           "expected a viewBox, or a width and a height of the drawing, because a length refers to "
           "its size; found none");
-    return kMmPerPx * glm::dvec2{p.x, -p.y};
+    return mm_per_px_ * glm::dvec2{p.x, -p.y};
   }
 
   /// After a closed subpath the next one may begin without a move, at the same start.
@@ -192,6 +194,7 @@ class Collector {
     line_ = {};
   }
 
+  double mm_per_px_;
   std::vector<State> states_{State{}};
   Line line_;
   PointLimits limits_;
@@ -235,8 +238,8 @@ std::string line_of(const boost::exception& error) {
 
 }  // namespace
 
-Result<Drawing> read_svg(std::string_view bytes, const std::string& name,
-                         const std::string& layer) {
+Result<Drawing> read_svg(std::string_view bytes, const std::string& name, const std::string& layer,
+                         double scale) {
   const auto nodes =
       std::count_if(bytes.begin(), bytes.end(), [](char c) { return c == '<' || c == '='; });
   if (nodes > kMostNodes)
@@ -256,7 +259,7 @@ Result<Drawing> read_svg(std::string_view bytes, const std::string& name,
   auto shapes = svg_shapes(*document, layer, name);
   if (!shapes) return tl::make_unexpected(shapes.error());
   xmlNode* root = xmlDocGetRootElement(shapes->document.get());
-  Collector collector;
+  Collector collector(scale);
   try {
     Traversal::load_document(root, collector);
   } catch (const Refusal& refusal) {

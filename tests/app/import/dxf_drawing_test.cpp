@@ -62,6 +62,49 @@ TEST(DxfDrawing, AppliesItsUnits) {
   EXPECT_THAT(refusal_of(read_drawing(file(box, 13), "pot.dxf")), HasSubstr("$INSUNITS"));
 }
 
+/// Half of a cup, 80 mm wide and 100 mm high, with a wall and a floor of 5 mm, beside its axis; in
+/// a file without a unit.
+std::string cup_in(double mm_per_unit) {
+  const std::vector<glm::dvec2> corners{{0, 0},    {40, 0}, {40, 100}, {35, 100},
+                                        {35, 5.0}, {0, 5},  {0, 0}};
+  std::string lines;
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    lines += line(corners[i - 1] / mm_per_unit, corners[i] / mm_per_unit);
+  return file(lines, 0);
+}
+
+TEST(DxfDrawing, HeightGivesThePotOfADrawingInAnyUnit) {
+  const double volume = kPi * (40.0 * 40.0 * 100.0 - 35.0 * 35.0 * 95.0);
+  for (const double mm_per_unit : {1000.0, 25.4, 1.0, 1e-3}) {
+    const auto section =
+        read_half_section(cup_in(mm_per_unit), "cup.dxf", "", {AxisRule::by_itself, 0.0, 100.0});
+    ASSERT_TRUE(section) << refusal_of(section);
+    EXPECT_NEAR(section->volume_mm3(), volume, 1e-6 * volume) << mm_per_unit;
+    EXPECT_NEAR(section->height_mm, 100.0, 1e-9) << mm_per_unit;
+    EXPECT_EQ(section->axis, AxisRule::left) << mm_per_unit;
+    EXPECT_NEAR(section->axis_mm, 0.0, 1e-9) << mm_per_unit;
+    EXPECT_TRUE(section->notes.empty()) << mm_per_unit;
+  }
+}
+
+TEST(DxfDrawing, AxisOfADrawingInMetresIsInTheCoordinatesOfTheFile) {
+  const auto section =
+      read_half_section(cup_in(1000.0), "cup.dxf", "", {AxisRule::at, 0.02, 100.0});
+  ASSERT_TRUE(section) << refusal_of(section);
+  const double volume = kPi * (20.0 * 20.0 * 100.0 - 15.0 * 15.0 * 95.0);
+  EXPECT_NEAR(section->volume_mm3(), volume, 1e-6 * volume);
+  EXPECT_NEAR(section->axis_mm, 0.02, 1e-12);
+}
+
+TEST(DxfDrawing, HeightMakesChordsFitThePot) {
+  const std::string arc = file(
+      groups({{0, "ARC"}, {8, "0"}, {10, "0"}, {20, "0"}, {40, "0.03"}, {50, "270"}, {51, "90"}}),
+      0);
+  const auto ball = read_half_section(arc, "ball.dxf", "", {AxisRule::left, 0.0, 60.0});
+  ASSERT_TRUE(ball) << refusal_of(ball);
+  EXPECT_NEAR(ball->volume_mm3(), 4.0 / 3.0 * kPi * 27000.0, kFlatMm * 4.0 * kPi * 900.0);
+}
+
 TEST(DxfDrawing, BulgeOfOneIsAHalfCircle) {
   const std::string polyline = groups({{0, "LWPOLYLINE"},
                                        {100, "AcDbEntity"},
