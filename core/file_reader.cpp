@@ -1,6 +1,8 @@
 #include "core/file_reader.hpp"
 
 #include <sys/stat.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace clay {
@@ -32,7 +34,12 @@ Result<std::optional<std::string_view>> FileLines::next() {
   constexpr std::size_t kBlock = std::size_t{1} << 16;
   std::size_t searched = begin_;
   for (;;) {
-    if (const auto newline = buffer_.find('\n', searched); newline != std::string::npos) {
+    const auto newline = buffer_.find('\n', searched);
+    if (std::min(newline, buffer_.size()) - begin_ > most_bytes_)
+      return failure(ErrorKind::io, file_.path().string() + ":" + std::to_string(number_ + 1) +
+                                        ": expected a line of at most " +
+                                        std::to_string(most_bytes_) + " bytes, found a longer one");
+    if (newline != std::string::npos) {
       const auto line = std::string_view(buffer_).substr(begin_, newline - begin_);
       begin_ = newline + 1;
       ++number_;
@@ -40,10 +47,6 @@ Result<std::optional<std::string_view>> FileLines::next() {
     }
     buffer_.erase(0, std::exchange(begin_, 0));
     searched = buffer_.size();
-    if (searched > most_bytes_)
-      return failure(ErrorKind::io, file_.path().string() + ":" + std::to_string(number_ + 1) +
-                                        ": expected a line of at most " +
-                                        std::to_string(most_bytes_) + " bytes, found a longer one");
     buffer_.resize(searched + kBlock);
     const auto count = file_.read(std::span(buffer_).subspan(searched));
     buffer_.resize(searched + count.value_or(0));

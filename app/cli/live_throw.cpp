@@ -189,7 +189,8 @@ Ending comes_back(falcon::HapticDevice& device, LiveKeys& keys, const Console& c
     const auto opened = device.open();
     if (opened) return Ending::none;
     const DeviceFault fault = opened.error().fault;
-    if (fault == DeviceFault::bad_firmware || fault == DeviceFault::bad_setting)
+    if (fault == DeviceFault::bad_firmware || fault == DeviceFault::unreadable_firmware ||
+        fault == DeviceFault::bad_setting)
       return Ending::device_lost;
     const bool absent = fault == DeviceFault::unplugged || fault == DeviceFault::not_found;
     if (!absent && fault != reported) console.warn(opened.error().message + "; still waiting");

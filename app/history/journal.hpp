@@ -7,12 +7,10 @@
 #include "claystack/engine/tool.hpp"
 #include "core/worker.hpp"
 
-#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 

@@ -22,8 +22,7 @@ SceneSpec usual_scene(double height_mm) {
 }
 
 SceneSpec scene_for(const Pot& pot, const std::string& name) {
-  double widest_mm = 1.0;
-  for (const Ring& ring : pot.stack.rings()) widest_mm = std::max(widest_mm, ring.outer_mm());
+  const double widest_mm = std::max(1.0, largest_radius_mm(pot.stack));
   SceneSpec scene = usual_scene(std::max(1.0, pot.stack.height_mm()));
   scene.name = name;
   scene.model = pot.model;
@@ -35,12 +34,7 @@ SceneSpec scene_for(const Pot& pot, const std::string& name) {
                 .max_rings = 0,
                 .density_g_cm3 = pot.density_g_cm3};
   if (!pot.thrown_with) return scene;
-  scene.tool = pot.thrown_with->tool;
-  scene.removal = pot.thrown_with->removal;
-  scene.flow = pot.thrown_with->flow;
-  scene.force = pot.thrown_with->force;
-  scene.stability = pot.thrown_with->stability;
-  scene.clay = pot.thrown_with->clay;
+  apply(*pot.thrown_with, scene);
   return scene;
 }
 

@@ -25,7 +25,8 @@ inline constexpr double kSimulatedReachMm = 46.0;
 [[nodiscard]] falcon::HandFingers hand_fingers(const std::vector<Pose>& poses);
 
 /// A mapping that keeps the whole stroke within `reach_mm` of the middle of the workspace: the
-/// default scale, or a larger one if needed. Returns `settings` without poses.
+/// scale of `settings`, or a larger one if needed, with its own side, reach and height. Returns
+/// `settings` without poses.
 [[nodiscard]] MappingSettings fitted(MappingSettings settings, const std::vector<Pose>& poses,
                                      double reach_mm);
 

@@ -130,7 +130,7 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
     return;
   }
   if (!admission.may_deform) return;  // keep the last force; the guard fades it out
-  // A tool that was nowhere yet has no place to keep.
+  // Before the first accepted sample the tool has no position.
   if (recentre_ && thrown_) mapping_.recentre(sample.position_mm, tool_mm_);
   recentre_ = false;
   if (!thrown_) first_us_ = sample.time_us;

@@ -42,7 +42,6 @@ void on_end(int signal) {
 
 ForceSignals::ForceSignals() {
   asked = 0;
-  (void)emergency_stop();  // constructed before a handler can use it
   stack_t stack{};
   stack.ss_sp = handler_stack;
   stack.ss_size = kStackBytes;

@@ -10,9 +10,6 @@
 namespace clay {
 namespace {
 
-constexpr double kMinRingHeightMm = 1e-3;
-constexpr double kMaxRingHeightMm = 1e3;
-
 Result<void> check_shape(std::size_t count, double ring_height_mm, std::size_t max_rings) {
   if (count < 1 || count > kMaxRings)
     return failure(ErrorKind::bad_input, "expected 1 to " + std::to_string(kMaxRings) +

@@ -52,7 +52,8 @@ __attribute__((target("avx2"))) void in_four_lanes(const Loop& loop) noexcept {
 inline bool four_lanes = false;
 #endif
 
-/// The loop and all that it calls must be inline; otherwise it stays with two.
+/// Runs the loop four doubles at a time where the machine has AVX2, else two. The loop and all that
+/// it calls must be inline; otherwise it runs two at a time.
 template <class Loop>
 void in_lanes(const Loop& loop) noexcept {
 #if defined(__x86_64__)

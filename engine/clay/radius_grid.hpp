@@ -29,8 +29,8 @@ class RadiusGrid {
   [[nodiscard]] double radius_mm(std::int64_t steps) const {
     return static_cast<double>(steps * step_nm_) / kNmPerMm;
   }
-  /// The square of a radius of 0 to kMaxRadiusMm, to the nearest quantum. 2^36 quanta are 10^12
-  /// nm2, that is 2^24 to 5^12, an odd number: no square lies midway between two quanta.
+  /// The square of a radius of 0 to kMaxRadiusMm, to the nearest quantum. A quantum is 5^12 / 2^24
+  /// nm2. 5^12 is odd, so no square lies midway between two quanta.
   [[nodiscard]] Quanta square(std::int64_t steps) const {
     constexpr WideQuanta kDivisor = 244'140'625;
     const WideQuanta radius_nm = WideQuanta{steps} * step_nm_;

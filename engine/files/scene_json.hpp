@@ -15,7 +15,7 @@ Result<SceneSpec> scene_of(const LocatedJson& document);
 
 // Also used by the pot file, which repeats some fields of its scene.
 inline constexpr std::array<std::string_view, 2> kModelNames = {"conserving", "paper"};
-inline constexpr Range kRingHeightMm = from(1e-3).to(1e3);
+inline constexpr Range kRingHeightMm = from(kMinRingHeightMm).to(kMaxRingHeightMm);
 inline constexpr Range kDensity = from(0.1).to(25);
 
 }  // namespace clay::files

@@ -20,8 +20,8 @@ struct Band {
   [[nodiscard]] double height_mm() const noexcept { return high_mm - low_mm; }
 };
 
-/// The mean position of the rings that give way most, weighted by the eighth power of their give.
-/// If many give way equally, as to a rib, it is their middle, and a tiny change does not move it.
+/// Mean height of the touched rings, weighted by the eighth power of how far each gives way. For a
+/// rib it is the middle of the contact; a small change of one ring hardly moves it.
 struct Peak {
   double weight = 0.0, sum = 0.0;  ///< levels in ring heights
 

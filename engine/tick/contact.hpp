@@ -21,8 +21,8 @@ struct Contact {
   Side side = Side::compressive;
   std::size_t bottom = 0;  ///< candidate range by (1), (2), counted from 0
   std::size_t top = 0;
-  /// By how much the rings below `bottom` and above `top` are farther from the tool's end than in
-  /// the kernel's table, in ring heights. In the table the end lies in the middle of its ring.
+  /// Extra distance from the tool's end to the rings below `bottom` and above `top`, in ring
+  /// heights; the kernel's table assumes that the end lies in the middle of its ring.
   double down_offset = 0.0, up_offset = 0.0;
   double axis_distance_mm = 0.0;  ///< d
   double approach_mm = 0.0;       ///< of the tool's axis to the wall, since the last pose

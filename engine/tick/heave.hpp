@@ -26,9 +26,9 @@ struct Heap {
                                  const Band& band) noexcept;
 
 /// Lays clay beside the band: up to a distance x the share t^3 (10 - 15 t + 6 t^2), t = x / reach,
-/// which begins and ends with slope 0. No ring becomes thicker than its thinner neighbour by more
-/// than half of its height (a slope that a tool of any size leaves; of rings below 0.085 mm: than
-/// the ring 0.17 mm away by half of that), and none grows into the tool;
+/// which begins and ends with slope 0. A ring becomes at most h/2 thicker than its thinner
+/// neighbour, a slope that a tool of any size leaves. Rings below 0.085 mm are compared with the
+/// ring 0.17 mm away, by half of that distance. No ring grows into the tool;
 /// clay that a ring cannot take goes to the next. Returns the clay that found no place within the
 /// reach. The caller counts the placed clay (`StackWriter::gain`).
 Quanta heave(const Tool& tool, const ClayStack& stack, WallRadii& walls, double hip_y,

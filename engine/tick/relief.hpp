@@ -54,8 +54,8 @@ struct Cone {
 
 /// The rest of a finger, above a tool in a bore. It stands behind the tool, toward the axis, and
 /// leans away by 1 : 8. So clay may heave up over the tool, which carries it along on its way out,
-/// but does not close behind it. A wall that is thinner than the tool yields less, and a wall half
-/// as thick as the tool does not yield: a belly may be wider than the neck over it.
+/// but does not close behind it. A wall as thick as the tool's diameter yields fully, and a wall as
+/// thick as its radius does not yield: a belly may be wider than the neck over it.
 struct Finger {
   static constexpr double kLean = 0.125, kBehind = 2.0;  ///< of the tool's greatest radius
   double from_mm = 0.0, to_mm = 0.0;  ///< heights of its ends above the wheel head

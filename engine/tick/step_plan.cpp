@@ -31,7 +31,11 @@ Result<void> check_ranges(std::initializer_list<Range> ranges) {
 Result<void> check(const SceneSpec& s) {
   const ForceSpec force = s.force.value_or(ForceSpec{});
   const StabilitySpec stability = s.stability.value_or(StabilitySpec{});
+  constexpr auto kMostRings = static_cast<double>(kMaxRings);
   return check_ranges({
+      {"lump.rings", static_cast<double>(s.lump.rings), 1.0, kMostRings},
+      {"lump.max_rings", static_cast<double>(s.lump.max_rings), 0.0, kMostRings},
+      {"lump.ring_height_mm", s.lump.ring_height_mm, kMinRingHeightMm, kMaxRingHeightMm},
       {"lump.density_g_cm3", s.lump.density_g_cm3, 0.1, 25.0},
       {"tool.gap_mm", s.tool.gap_mm.value_or(kMinRadiusMm), kMinRadiusMm, 1000.0},
       {"removal.rate_per_s", s.removal.rate_per_s, 0.0, 1e6},
@@ -118,41 +122,81 @@ ToolShapeSpec turned(const ToolShapeSpec& shape) {
   return turned;
 }
 
+bool cutter(ToolMode mode) { return mode == ToolMode::trim || mode == ToolMode::trim_foot; }
+
 void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
   const unsigned rules = rules_of(s);
+  const bool any = s.clay && s.model != Model::paper, cuts = cutter(s.tool.mode);
   const std::string none = s.clay ? "the paper's model has no clay rules" : "no clay rules are set";
-  const bool any = s.clay && s.model != Model::paper;
   const auto line = [&](const char* stage, unsigned rule, const char* in, const char* out) {
-    lines.push_back({stage, (rules & rule) != 0, (rules & rule) ? in : any ? out : none});
+    const bool used = (rules & rule) != 0 && !cuts;
+    lines.push_back({stage, used,
+                     used           ? in
+                     : !any         ? none
+                     : rules & rule ? "a trimming tool moves no clay"
+                                    : out});
   };
   line("lift", kLift, "clay that two tools squeeze out becomes height", "off in the scene");
   line("shift", kShift, "a tool on one side moves the wall", "off in the scene");
   line("rim", kRim, "a new ring copies the rim", "off in the scene");
   line("hoop", kHoop, "half of a hoop strain becomes height", "off in the scene, or shift is");
-  line("heave", kHeave, "displaced clay leaves no steep slope", "off in the scene");
+  const bool heaves = (rules & kHeave) != 0;
+  lines.push_back({"heave", heaves,
+                   !heaves ? any ? "off in the scene" : none
+                   : cuts  ? "a cut leaves no steep ledge"
+                           : "displaced clay leaves no steep slope"});
   line("smear", kSmear, "a wet finger evens out the surface",
        "off in the scene, or the wheel stands still");
-  const bool finger = (rules & kHeave) && finger_mm(s) > 0.0;
+  const bool finger = heaves && finger_mm(s) > 0.0;
   lines.push_back({"finger", finger,
                    finger ? "in a bore, no clay closes behind the tool"
                    : any  ? "no finger is set, or heave is off, or the tool does not press"
                           : none});
-  const bool yields = any && s.clay->thin_wall_yields;
+  const bool yields = any && s.clay->thin_wall_yields && s.tool.mode != ToolMode::trim_foot;
   lines.push_back({"thin wall", yields,
                    yields ? "a wall at its minimum bends outward; a cut leaves no ledge"
-                   : any  ? "a tool from inside goes through a wall at its minimum"
-                          : none});
+                   : !any ? none
+                   : s.clay->thin_wall_yields
+                       ? "a foot has no rule against a ledge"
+                       : "a tool from inside goes through a wall at its minimum"});
+}
+
+void describe_force(const SceneSpec& s, unsigned stages, std::vector<PlanLine>& lines) {
+  const bool turned = s.tool.mode == ToolMode::trim_foot;
+  const bool alone = turned || s.tool.mode == ToolMode::smooth;
+  const auto line = [&](const char* stage, unsigned bit, const char* in, const char* out) {
+    lines.push_back({stage, (stages & bit) != 0, (stages & bit) ? in : out});
+  };
+  line("force", kForce, "section 6.1", "no force is set");
+  line("friction", kFriction, "section 6.2", "no coefficient of friction is set");
+  line("stability", kStability, "section 7",
+       turned && s.stability ? "a pot upside down rests on its rim" : "no stress threshold is set");
+  line("pinch", kPinch, "a pose with a gap has two tools",
+       alone && s.tool.gap_mm ? "this mode has one tool" : "no gap is set");
+}
+
+/// The stages of a sponge, which presses nothing.
+std::vector<PlanLine> describe_sponge(const SceneSpec& s, unsigned stages) {
+  const bool smears = s.clay->wheel_rpm > 0.0;
+  std::vector<PlanLine> lines{
+      {"tool state", true, "pose, time step, direction of motion"},
+      {"contact", true, "equations (1), (2), then the rings touched"},
+      {"removal", false, "a sponge removes no clay"},
+      {"growth", false, "a sponge moves no clay to the rim"},
+      {"smear", smears, smears ? "a sponge evens out the surface" : "the wheel stands still"}};
+  describe_force(s, stages, lines);
+  return lines;
 }
 
 std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
-  const bool hollow = s.lump.inner_radius_mm > 0.0;
   if (cuts_level(s.tool.mode))
     return {
         {"tool state", true, "pose, time step"},
         {"cut", true,
          s.tool.mode == ToolMode::needle ? "the rim, level, where the tool goes through the wall"
                                          : "the pot off the wheel; the upper part stays"}};
-  const bool press = s.tool.mode != ToolMode::trim && s.tool.mode != ToolMode::trim_foot;
+  if (s.tool.mode == ToolMode::smooth) return describe_sponge(s, stages);
+  const bool hollow = s.lump.inner_radius_mm > 0.0, press = !cutter(s.tool.mode);
   std::vector<PlanLine> lines{
       {"tool state", true, "pose, time step, direction of motion"},
       {"contact", true, "equations (1), (2), then the rings touched"},
@@ -163,15 +207,8 @@ std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
       {"inner surface", hollow,
        hollow ? "equations (6), (8)" : "the lump is solid: nothing to fill until a tool opens it"},
       {"growth", press,
-       press ? "clay above the top becomes height" : "a trimming tool moves no clay"},
-      {"force", (stages & kForce) != 0, (stages & kForce) ? "section 6.1" : "no force is set"},
-      {"friction", (stages & kFriction) != 0,
-       (stages & kFriction) ? "section 6.2" : "no coefficient of friction is set"},
-      {"stability", (stages & kStability) != 0,
-       (stages & kStability) ? "section 7" : "no stress threshold is set"},
-      {"pinch", (stages & kPinch) != 0,
-       (stages & kPinch) ? "a pose with a gap has two tools" : "no gap is set"},
-  };
+       press ? "clay above the top becomes height" : "a trimming tool moves no clay"}};
+  describe_force(s, stages, lines);
   describe_rules(s, lines);
   return lines;
 }

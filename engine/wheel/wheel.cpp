@@ -98,8 +98,10 @@ void remove(State& s, const ToolState& tool, std::span<ToolRemoval> removals) no
                                   removals[0].removed);
 }
 
+/// A sponge ignores the trim button.
 template <class State>
 bool trims(const State& s, const ToolState& tool) noexcept {
+  if (s.plan.mode == ToolMode::smooth) return false;
   return tool.trim || s.plan.mode == ToolMode::trim || s.plan.mode == ToolMode::trim_foot;
 }
 
@@ -159,9 +161,11 @@ std::uint32_t raise_crown(State& s, const ToolState& tool) noexcept {
   Flow flow;
   flow.lowest = flow.highest = s.stack.size() - 1;
   if constexpr (stages & kStability) s.watch.move_to(s.stack, flow.highest);
-  StackWriter writer(s.stack);
   Rim* const rim = (s.plan.clay.rules & kRim) ? nullptr : &s.rim;
-  grow_rim(flow, s.plan, tool.hip_mm.y, {}, s.stack, rim, writer);
+  {
+    StackWriter writer(s.stack);
+    grow_rim(flow, s.plan, tool.hip_mm.y, {}, s.stack, rim, writer);
+  }
   return settle_flow<stages>(s, flow, tool);
 }
 
@@ -284,10 +288,12 @@ bool through_wall(const Ring& ring, const glm::dvec3& hip_mm) noexcept {
 
 /// The tick of a needle or a wire. It cuts once, between the nearest rings, when the HIP goes
 /// through the wall. At least one ring stays.
-template <class State>
+template <bool probes, class State>
 StepReport cut_tick(State& s, const Pose& pose) noexcept {
   StepReport report;
-  const ToolState tool = s.tracker.advance(pose, kFarthestMm);
+  ToolTracker tracker = s.tracker;
+  const ToolState tool = tracker.advance(pose, kFarthestMm);
+  if constexpr (!probes) s.tracker = tracker;
   report.flags = (tool.valid ? 0u : kRefused) | (tool.dt_clamped ? kLongStep : 0u);
   const auto rings = s.stack.rings();
   const double level = tool.hip_mm.y / s.stack.ring_height_mm();
@@ -297,6 +303,7 @@ StepReport cut_tick(State& s, const Pose& pose) noexcept {
   if (now.x * now.x + now.z * now.z >= mm2_from_quanta(ring.outer2)) return report;
   report.flags |= kContact;
   report.rings_touched = 1;
+  if constexpr (probes) return report;
   const auto cut = static_cast<std::size_t>(level + 0.5);
   if (!through_wall(ring, now) || through_wall(ring, before) || cut == 0 || cut >= rings.size())
     return report;
@@ -414,8 +421,8 @@ Result<Wheel> Wheel::assemble(StepPlan plan, ClayStack stack, const Ledger& ledg
   state->tick = kTicks[state->plan.stages];
   state->probe = kProbes[state->plan.stages];
   if (cuts_level(state->plan.mode)) {
-    state->tick = &cut_tick<State>;
-    state->probe = [](State&, const Pose&) noexcept { return StepReport{}; };
+    state->tick = &cut_tick<false, State>;
+    state->probe = &cut_tick<true, State>;
   }
   if (state->plan.mode == ToolMode::trim_foot) state->turned_mm = state->stack.height_mm();
   return Wheel(std::move(state));

@@ -80,23 +80,23 @@ struct XmlReader::Parser {
   static void begin(void* self, const xmlChar* name, const xmlChar*, const xmlChar* space,
                     int namespaces, const xmlChar** namespace_list, int attributes, int,
                     const xmlChar** list) {
-    guarded_call(self, [&](XmlReader& reader) {
-      XmlElement& element = reader.parser_->element;
-      element.space = view(space);
-      element.name = view(name);
-      element.namespaces.clear();
+    guarded_call(self, [&](XmlReader& r) {
+      XmlElement& begun = r.parser_->element;
+      begun.space = view(space);
+      begun.name = view(name);
+      begun.namespaces.clear();
       for (int i = 0; i < namespaces; ++i)
-        element.namespaces.push_back(
+        begun.namespaces.push_back(
             {{}, view(namespace_list[2 * i]), view(namespace_list[2 * i + 1])});
-      element.attributes.clear();
+      begun.attributes.clear();
       for (int i = 0; i < attributes; ++i) {
         const xmlChar** const a = list + 5 * i;
-        element.attributes.push_back(
+        begun.attributes.push_back(
             {view(a[2]),
              view(a[0]),
              {reinterpret_cast<const char*>(a[3]), static_cast<std::size_t>(a[4] - a[3])}});
       }
-      reader.events_.begin(reader, element);
+      r.events_.begin(r, begun);
     });
   }
 

@@ -3,6 +3,21 @@
 #include <cstdio>
 
 namespace clay::falcon::inline device {
+namespace {
+
+ErrorKind kind_of(DeviceFault fault) noexcept {
+  switch (fault) {
+    case DeviceFault::bad_firmware:
+    case DeviceFault::bad_setting:
+      return ErrorKind::bad_input;
+    case DeviceFault::unreadable_firmware:
+      return ErrorKind::io;
+    default:
+      return ErrorKind::device;
+  }
+}
+
+}  // namespace
 
 std::string_view name_of(DeviceFault fault) noexcept {
   switch (fault) {
@@ -18,6 +33,8 @@ std::string_view name_of(DeviceFault fault) noexcept {
       return "no_firmware";
     case DeviceFault::bad_firmware:
       return "bad_firmware";
+    case DeviceFault::unreadable_firmware:
+      return "unreadable_firmware";
     case DeviceFault::echo_error:
       return "echo_error";
     case DeviceFault::no_answer:
@@ -33,10 +50,7 @@ std::string_view name_of(DeviceFault fault) noexcept {
 }
 
 DeviceError::DeviceError(DeviceFault device_fault, std::string found, std::string help)
-    : Error{device_fault == DeviceFault::bad_firmware || device_fault == DeviceFault::bad_setting
-                ? ErrorKind::bad_input
-                : ErrorKind::device,
-            help.empty() ? found : found + "; " + help},
+    : Error{kind_of(device_fault), help.empty() ? found : found + "; " + help},
       fault(device_fault),
       what(std::move(found)),
       remedy(std::move(help)) {}

@@ -32,7 +32,7 @@ struct Firmware {
 [[nodiscard]] DeviceResult<Firmware> parse_firmware(std::vector<std::uint8_t> bytes,
                                                     const std::string& name);
 
-/// The same for a file of at most 128 kB.
+/// The same for a file of at most 128 kB; `unreadable_firmware` if it is larger or cannot be read.
 [[nodiscard]] DeviceResult<Firmware> read_firmware(const std::string& path);
 
 /// Restarts the processor and greets its boot loader, to test whether it has power. `no_answer` if

@@ -127,7 +127,7 @@ DeviceResult<Firmware> parse_firmware(std::vector<std::uint8_t> bytes, const std
 
 DeviceResult<Firmware> read_firmware(const std::string& path) {
   const auto bytes = read_file(path, kMostBytes);
-  if (!bytes) return device_failure(DeviceFault::bad_firmware, bytes.error().message);
+  if (!bytes) return device_failure(DeviceFault::unreadable_firmware, bytes.error().message);
   return parse_firmware({bytes->begin(), bytes->end()}, path);
 }
 

@@ -79,6 +79,12 @@ SimulatedSettings simulated_and_loaded() {
 }
 
 DeviceResult<SimulatedFalcon> make_simulated_falcon(const SimulatedSettings& settings) {
+  if (settings.model.homing_frames < 1)
+    return device_failure(DeviceFault::bad_setting,
+                          "simulated: homing_frames: expected at least 1, found " +
+                              std::to_string(settings.model.homing_frames));
+  if (!settings.path)
+    return device_failure(DeviceFault::bad_setting, "simulated: expected a path, found none");
   const glm::dvec3& centre = settings.falcon.centre_mm;
   auto arm = SimulatedArm::build(settings.arm, settings.hand, centre + settings.path(0.0));
   if (!arm)

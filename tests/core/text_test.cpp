@@ -84,6 +84,9 @@ TEST(FileLines, RefusesALineAboveTheLimit) {
   std::string line(90'000, 'a');
   line += '\n';
   EXPECT_FALSE(read_lines(line, 100'000).failed);
+  // Within one block, too.
+  EXPECT_FALSE(read_lines(line, 90'000).failed);
+  EXPECT_TRUE(read_lines(line, 89'999).failed);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <csignal>
 #include <memory>
+#include <system_error>
 
 namespace clay::falcon::inline device {
 namespace {
@@ -55,9 +56,15 @@ DeviceResult<void> HidNode::open(const std::string& place) {
                           "plug it in again");
   device_ = hid_open_path(path.c_str());
   if (!device_) return tl::make_unexpected(node_error(path));
-  if (path.front() == '/')
-    descriptor_.store(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
-  return {};
+  if (path.front() != '/') return {};
+  // For a signal handler, which may not call hidapi.
+  descriptor_.store(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
+  if (descriptor_.load() >= 0) return {};
+  const int reason = errno;
+  close();
+  return device_failure(DeviceFault::transfer_failed,
+                        path + ": could not open it for ending the force: " +
+                            std::generic_category().message(reason));
 }
 
 void HidNode::close() noexcept {

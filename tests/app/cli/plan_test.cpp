@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 namespace clay::test {
@@ -53,6 +54,32 @@ TEST(Plan, KeepsAllNeededStages) {
   write_text(folder.file("s.scene.json"), scene.dump());
   EXPECT_EQ(stages(claystack("plan --json " + folder.file("s.scene.json")).json(), "left_out"),
             (std::set<std::string>{"force", "friction"}));
+}
+
+TEST(Plan, StatesTheReasonOfTheMode) {
+  const ScratchFolder folder;
+  auto scene = nlohmann::json::parse(kSolidFrictionless);
+  scene["stability"]["max_stress_kpa"] = 10;
+  scene["tool"]["gap_mm"] = 5;
+  scene["clay"] = nlohmann::json::object();
+  const auto reasons = [&](const char* mode) {
+    scene["tool"]["mode"] = mode;
+    write_text(folder.file("s.scene.json"), scene.dump());
+    std::map<std::string, std::string> found;
+    const auto plan = claystack("plan --json " + folder.file("s.scene.json")).json();
+    for (const auto& line : plan.at("left_out"))
+      found[line.at("stage").get<std::string>()] = line.at("why").get<std::string>();
+    return found;
+  };
+  auto foot = reasons("trim_foot");
+  EXPECT_EQ(foot["stability"], "a pot upside down rests on its rim");
+  EXPECT_EQ(foot["pinch"], "this mode has one tool");
+  EXPECT_EQ(foot["shift"], "a trimming tool moves no clay");
+  auto sponge = reasons("smooth");
+  EXPECT_EQ(sponge["pinch"], "this mode has one tool");
+  EXPECT_EQ(sponge["removal"], "a sponge removes no clay");
+  EXPECT_FALSE(sponge.contains("smear"));
+  EXPECT_FALSE(sponge.contains("stability"));
 }
 
 TEST(Plan, ReportsWhetherAnArmCanRenderTheContact) {

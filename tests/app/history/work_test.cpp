@@ -144,6 +144,11 @@ TEST(Work, RefusesStrokesOnACollapsedRoot) {
   auto again = load(folder.file("fallen.work"));
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(**again->work.pot(), fallen);
+  const Pot rounded = rounded_pot(fallen, 0.01).value();
+  ASSERT_TRUE(Work::begin(small_scene(), rounded)->save(folder.file("rounded.work")));
+  again = load(folder.file("rounded.work"));
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(**again->work.pot(), rounded);
   SceneSpec bad = small_scene();
   bad.flow.inside_share = 2.0;
   EXPECT_FALSE(Work::begin(bad, fallen));

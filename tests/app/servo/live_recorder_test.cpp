@@ -111,6 +111,14 @@ TEST(Recorder, KeepsAnUnfinishedRecording) {
   EXPECT_TRUE(Recorder::create(path, "a scene", 0));
 }
 
+TEST(Recorder, LeavesAFileThatItCannotOpen) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("s.session"), aside = path + ".recording";
+  std::filesystem::create_symlink(folder.file("absent") + "/recording", aside);
+  EXPECT_FALSE(Recorder::create(path, "", 0));
+  EXPECT_TRUE(std::filesystem::is_symlink(aside));
+}
+
 TEST(Recorder, ReportsOverflowAndLeavesNoGap) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session");

@@ -42,6 +42,19 @@ TEST(Needle, LevelsTheRimAtItsHeight) {
   EXPECT_EQ(wheel.stack().size(), 500u);
 }
 
+TEST(Needle, ProbeReportsContactAndDoesNotCut) {
+  for (const ToolMode mode : {ToolMode::needle, ToolMode::wire}) {
+    Wheel wheel = Wheel::build(scene_with(mode)).value();
+    wheel.step({1000, {60, 100.04, 0}, false});
+    EXPECT_EQ(wheel.probe({2000, {55, 100.04, 0}, false}).flags, 0u);
+    const StepReport report = wheel.probe({2000, {1, 100.04, 0}, false});
+    EXPECT_EQ(report.flags, kContact);
+    EXPECT_EQ(report.rings_touched, 1u);
+    EXPECT_EQ(wheel.stack().size(), 600u);
+    EXPECT_EQ(wheel.step({2000, {1, 100.04, 0}, false}).flags, kContact | kCut);
+  }
+}
+
 TEST(Wire, CutsThePotOffAndLowersIt) {
   SceneSpec scene = scene_with(ToolMode::wire);
   scene.lump.inner_radius_mm = 0.0;

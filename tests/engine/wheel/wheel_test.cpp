@@ -299,6 +299,12 @@ TEST(Wheel, RefusesSettingsOutOfRange) {
   names("force.limit_n", [](SceneSpec& s) { s.force->limit_n = 50.0; });
   names("force.friction", [](SceneSpec& s) { s.force->friction = -0.1; });
   names("lump.density_g_cm3", [](SceneSpec& s) { s.lump.density_g_cm3 = 0.0; });
+  names("lump.rings", [](SceneSpec& s) { s.lump.rings = 0; });
+  names("lump.max_rings", [](SceneSpec& s) {
+    s.lump.max_rings = std::size_t{1} << 40;
+    s.flow.reach_mm = 1e9;
+  });
+  names("lump.ring_height_mm", [](SceneSpec& s) { s.lump.ring_height_mm = -1.0; });
   names("lump: ", [](SceneSpec& s) { s.lump.outer_radius_mm = 1e6; });
   names("tool: ", [](SceneSpec& s) { s.tool.shape = SphereSpec{0.0}; });
   names("stability.max_stress_kpa", [](SceneSpec& s) { s.stability = StabilitySpec{0.01}; });

@@ -3,6 +3,7 @@
 #include "claystack/export/proof.hpp"
 #include "claystack/export/repair.hpp"
 #include "export/formats/file_floats.hpp"
+#include "export/solid/mesh_topology.hpp"
 #include "tests/export/repair/repair_counts.hpp"
 #include "tests/export/solid/shapes.hpp"
 

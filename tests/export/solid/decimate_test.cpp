@@ -147,7 +147,7 @@ double sharpest_cosine(const TriangleMesh& mesh) {
 TEST(Decimate, FoldsNoTriangleOverItsNeighbour) {
   const TriangleMesh fine = bowl_with_lip(120);
   ASSERT_GT(sharpest_cosine(fine), -0.34);
-  for (const std::size_t share : {2, 3, 5, 8}) {
+  for (const std::size_t share : {2u, 3u, 5u, 8u}) {
     const auto coarse = decimate(fine, fine.triangles.size() / share);
     ASSERT_TRUE(coarse) << coarse.error().message;
     EXPECT_GE(sharpest_cosine(coarse->mesh), -0.34) << share;

@@ -106,7 +106,8 @@ TEST(Firmware, ErrorsNameTheFile) {
   for (const char* path : {"/nonexistent/firmware.bin", "/"}) {
     const auto read = read_firmware(path);
     ASSERT_FALSE(read);
-    EXPECT_EQ(read.error().fault, DeviceFault::bad_firmware);
+    EXPECT_EQ(read.error().fault, DeviceFault::unreadable_firmware);
+    EXPECT_EQ(read.error().kind, ErrorKind::io);
     EXPECT_TRUE(read.error().what.starts_with(path));
   }
   EXPECT_FALSE(read_firmware("/dev/zero"));  // endless

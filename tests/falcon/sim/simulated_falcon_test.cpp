@@ -25,6 +25,20 @@ DeviceSample homed(HapticDevice& device) {
   return sample;
 }
 
+TEST(SimulatedFalcon, RefusesNoHomingFramesAndNoPath) {
+  SimulatedSettings settings = in_virtual_time();
+  settings.model.homing_frames = 0;
+  auto refused = make_simulated_falcon(settings);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().fault, DeviceFault::bad_setting);
+  EXPECT_NE(refused.error().what.find("homing_frames"), std::string::npos);
+  settings = in_virtual_time();
+  settings.path = {};
+  refused = make_simulated_falcon(settings);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().fault, DeviceFault::bad_setting);
+}
+
 TEST(SimulatedFalcon, IsHomedAndFollowsTheHand) {
   auto simulated = make_simulated_falcon(in_virtual_time());
   ASSERT_TRUE(simulated);

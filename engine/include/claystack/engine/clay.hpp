@@ -29,6 +29,7 @@ inline constexpr double kMm2PerQuantum = 1.0 / kQuantaPerMm2;
 
 inline constexpr double kMinRadiusMm = 1e-3;
 inline constexpr double kMaxRadiusMm = 5000.0;
+inline constexpr double kMinRingHeightMm = 1e-3, kMaxRingHeightMm = 1e3;
 inline constexpr std::size_t kMaxRings = std::size_t{1} << 24;
 
 /// The squared radius nearest to `mm2` [mm^2], halves up. Needs 0 <= mm2 < 1.3e8.
@@ -124,7 +125,7 @@ class ClayStack {
 /// Normalised quanta (V / (pi h) in units of 2^-36 mm^2).
 struct Ledger {
   WideQuanta initial = 0;  ///< in the stack when the scene began
-  WideQuanta added = 0;    ///< put on since
+  WideQuanta added = 0;    ///< put on since; 0 at present: no tool adds clay
   WideQuanta trimmed = 0;  ///< cut off by a trimming tool (the paper's chiselling)
   WideQuanta outside = 0;  ///< model `paper` only: excess not yet enough for a ring (section 5.1)
 
@@ -132,7 +133,7 @@ struct Ledger {
   [[nodiscard]] WideQuanta imbalance(WideQuanta in_stack) const noexcept {
     return in_stack + trimmed + outside - initial - added;
   }
-  /// What the body itself lacks or has too much: the paper's volume error.
+  /// The clay that the body has too much (negative: lacks): the paper's volume error.
   [[nodiscard]] WideQuanta volume_error(WideQuanta in_stack) const noexcept {
     return in_stack + trimmed - initial - added;
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -71,9 +72,10 @@ enum class ToolMode {
 
 struct ToolSpec {
   ToolShapeSpec shape = SphereSpec{};
-  ToolMode mode = ToolMode::press;  ///< a pose's trim button switches the other modes to trim
-  /// If set, poses may pinch in any mode: the gap of the pose decides. Mode `pinch` requires it,
-  /// and uses it for poses without a gap.
+  /// The trim button of a pose switches `press` and `pinch` to `trim`; the others ignore it.
+  ToolMode mode = ToolMode::press;
+  /// If set, poses may pinch in the modes `press`, `trim` and `pinch`: the gap of the pose decides.
+  /// Mode `pinch` requires it, and uses it for poses without a gap.
   std::optional<double> gap_mm = std::nullopt;
   friend bool operator==(const ToolSpec&, const ToolSpec&) = default;
 };
@@ -158,6 +160,11 @@ struct ThrowSettings {
 };
 [[nodiscard]] inline ThrowSettings settings_of(const SceneSpec& scene) {
   return {scene.tool, scene.removal, scene.flow, scene.force, scene.stability, scene.clay};
+}
+inline void apply(const ThrowSettings& settings, SceneSpec& scene) {
+  std::tie(scene.tool, scene.removal, scene.flow, scene.force, scene.stability, scene.clay) =
+      std::tie(settings.tool, settings.removal, settings.flow, settings.force, settings.stability,
+               settings.clay);
 }
 
 }  // namespace clay

@@ -16,8 +16,8 @@ namespace clay {
 /// Status flags of a tick; each names its remedy.
 enum StepFlag : std::uint32_t {
   kContact = 1u << 0,
-  kRefused = 1u << 1,    ///< pose not finite or beyond 1e6 mm, time not advancing, or a gap in a
-                         ///< scene without tool.gap_mm: the tick did nothing
+  kRefused = 1u << 1,    ///< pose not finite or beyond 1e6 mm, time not advancing, or a gap that
+                         ///< tool.gap_mm or tool.mode does not allow: the tick did nothing
   kLongStep = 1u << 2,   ///< more than 50 ms since the last pose: treated as 50 ms
   kGrew = 1u << 3,       ///< rings were added on top
   kRingLimit = 1u << 4,  ///< clay waits above the top ring: raise lump.max_rings
@@ -51,11 +51,13 @@ class Wheel {
   ~Wheel();
 
   /// One tick: pose -> tool state -> contact -> removal -> redistribution -> stability -> force.
-  /// No allocation, no lock, no work that grows with the number of rings.
+  /// No allocation and no lock; no work that grows with the number of rings, except in the one tick
+  /// in which a needle or a wire cuts.
   StepReport step(const Pose& pose) noexcept;
 
-  /// The report that step() would return at this pose, without changing the clay or the state. For
-  /// a force rate above the rate of the clay.
+  /// Contact and force at this pose on the clay as it is; changes neither clay nor state. Does not
+  /// report growth, a cut or a collapse, and does not divide a long motion into parts as step()
+  /// does. For a force rate above the rate of the clay.
   [[nodiscard]] StepReport probe(const Pose& pose) noexcept;
 
   [[nodiscard]] const StepPlan& plan() const noexcept;

@@ -18,21 +18,23 @@ namespace clay::falcon::inline device {
 // Errors of a device, worded so that a person can act on them.
 
 enum class DeviceFault {
-  not_found,      ///< no such device is connected
-  no_permission,  ///< the system denies this user access
-  driver_bound,   ///< a kernel driver holds it
-  busy,           ///< another program holds it
-  no_firmware,    ///< a Falcon after power-up, and no firmware file to load
-  bad_firmware,   ///< the file is not a boot stream
-  echo_error,     ///< the firmware echo differs from the bytes sent
-  no_answer,      ///< open, but silent: usually the power supply is off
+  not_found,            ///< no such device is connected
+  no_permission,        ///< the system denies this user access
+  driver_bound,         ///< a kernel driver holds it
+  busy,                 ///< another program holds it
+  no_firmware,          ///< a Falcon after power-up, and no firmware file to load
+  bad_firmware,         ///< the file is not a boot stream
+  unreadable_firmware,  ///< the file could not be read
+  echo_error,           ///< the firmware echo differs from the bytes sent
+  no_answer,            ///< open, but silent: usually the power supply is off
   unplugged,
   transfer_failed,  ///< any other error reported by the system
   bad_setting,
 };
 
-/// An Error of core with its fault. A fault of the user's files or settings is bad input, any other
-/// is the device's. The message has the fault and its remedy.
+/// An Error of core with its fault. A fault of the user's files or settings is bad input, a file
+/// that cannot be read is io, and any other is the device's. The message has the fault and its
+/// remedy.
 struct DeviceError : Error {
   DeviceError() : DeviceError(DeviceFault::transfer_failed, {}) {}
   DeviceError(DeviceFault device_fault, std::string found, std::string help = {});
@@ -146,7 +148,7 @@ inline constexpr std::size_t kMostWritten = 62;
 
 enum class DeviceState : std::uint8_t {
   closed,
-  needs_firmware,  ///< open, but silent: its processor has no program yet
+  needs_firmware,  ///< not open: its processor has no program yet, and `open` loads it
   needs_homing,  ///< answers, but positions are relative until the user moves the grip through its
                  ///< range
   ready,

@@ -182,7 +182,8 @@ class Kinematics {
 
   explicit Kinematics(const Geometry& geometry) noexcept;
 
-  /// Thigh angle t1 [rad] of one leg, 0 to 2, in closed form; empty if out of reach.
+  /// Thigh angle t1 [rad] of a leg (0 top, 1 right, 2 left), in closed form; empty if it is out of
+  /// reach.
   [[nodiscard]] std::optional<double> thigh_angle(int leg,
                                                   const glm::dvec3& position_mm) const noexcept;
 
@@ -260,7 +261,8 @@ struct FalconModelSettings {
   bool power = true;    ///< false: USB enumerates, but the device does not answer
   bool loaded = false;  ///< firmware is present from an earlier start
   bool homed = false;
-  int homing_frames = 20;  ///< frames with the homing bit per leg, one leg after the other
+  /// Frames with the homing bit per leg, one leg after the other; at least 1.
+  int homing_frames = 20;
   std::int16_t unhomed_offset = -300;  ///< of the encoders until then
   std::uint8_t buttons = 0;
   std::vector<PlannedFault> faults;

@@ -125,8 +125,8 @@ struct LiveStatus {
   glm::dvec3 clay_n{0.0};     ///< force of the clay on the tool, before mapping and guard
   glm::dvec3 force_n{0.0};    ///< force sent, in the device's frame
   double force_gain = 0.0;    ///< fraction of the force that the guard's ramp allows
-  double volume_error = 0.0;  ///< clay unaccounted for [quanta]; exact below 2^53
-  double imbalance = 0.0;     ///< the same including clay outside the stack: Ledger::imbalance
+  double volume_error = 0.0;  ///< Ledger::volume_error [quanta]; exact below 2^53
+  double imbalance = 0.0;     ///< Ledger::imbalance, clay unaccounted for [quanta]
   double stack_mm3 = 0.0, trimmed_mm3 = 0.0, outside_mm3 = 0.0;  ///< as in Ledger
   double height_mm = 0.0;                                        ///< of the clay
   std::uint64_t ticks = 0, poses = 0, missed = 0;
@@ -158,7 +158,8 @@ struct Realtime {
 
 // ---- clock ---------------------------------------------------------------------------
 
-/// The servo's only source of time, so that a program can run it on a clock of its own.
+/// The servo's only source of time, so that a program can run it on another clock. Two threads call
+/// it at once, the servo and its watchdog, except with Pace::stepped.
 class Clock {
  public:
   Clock() = default;
@@ -233,13 +234,13 @@ class LiveThrow {
   /// Starts the servo; one at a time in a process, because signal handlers end the force of one.
   /// After join() returned device_lost and the device was opened again, continues, with the force
   /// ramped up from zero. Errors: another servo runs (`bad_input`), or the system starts no thread
-  /// (`io`); nothing runs then.
+  /// (`io`); nothing runs then. A servo of this object that still runs is stopped first.
   Result<void> start(Pace pace = Pace::real_time);
 
   /// Pace::stepped: ticks until the clock reaches `until_ns`, or to the end. Otherwise nothing.
   void advance(std::int64_t until_ns) noexcept;
 
-  /// For one other thread. False: the queue is full.
+  /// For one other thread. False: the queue is full, or start() was not called yet.
   bool command(const Command& command) noexcept;
 
   /// The newest complete values, without a lock. For one thread; valid until the next call.
