@@ -1,21 +1,72 @@
 #include "export/repair/shell_turning.hpp"
 
+#include "core/cancel.hpp"
 #include "export/repair/surface_making.hpp"
 #include "export/repair/winding_ray.hpp"
 #include "export/solid/shell_volumes.hpp"
 
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace clay::solid::inline repair {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
 
+/// Of the area of a negative shell: a cavity, such as a pocket or a drain hole, has more than this
+/// share in the clay of positive shells. A body that was turned inward and touches others has less.
+constexpr double kCavityShare = 0.25;
+
+/// Points at which a negative shell is examined.
+constexpr std::size_t kPoints = 32;
+
+/// Points on a shell, spread evenly over its area, each with its triangle.
+class SurfacePoints {
+ public:
+  SurfacePoints(const TriangleMesh& mesh, std::vector<std::uint32_t> triangles)
+      : mesh_(mesh), triangles_(std::move(triangles)) {
+    double area = 0.0;
+    for (const std::uint32_t t : triangles_) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      area +=
+          glm::length(glm::cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]));
+      area_to_.push_back(area);
+    }
+  }
+
+  [[nodiscard]] std::uint32_t triangle(std::size_t i) const {
+    const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(kPoints);
+    const auto at =
+        std::upper_bound(area_to_.begin(), std::prev(area_to_.end()), share * area_to_.back());
+    return triangles_[static_cast<std::size_t>(at - area_to_.begin())];
+  }
+
+  /// By a sequence of low discrepancy, also if all points lie on one triangle.
+  [[nodiscard]] ExactPoint point(std::size_t i) const {
+    constexpr double kFirst = 0.7548776662466927, kSecond = 0.5698402909980532;
+    double intact = 0.0;
+    double u = std::modf(0.5 + kFirst * static_cast<double>(i), &intact);
+    double v = std::modf(0.5 + kSecond * static_cast<double>(i), &intact);
+    if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+    const auto& [a, b, c] = mesh_.triangles[triangle(i)];
+    const ExactPoint from = exact_point(mesh_.points[a]);
+    return from + u * (exact_point(mesh_.points[b]) - from) +
+           v * (exact_point(mesh_.points[c]) - from);
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  std::vector<std::uint32_t> triangles_;
+  std::vector<double> area_to_;
+};
+
 /// Shells that may intersect others or themselves: their volumes show their orientation. A negative
-/// shell inside clay is a cavity, and any other one is turned. A positive shell stays, also inside
+/// shell in clay is a cavity, and any other one is turned. A positive shell stays, also inside
 /// another one: slicers fill it.
 class OrientedShells {
  public:
@@ -31,9 +82,13 @@ class OrientedShells {
     if (all) reverse_all();
     if (shells_.count == 1) return turn;
     const WindingRay ray(mesh_);
-    const std::vector<std::uint32_t> tops = top_triangles();
+    std::vector<std::vector<std::uint32_t>> negative(shells_.count);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (volumes_mm3_[shells_.of_face[t]] < 0.0) negative[shells_.of_face[t]].push_back(t);
     for (std::size_t shell = 0; shell < shells_.count; ++shell)
-      if (volumes_mm3_[shell] < 0.0 && winding_behind(ray, tops[shell]) <= 0) turn[shell] = !all;
+      if (!negative[shell].empty() &&
+          !is_cavity(ray, shell, SurfacePoints(mesh_, std::move(negative[shell]))))
+        turn[shell] = !all;
     return turn;
   }
 
@@ -43,30 +98,41 @@ class OrientedShells {
     for (double& volume : volumes_mm3_) volume = -volume;
   }
 
-  /// For each shell, the triangle at its highest vertex that is seen best from above.
-  std::vector<std::uint32_t> top_triangles() const {
-    std::vector<std::uint32_t> tops(shells_.count, 0);
-    std::vector<std::pair<double, double>> best(shells_.count, {-INFINITY, -INFINITY});
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto& [i, j, k] = mesh_.triangles[t];
-      const glm::dvec3 &a = mesh_.points[i], &b = mesh_.points[j], &c = mesh_.points[k];
-      const glm::dvec3 normal = glm::cross(b - a, c - a);
-      const double length = glm::length(normal);
-      if (!(length > 0.0)) continue;
-      const std::pair rank(std::max({a.z, b.z, c.z}), std::abs(normal.z) / length);
-      if (rank <= best[shells_.of_face[t]]) continue;
-      best[shells_.of_face[t]] = rank;
-      tops[shells_.of_face[t]] = t;
+  /// Whether a negative shell removes clay. Inside a cavity it is an island.
+  bool is_cavity(const WindingRay& ray, std::size_t shell, const SurfacePoints& points) const {
+    constexpr auto kFewest = static_cast<std::size_t>(kCavityShare * kPoints);
+    std::size_t in_clay = 0;
+    bool removes = false;
+    for (std::size_t i = 0; i < kPoints && (in_clay <= kFewest || !removes); ++i) {
+      if (in_clay + kPoints - i <= kFewest) return false;
+      stop_if_cancelled();
+      const auto [positive, others] = within(ray, shell, points.triangle(i), points.point(i));
+      if (positive > 0) ++in_clay;
+      if (others > 0) removes = true;
     }
-    return tops;
+    return in_clay > kFewest && removes;
   }
 
-  /// The winding number behind a triangle of a reversed shell, outside of which it lies.
-  int winding_behind(const WindingRay& ray, std::uint32_t t) const {
+  struct Windings {
+    int positive = 0;  ///< of the positive shells
+    int others = 0;    ///< of all other shells
+  };
+  /// The winding numbers just inside a negative shell, before the front of its triangle. Outside,
+  /// a pocket that is flush with a face has no clay at that face.
+  Windings within(const WindingRay& ray, std::size_t shell, std::uint32_t t,
+                  const ExactPoint& from) const {
     const auto& [a, b, c] = mesh_.triangles[t];
-    const auto count = ray.from_middle_of(
-        {exact_point(mesh_.points[a]), exact_point(mesh_.points[b]), exact_point(mesh_.points[c])});
-    return count.front ? count.winding + 1 : count.winding;
+    const ExactKernel::Vector_3 normal = CGAL::normal(
+        exact_point(mesh_.points[a]), exact_point(mesh_.points[b]), exact_point(mesh_.points[c]));
+    const int axis = longest_axis_of(normal);
+    Windings windings;
+    for (const Crossing& crossed :
+         ray.crossings(from, axis, CGAL::sign(normal[axis]) == CGAL::POSITIVE)) {
+      const std::size_t other = shells_.of_face[crossed.triangle];
+      if (other != shell) windings.others += crossed.winding;
+      if (volumes_mm3_[other] > 0.0) windings.positive += crossed.winding;
+    }
+    return windings;
   }
 
   TriangleMesh mesh_;

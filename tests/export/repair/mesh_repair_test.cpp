@@ -262,6 +262,58 @@ TEST(Repair, KeepsAnIslandInACavity) {
                   {{"shell turned", 1}});
 }
 
+/// A box from corner to corner, outward.
+TriangleMesh box(const glm::dvec3& low, const glm::dvec3& high) {
+  TriangleMesh mesh = cube(1.0);
+  for (glm::dvec3& p : mesh.points) p = low + p * (high - low);
+  return mesh;
+}
+
+/// In the six poses that put each axis up or down: even permutations of the axes, and half turns.
+void expect_volume_in_all_poses(const TriangleMesh& mesh, double volume_mm3) {
+  for (int shift = 0; shift < 3; ++shift)
+    for (const double sign : {1.0, -1.0}) {
+      TriangleMesh posed = mesh;
+      for (glm::dvec3& p : posed.points)
+        p = glm::dvec3(p[shift], sign * p[(shift + 1) % 3], sign * p[(shift + 2) % 3]);
+      const auto result = repair_mesh(posed);
+      ASSERT_TRUE(result) << result.error().message;
+      EXPECT_TRUE(check_mesh(result->mesh).sound()) << shift << sign;
+      EXPECT_EQ(times(*result, "shell turned"), 0U) << shift << sign;
+      EXPECT_NEAR(signed_volume(result->mesh), volume_mm3, rounding_mm3(result->mesh, 64.5))
+          << shift << sign;
+    }
+}
+
+TEST(Repair, KeepsPocketsInAllPoses) {
+  const TriangleMesh block = box({0, 0, 0}, {20, 20, 20});
+  const auto less = [](TriangleMesh from, const TriangleMesh& cut) {
+    return together(std::move(from), inverted(cut));
+  };
+  expect_volume_in_all_poses(less(block, box({5, 5, 10}, {15, 15, 20})), 7'000.0);
+  // Half of it in the block, so 5 mm deep.
+  expect_volume_in_all_poses(less(block, box({5, 5, 15}, {15, 15, 25})), 7'500.0);
+  // Two cavities with 10 x 10 x 10 mm in common.
+  const TriangleMesh large = box({0, 0, 0}, {40, 40, 40});
+  expect_volume_in_all_poses(
+      less(less(large, box({5, 5, 5}, {20, 20, 20})), box({10, 10, 10}, {30, 30, 30})),
+      64'000.0 - (3'375.0 + 8'000.0 - 1'000.0));
+  // A drain hole of 10 x 10 mm through a wall of 3 mm.
+  expect_volume_in_all_poses(
+      less(less(large, box({3, 3, 3}, {37, 37, 37})), box({15, 15, -1}, {25, 25, 10})),
+      64'000.0 - 34.0 * 34.0 * 34.0 - 300.0);
+}
+
+TEST(Repair, TurnsABodyThatOverlapsInOneCorner) {
+  // An eighth of its surface lies in the other one.
+  const TriangleMesh mesh =
+      together(box({0, 0, 0}, {20, 20, 20}), inverted(box({10, 10, 10}, {30, 30, 30})));
+  const auto result = repair_mesh(mesh);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(times(*result, "shell turned"), 1U);
+  EXPECT_NEAR(signed_volume(result->mesh), 15'000.0, rounding_mm3(result->mesh));
+}
+
 TEST(Repair, KeepsOneOfDuplicates) {
   TriangleMesh mesh = cube(2.0);
   mesh.triangles.push_back(mesh.triangles[4]);

@@ -76,7 +76,8 @@ struct RepairedMesh {
 /// - triangles are oriented like their neighbours, and sheets that touch are cut apart;
 /// - holes of up to kMaxHoleEdges edges are filled; wide openings are refused: a cup given as a
 ///   surface has no clay;
-/// - negative shells that lie in no clay are turned; those inside clay are its cavities;
+/// - a negative shell is a cavity if more than a quarter of its surface lies in positive shells, as
+///   sampled, and not all of it in another cavity; any other one is turned;
 /// - intersections are resolved: triangles are cut where they meet, and the boundary of all points
 ///   with a winding number of at least 1 is kept. Overlapping bodies are united. Parts that touch
 ///   in an edge or a point are pulled apart.
