@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -49,21 +50,11 @@ Result<void> check_usage(const CheckCommand& command, const Console& console) {
                        {command.file, command.certificate, command.walls.process()}, console);
 }
 
-/// With a map, as every .pot.cbor; no text begins so.
-bool begins_as_cbor(std::string_view bytes) {
-  return static_cast<unsigned char>(bytes.front()) >> 5 == 5;
-}
-
-/// Standard input has no name: the ending that its first bytes suggest.
-std::string_view ending_of(std::string_view bytes) {
-  constexpr std::pair<std::string_view, std::string_view> kBegins[] = {
-      {"{", ".json"},    {"PK", ".3mf"},  {"glTF", ".glb"}, {"DRACO", ".drc"},
-      {"solid", ".stl"}, {"ply", ".ply"}, {"OFF", ".off"}};
-  for (const auto& [begin, ending] : kBegins)
-    if (bytes.starts_with(begin)) return ending;
-  if (begins_as_cbor(bytes)) return ".cbor";
-  // A binary STL begins with any 80 bytes; most of them contain a 0.
-  return bytes.substr(0, 84).find('\0') != std::string_view::npos ? ".stl" : ".obj";
+/// A map in CBOR, with which no text begins, or an object in JSON.
+bool begins_as_pot(std::string_view bytes) {
+  const std::size_t begin = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
+  return static_cast<unsigned char>(bytes.front()) >> 5 == 5 ||
+         bytes.substr(begin).starts_with('{');
 }
 
 Result<Verdict> check_stream(const CheckCommand& command, const Console& console) {
@@ -71,11 +62,9 @@ Result<Verdict> check_stream(const CheckCommand& command, const Console& console
   if (!bytes) return tl::make_unexpected(bytes.error());
   if (bytes->empty())
     return failure(ErrorKind::bad_input, "-: expected a mesh or a pot, found no input");
-  const std::string_view ending = ending_of(*bytes);
-  if (ending == ".json" || ending == ".cbor") return check_pot(*bytes, command, console);
-  const auto format = solid::mesh_format_of(std::string("stream").append(ending));
-  if (!format) return tl::make_unexpected(format.error());
-  return check_mesh_file(*format, command, console, std::move(*bytes));
+  if (begins_as_pot(*bytes)) return check_pot(*bytes, command, console);
+  const solid::MeshFormat format = solid::mesh_format_of_bytes(*bytes);
+  return check_mesh_file(format, command, console, std::move(*bytes));
 }
 
 Result<Verdict> check_file(const CheckCommand& command, const Console& console) {

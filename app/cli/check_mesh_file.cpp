@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <utility>
 
 namespace clay::cli {
@@ -76,44 +77,69 @@ struct WrittenMesh {
   solid::MeshReport report;
 };
 
-Result<WrittenMesh> read_back(std::string bytes, MeshFormat format, const std::string& name) {
+/// Without its bytes.
+Result<WrittenMesh> read_back(const std::string& bytes, MeshFormat format,
+                              const std::string& name) {
   return solid::decode_mesh(bytes, format, name).and_then([&](TriangleMesh mesh) {
     return checked(mesh).map([&](solid::MeshReport report) {
-      return WrittenMesh{std::move(bytes), std::move(mesh), std::move(report)};
+      return WrittenMesh{{}, std::move(mesh), std::move(report)};
     });
   });
 }
 
-/// In a format with a grid, on finer ones until the file is no worse than the mesh: two corners
-/// that meet on a coarse one may turn a face over. Errors: `unsound` if none is fine enough.
-Result<WrittenMesh> encoded(const TriangleMesh& mesh, MeshFormat format, const std::string& name) {
-  constexpr int kBitsStep = 2, kMostBits = 30;
-  const bool on_grid = format == MeshFormat::drc || format == MeshFormat::glb;
-  solid::FileContents contents{.name = "repaired"};
-  std::optional<MeshState> wanted;
-  std::string last;
-  while (true) {
-    auto bytes = solid::encode_mesh(mesh, format, contents);
-    if (!bytes) return tl::make_unexpected(bytes.error());
-    if (*bytes != last) {
-      last = *bytes;
-      auto written = read_back(std::move(*bytes), format, name);
-      if (!written) return written;
-      const MeshState state = state_of(written->mesh, written->report);
-      if (state != MeshState::sound && !wanted) {
-        const auto before = checked(mesh);
-        if (!before) return tl::make_unexpected(before.error());
-        wanted = state_of(mesh, *before);
-      }
-      if (state == MeshState::sound || state <= *wanted) return written;
+/// Compares files with their mesh, and keeps the last one that is no worse.
+class FileJudge {
+ public:
+  FileJudge(const TriangleMesh& mesh, MeshFormat format, const std::string& name)
+      : mesh_(mesh), format_(format), name_(name) {}
+
+  Result<void> operator()(const std::string& bytes) {
+    auto found = read_back(bytes, format_, name_);
+    if (!found) return tl::make_unexpected(found.error());
+    const MeshState state = state_of(found->mesh, found->report);
+    if (state != MeshState::sound && !wanted_) {
+      const auto before = checked(mesh_);
+      if (!before) return tl::make_unexpected(before.error());
+      wanted_ = state_of(mesh_, *before);
     }
-    contents.draco.min_bits += kBitsStep;
-    if (!on_grid || contents.draco.min_bits > kMostBits)
+    if (state != MeshState::sound && state > *wanted_)
       return failure(ErrorKind::unsound,
                      "expected a file as sound as the mesh, found faults after rounding to the "
                      "numbers of " +
-                         std::string(name_of(format)));
+                         std::string(name_of(format_)));
+    accepted_ = std::move(*found);
+    return {};
   }
+
+  WrittenMesh take(std::string bytes) {
+    accepted_.bytes = std::move(bytes);
+    return std::move(accepted_);
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  MeshFormat format_;
+  const std::string& name_;
+  std::optional<MeshState> wanted_;  ///< of the mesh, if a file is not sound
+  WrittenMesh accepted_;
+};
+
+/// In a format with a grid, on finer ones until the file is no worse than the mesh. Errors:
+/// `unsound` if none is fine enough.
+Result<WrittenMesh> encoded(const TriangleMesh& mesh, MeshFormat format, const std::string& name) {
+  const bool on_grid = format == MeshFormat::drc || format == MeshFormat::glb;
+  solid::FileContents contents{.name = "repaired"};
+  FileJudge judge(mesh, format, name);
+  const auto encode = [&](int bits) {
+    contents.draco.min_bits = bits;
+    return solid::encode_mesh(mesh, format, contents);
+  };
+  const int first_bits = contents.draco.min_bits;
+  auto bytes = on_grid ? solid::encode_on_finer_grids(first_bits, encode, std::ref(judge))
+                       : encode(first_bits).and_then([&](std::string once) {
+                           return judge(once).map([&] { return std::move(once); });
+                         });
+  return std::move(bytes).map([&](std::string written) { return judge.take(std::move(written)); });
 }
 
 /// The verdict is on the contents of the output file, so they are decoded and checked before the

@@ -2,6 +2,7 @@
 #include "core/cancel.hpp"
 #include "core/text.hpp"
 #include "export/formats/byte_stream.hpp"
+#include "export/formats/format_marks.hpp"
 #include "export/formats/mesh_limits.hpp"
 #include "export/formats/point_merging.hpp"
 #include "export/formats/polygon_faces.hpp"
@@ -57,19 +58,15 @@ class OffReader {
     return found.substr(0, end);
   }
 
-  /// [ST][C][N]OFF. A 4 or an n before it adds dimensions. Returns false if the file begins with
-  /// its counts: the keyword is optional.
+  /// Returns false if the file begins with its counts: the keyword is optional.
   bool read_keyword(std::string_view found) {
-    if (!found.empty() && found.find_first_not_of("0123456789") == found.npos) {
+    if (is_off_count(found)) {
       if (notes_ != nullptr)
         notes_->push_back("line " + std::to_string(scanner_.line()) +
                           ": the file begins without the keyword OFF");
       return false;
     }
-    std::string_view rest = found;
-    for (const std::string_view part : {"ST", "C", "N"})
-      if (rest.starts_with(part)) rest.remove_prefix(part.size());
-    if (rest != "OFF") scanner_.fail_expected("OFF, COFF, NOFF or STOFF", found);
+    if (!is_off_keyword(found)) scanner_.fail_expected("OFF, COFF, NOFF or STOFF", found);
     return true;
   }
 

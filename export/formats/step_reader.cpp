@@ -35,15 +35,15 @@ struct Level {
   }
 };
 
-struct Point {
+struct StepPoint {
   double x = 0.0, y = 0.0, z = 0.0;
   [[nodiscard]] Level level() const { return {std::hypot(x, y), z}; }
-  [[nodiscard]] bool is(const Point& p) const {
+  [[nodiscard]] bool is(const StepPoint& p) const {
     return same(x, p.x) && same(y, p.y) && same(z, p.z);
   }
 };
 
-struct Edge {
+struct StepEdge {
   std::array<std::string, 2> vertices;
   bool circle = false;
   std::vector<Level> levels;  ///< the circle; the ends of a line; the control points of a curve
@@ -100,31 +100,31 @@ class StepJudge {
     return value.word == ".T.";
   }
 
-  Point triple(const std::string& ref, std::string_view keyword) const {
+  StepPoint triple(const std::string& ref, std::string_view keyword) const {
     const auto& c = entity(ref, keyword, 2).items[1].items;
     if (c.size() != 3) throw BadStep{ref + ": expected three coordinates"};
     return {number(c[0]), number(c[1]), number(c[2])};
   }
-  Point point(const std::string& ref) const { return triple(ref, "CARTESIAN_POINT"); }
-  Point vertex(const std::string& ref) const {
+  StepPoint point(const std::string& ref) const { return triple(ref, "CARTESIAN_POINT"); }
+  StepPoint vertex(const std::string& ref) const {
     return point(entity(ref, "VERTEX_POINT", 2).items[1].word);
   }
 
   /// Height and direction of a frame on the axis.
   std::pair<double, double> frame(const std::string& ref) const {
     const StepValue& placed = entity(ref, "AXIS2_PLACEMENT_3D", 4);
-    const Point origin = point(placed.items[1].word);
-    const Point up = triple(placed.items[2].word, "DIRECTION");
+    const StepPoint origin = point(placed.items[1].word);
+    const StepPoint up = triple(placed.items[2].word, "DIRECTION");
     if (!same(origin.x, 0.0) || !same(origin.y, 0.0) || !same(std::abs(up.z), 1.0))
       throw BadStep{ref + ": expected a frame on the axis"};
     return {origin.z, up.z};
   }
 
-  Edge edge(const std::string& ref) const {
+  StepEdge edge(const std::string& ref) const {
     const StepValue& found = entity(ref, "EDGE_CURVE", 5);
-    Edge edge{{found.items[1].word, found.items[2].word}, false, {}};
+    StepEdge edge{{found.items[1].word, found.items[2].word}, false, {}};
     const std::string& curve = found.items[3].word;
-    const std::array<Point, 2> ends{vertex(edge.vertices[0]), vertex(edge.vertices[1])};
+    const std::array<StepPoint, 2> ends{vertex(edge.vertices[0]), vertex(edge.vertices[1])};
     const StepValue& shape = entity(curve);
     if (!flag(found.items[4])) throw BadStep{ref + ": expected the sense of its curve"};
     if (shape.word == "CIRCLE") {
@@ -139,20 +139,21 @@ class StepJudge {
       check_line(ref, shape, ends);
     } else {
       const StepValue& spline = entity(curve, "B_SPLINE_CURVE_WITH_KNOTS", 9);
-      for (const StepValue& p : spline.items[2].items) edge.levels.push_back(point(p.word).level());
-      if (!point(spline.items[2].items.front().word).is(ends[0]) ||
-          !point(spline.items[2].items.back().word).is(ends[1]))
+      const auto& control = spline.items[2].items;
+      if (control.empty()) throw BadStep{ref + ": expected control points of its curve"};
+      for (const StepValue& p : control) edge.levels.push_back(point(p.word).level());
+      if (!point(control.front().word).is(ends[0]) || !point(control.back().word).is(ends[1]))
         throw BadStep{ref + ": expected a curve from one vertex to the other"};
     }
     return edge;
   }
 
   void check_line(const std::string& ref, const StepValue& line,
-                  const std::array<Point, 2>& ends) const {
-    const Point from = point(line.items.at(1).word);
+                  const std::array<StepPoint, 2>& ends) const {
+    const StepPoint from = point(line.items.at(1).word);
     const StepValue& vector = entity(line.items.at(2).word, "VECTOR", 3);
-    const Point way = triple(vector.items[1].word, "DIRECTION");
-    for (const Point& end : ends) {
+    const StepPoint way = triple(vector.items[1].word, "DIRECTION");
+    for (const StepPoint& end : ends) {
       const double along = (end.x - from.x) * way.x + (end.z - from.z) * way.z;
       if (!end.is({from.x + along * way.x, from.y + along * way.y, from.z + along * way.z}))
         throw BadStep{ref + ": expected both vertices on its line"};
@@ -196,7 +197,7 @@ class StepJudge {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const auto& row = rows[i].items;
       if (row.size() != 4) throw BadStep{ref + ": expected four points in each row"};
-      const Point last = point(row[3].word);
+      const StepPoint last = point(row[3].word);
       surface.curve->control.push_back({std::abs(last.x), last.z});
       for (std::size_t k = 0; k < row.size(); ++k)
         if (number(weights[i].items.at(k)) != kWeight[k] ||
@@ -241,7 +242,7 @@ class StepJudge {
 
   /// An edge of a face, and whether the face uses it in its own direction.
   struct Use {
-    Edge edge;
+    StepEdge edge;
     bool forward = true;
   };
 
@@ -271,12 +272,14 @@ class StepJudge {
     for (const StepValue& bound : face.items[1].items) {
       const StepValue& found = entity(bound.word);
       if (!flag(found.items.at(2))) throw BadStep{bound.word + ": expected the sense of its loop"};
+      const std::size_t before = circles.size();
       for (Use& use : loop(found.items.at(1).word, uses)) {
         check_on_surface(ref, on, use.edge);
         if (use.edge.circle) circles.push_back(std::move(use));
       }
-      if (on.plane)
-        check_turn(ref, circles.back(), found.word == "FACE_OUTER_BOUND", sense * on.up);
+      if (!on.plane) continue;
+      if (circles.size() == before) throw BadStep{bound.word + ": expected circles in its loop"};
+      check_turn(ref, circles.back(), found.word == "FACE_OUTER_BOUND", sense * on.up);
     }
     if (on.plane) return;
     if (circles.size() != 2) throw BadStep{ref + ": expected two circles"};
@@ -299,7 +302,8 @@ class StepJudge {
     return {p.rho, p.y};
   }
 
-  static void check_on_surface(const std::string& ref, const Surface& surface, const Edge& edge) {
+  static void check_on_surface(const std::string& ref, const Surface& surface,
+                               const StepEdge& edge) {
     const bool on = [&] {
       if (!surface.curve)
         return std::ranges::all_of(edge.levels, [&](const Level& p) { return surface.has(p); });

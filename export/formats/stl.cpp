@@ -3,6 +3,7 @@
 #include "core/text.hpp"
 #include "export/formats/byte_stream.hpp"
 #include "export/formats/file_floats.hpp"
+#include "export/formats/format_marks.hpp"
 #include "export/formats/mesh_limits.hpp"
 #include "export/formats/stl_layout.hpp"
 #include "export/formats/text_scanner.hpp"
@@ -143,17 +144,6 @@ Result<TriangleMesh> read_binary(const ByteSource& source, ByteStream& stream, s
   return check_facet_count(facets, name)
       .and_then([&] { return source.announce ? source.announce(facets) : Result<void>(); })
       .and_then([&] { return read_facets(stream, facets, name); });
-}
-
-bool begins_with_solid(std::string_view bytes) {
-  bytes = without_byte_order_mark(bytes);
-  const std::size_t begin = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
-  return equal_ignoring_case(bytes.substr(begin, 5), "solid");
-}
-
-/// A count of fewer than 2^24 facets has a byte 0, which text does not have.
-bool is_text(std::string_view head) {
-  return head.substr(0, kPrologueBytes).find('\0') == std::string_view::npos;
 }
 
 /// Certainly not a binary STL.

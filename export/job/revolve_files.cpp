@@ -201,13 +201,9 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
   if (covered) return certify_bytes(format, settings.max_error_mm, Proof::margins, *covered, store);
 
   settings.max_error_mm = allowed;
-  Result<void> verdict = tl::make_unexpected(covered.error());
-  for (int bits = least_draco_bits(solid); bits <= kMaxDracoBits; bits += kDracoBitsStep) {
-    settings.min_bits = bits;
-    const auto bytes = encode(settings);
-    if (!bytes) return tl::make_unexpected(bytes.error());
-    verdict = stages_.run("exact_test", [&] {
-      return decode_mesh(*bytes, format, as_written(format))
+  const auto judge = [&](const std::string& bytes) {
+    return stages_.run("exact_test", [&] {
+      return decode_mesh(bytes, format, as_written(format))
           .and_then([&](const TriangleMesh& decoded) {
             // A coarse grid may be sound and yet exchange close vertices.
             return check_sound(decoded, as_written(format)).and_then([&] {
@@ -216,9 +212,17 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
             });
           });
     });
-    if (verdict) return certify_bytes(format, allowed, Proof::exact_test, *bytes, store);
-  }
-  return tl::make_unexpected(verdict.error());
+  };
+  return encode_on_finer_grids(
+             least_draco_bits(solid),
+             [&](int bits) {
+               settings.min_bits = bits;
+               return encode(settings);
+             },
+             judge)
+      .and_then([&](const std::string& bytes) {
+        return certify_bytes(format, allowed, Proof::exact_test, bytes, store);
+      });
 }
 
 /// The package carries a certificate of its model part, which the part itself cannot hold.

@@ -74,6 +74,23 @@ TEST(MeshFormats, AreChosenByExtension) {
   }
 }
 
+TEST(MeshFormats, AreRecognisedByFirstBytesAsTheReadersDo) {
+  const TriangleMesh mesh = torus(8, 6);
+  for (const FormatFacts& facts : kFormatFacts) {
+    const auto bytes = encode_mesh(mesh, facts.format, {});
+    if (!bytes || facts.ending.empty()) continue;
+    const MeshFormat found = mesh_format_of_bytes(*bytes);
+    EXPECT_EQ(facts_of(found).ending, facts.ending) << facts.name;
+  }
+  for (const char* stl : {"SOLID a\n", "Solid a\n", "\n solid a\n", "\xEF\xBB\xBFsolid a\n"})
+    EXPECT_EQ(facts_of(mesh_format_of_bytes(stl)).ending, ".stl") << stl;
+  for (const char* off : {"OFF\n", "COFF 4 4 6\n", "NOFF\n", "STCNOFF\n", "\n# a cup\nOFF # b\n",
+                          "\xEF\xBB\xBFOFF\n", "4 4 6\n"})
+    EXPECT_EQ(mesh_format_of_bytes(off), MeshFormat::off) << off;
+  for (const char* obj : {"# a cup\nv 0 0 0\n", "v 0 0 0\n", "OFFSET\n", "o solid\n", ""})
+    EXPECT_EQ(mesh_format_of_bytes(obj), MeshFormat::obj) << obj;
+}
+
 TEST(MeshFormats, HaveOneTable) {
   EXPECT_TRUE(format_endings(FormatUse::write).starts_with(".stl, .obj, .drc"));
   EXPECT_NE(format_endings(FormatUse::read).find(".off"), std::string::npos);

@@ -139,6 +139,25 @@ TEST(Step, TheJudgeFindsPlantedFaults) {
   EXPECT_NE(verdict.error().message.find("two faces"), std::string::npos);
 }
 
+TEST(Step, EmptyListsAreRefused) {
+  const auto refused = [](const std::string& step, std::string_view list, std::string_view why) {
+    const std::size_t begin = step.find(list);
+    ASSERT_NE(begin, step.npos) << list;
+    std::string without = step;
+    const std::size_t first = begin + list.size();
+    without.erase(first, without.find(')', first) - first);
+    const auto verdict = verify_step(without, "s.step");
+    ASSERT_FALSE(verdict) << list;
+    EXPECT_EQ(verdict.error().kind, ErrorKind::unsound);
+    EXPECT_NE(verdict.error().message.find(why), std::string::npos) << verdict.error().message;
+  };
+  const std::string cup = encode_step(revolved_brep(kCup, StepWalls::lines, 0.01).value(), "cup");
+  refused(cup, "EDGE_LOOP('',(", "expected circles in its loop");  // of the foot, a plane
+  const std::string ball =
+      encode_step(revolved_brep(sphere(200), StepWalls::spline, 0.01).value(), "ball");
+  refused(ball, "B_SPLINE_CURVE_WITH_KNOTS('',3,(", "expected control points");
+}
+
 TEST(Step, EveryCutFileIsRefused) {
   const std::string step = encode_step(revolved_brep(kCup, StepWalls::lines, 0.01).value(), "cup");
   for (std::size_t size = 0; size + 1 < step.size(); size += 97)

@@ -59,6 +59,9 @@ enum class FormatUse { read, write };
 /// By the file name's extension, ignoring case (.stl: binary); any other is an error that lists the
 /// endings for this use.
 Result<MeshFormat> mesh_format_of(std::string_view path, FormatUse use = FormatUse::read);
+/// The format that the readers recognise by the first bytes of a file without a name, a binary
+/// STL by its byte 0; OBJ for other text, because OBJ has no mark.
+[[nodiscard]] MeshFormat mesh_format_of_bytes(std::string_view bytes);
 /// By the name in `FormatFacts`.
 Result<MeshFormat> mesh_format_named(std::string_view name);
 [[nodiscard]] constexpr std::string_view name_of(MeshFormat format) noexcept {
@@ -71,6 +74,13 @@ struct DracoSettings {
   int min_bits = 8;            ///< at least this many bits per coordinate, 1 to 30
   int speed = 2;  ///< Draco's speed, 0 to 10; on pots 2 gives the smallest files, 10 is fastest
 };
+
+/// Two corners that meet on a coarse grid may turn a face over: encodes on finer and finer grids,
+/// from `first_bits` for each coordinate on, until `judge` accepts the bytes, and returns them.
+/// Errors: that of `encode`, an `io` error of `judge`, or its last one if no grid is fine enough.
+Result<std::string> encode_on_finer_grids(
+    int first_bits, const std::function<Result<std::string>(int bits)>& encode,
+    const std::function<Result<void>(const std::string& bytes)>& judge);
 
 /// Coordinates are written as float32 without -0: the text formats print the shortest digits that
 /// read back as the same float32, and STL normals are those of the written corners (zero if these
