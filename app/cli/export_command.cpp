@@ -42,6 +42,7 @@ using solid::MeshFormat;
 
 /// The command line as given.
 struct ExportCommand {
+  const CLI::App* line = nullptr;
   std::string pot;
   std::vector<std::string> outputs, named_outputs;
   solid::ExportRequest request;
@@ -50,8 +51,8 @@ struct ExportCommand {
   std::string verify = "margins";
   std::optional<std::string> step, glb, material;
   solid::Goal goal;
-  bool fill_line = false;  ///< asked for
 
+  [[nodiscard]] bool given(const std::string& option) const { return line->count(option) > 0; }
   [[nodiscard]] bool has_goal() const {
     return goal.holds_ml || goal.weighs_g || goal.height_mm || goal.diameter_mm;
   }
@@ -129,15 +130,35 @@ struct FileOption {
   bool (*fits)(const FileRequest&);
 };
 
+/// Options of the solid that do not change a copy of the pot.
+constexpr std::array kSolidOptions{"--segments", "--max-triangles", "--verify",
+                                   "--measure-left-out"};
+/// Options of the section, by which a goal scales the pot.
+constexpr std::array kSectionOptions{"--tolerance",  "--smooth", "--smooth-length",
+                                     "--lip-fillet", "--drain",  "--pieces"};
+
+/// The options of the solid and the section that need a file other than a copy of the pot.
+std::vector<FileOption> made_options(const ExportCommand& command) {
+  std::vector<FileOption> options;
+  const auto add = [&](const char* name) {
+    options.push_back({command.given(name), name, "a mesh or its section", is_made});
+  };
+  std::ranges::for_each(kSolidOptions, add);
+  if (!command.has_goal()) std::ranges::for_each(kSectionOptions, add);
+  return options;
+}
+
 /// Refuses options that have no effect on any of the requested files.
 Result<void> check_options(const ExportCommand& command) {
   const solid::ExportOptions& options = command.request.options;
+  const bool unscaled = !command.has_goal();
   constexpr std::string_view kFinish = "--foot, --floor-fillet and --glaze-allowance";
-  const std::array known{
+  std::vector<FileOption> known{
       FileOption{command.precision_mm.has_value(), "--precision", "a pot", is_pot},
       FileOption{command.request.certificates, "--certificate", "a mesh", is_mesh},
-      FileOption{options.shrinkage > 0.0, "--shrinkage", "a mesh or its section", is_made},
-      FileOption{options.finish.asked(), kFinish, "a mesh or its section", is_made},
+      FileOption{unscaled && options.shrinkage > 0.0, "--shrinkage", "a mesh or its section",
+                 is_made},
+      FileOption{unscaled && options.finish.asked(), kFinish, "a mesh or its section", is_made},
       FileOption{command.walls.asked(), "--min-wall and --process", "a solid", is_solid},
       FileOption{command.step.has_value(), "--step", "a .step", is_step},
       FileOption{command.glb.has_value(), "--glb", "a .glb", is_format<MeshFormat::glb>},
@@ -146,6 +167,7 @@ Result<void> check_options(const ExportCommand& command) {
       FileOption{command.material.has_value(), "--material", "a .glb", is_format<MeshFormat::glb>},
       FileOption{command.ascii, "--ascii", "an .stl", is_format<MeshFormat::stl_ascii>},
       FileOption{options.normals, "--normals", "an .obj", is_format<MeshFormat::obj>}};
+  std::ranges::copy(made_options(command), std::back_inserter(known));
   for (const FileOption& option : known)
     if (option.given && std::ranges::none_of(command.request.files, option.fits))
       return failure(ErrorKind::bad_input,
@@ -241,7 +263,7 @@ Result<Pot> pot_at_goal(const Pot& pot, ExportCommand& command, const Console& c
     return failure(ErrorKind::bad_input,
                    "--fired: expected --holds, --weighs, --height or --diameter, found none");
   }
-  command.goal.to_fill_line = command.fill_line;
+  command.goal.to_fill_line = command.given("--fill-line");
   return solid::scaled_to(pot, command.goal, command.request.options)
       .map([&](solid::GoalReport reached) {
         console.print(fmt::format("scaled by {:.4f} across and {:.4f} up to meet the goal: {}",
@@ -345,9 +367,6 @@ void add_clay_options(CLI::App* sub, const SharedCommand& command) {
              "[mm]; with --holds the capacity is up to this line",
              0.0, 1e4)
       ->capture_default_str();
-  // After parsing: whether the line was asked for.
-  sub->parse_complete_callback(
-      [command, sub] { command->fill_line = sub->count("--fill-line") > 0; });
 }
 
 /// An option in units, written "350ml".
@@ -488,6 +507,7 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   auto command = std::make_shared<ExportCommand>();
   CLI::App* sub = app.add_subcommand(
       "export", "Write a pot as a printable solid, with a proof that it is sound");
+  command->line = sub;
   sub->add_option("pot", command->pot,
                   std::string("NAME") + std::string(kPotInputs) + ", or - for standard input")
       ->required();

@@ -13,6 +13,8 @@
 namespace clay::cli {
 namespace {
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 constexpr double kSmallestMm = 1e-3, kLargestMm = 1e4;
 
 /// "60x6x4": diameter, width and depth; "6x4": width and depth. A unit at the end, "6x4cm", applies
@@ -25,7 +27,9 @@ Result<solid::FootRing> foot_of(const std::string& text) {
   const std::size_t unit = last.find_last_of("0123456789.") + 1;
   std::vector<double> sizes;
   for (std::string& part : parts) {
-    if (part.find_first_of("cimn") == std::string::npos) part += last.substr(unit);
+    const std::size_t end = part.find_last_not_of(' ');
+    const bool bare = end != std::string::npos && (part[end] == '.' || is_digit(part[end]));
+    if (bare) part += last.substr(unit);
     if (const auto size = length_of(part, kSmallestMm, kLargestMm)) sizes.push_back(*size);
   }
   const bool all = sizes.size() == parts.size() && !text.ends_with('x');

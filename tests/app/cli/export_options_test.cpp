@@ -329,6 +329,8 @@ TEST_F(ExportOptions, ReportsTheClayThatFinishingTrims) {
   EXPECT_NE(deep.err.find("is below the limit of 6.50 mm already: expected walls of at least 4.12"),
             std::string::npos)
       << deep.err;
+  const auto shouted = run("--json --foot 44MMx5MMx3MM").json();
+  EXPECT_NEAR(shouted.at("maker").at("thrown").at("foot_diameter_mm"), 44.0, 1e-9);
   for (const char* odd : {"44", "44x5x3x2", "44x5x", "x5x3", "44x-5x3", "44 x 5 x 3"})
     EXPECT_EQ(run(std::string("--foot '") + odd + "'").status, 2) << odd;
 }
@@ -353,6 +355,37 @@ TEST_F(ExportOptions, RefusesOptionsWithoutEffect) {
     EXPECT_EQ(nothing.status, 2) << option;
     EXPECT_NE(nothing.err.find("among the files to write"), std::string::npos) << nothing.err;
   }
+}
+
+TEST_F(ExportOptions, RefusesOptionsOfTheSolidForCopiesOfThePot) {
+  const std::string copy = folder.file("copy.pot.cbor"), report = folder.file("r.html");
+  for (const char* option :
+       {"--segments 5", "--drain 3", "--lip-fillet 2", "--verify full", "--verify margins",
+        "--max-triangles 10", "--smooth none", "--smooth fair", "--tolerance 9mm",
+        "--smooth-length 9", "--smooth-length tool", "--pieces", "--measure-left-out"}) {
+    for (const std::string& more : {std::string(), " --report " + report}) {
+      const Ran nothing = claystack("export " + pot + " " + copy + " " + option + more);
+      EXPECT_EQ(nothing.status, 2) << option;
+      EXPECT_NE(nothing.err.find(": expected a mesh or its section among the files to write"),
+                std::string::npos)
+          << nothing.err;
+      EXPECT_FALSE(std::filesystem::exists(copy)) << option;
+    }
+  }
+  EXPECT_EQ(claystack("export " + pot + " " + copy).status, 0);
+}
+
+/// The goal is met by the solid that these options would make.
+TEST_F(ExportOptions, GoalOfACopyDependsOnTheOptionsOfTheSolid) {
+  const std::string copy = folder.file("copy.pot.cbor");
+  std::vector<std::string> copies;
+  for (const char* option : {"", " --smooth none", " --shrinkage 12% --fired"}) {
+    const Ran ran = claystack("export " + pot + " " + copy + " --holds 350ml" + option);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    copies.push_back(read_text(copy));
+  }
+  EXPECT_FALSE(copies[0] == copies[1]);
+  EXPECT_FALSE(copies[0] == copies[2]);
 }
 
 TEST_F(ExportOptions, ReportsThatPipesCannotBeReadBack) {
