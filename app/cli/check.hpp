@@ -7,6 +7,7 @@
 
 #include "claystack/export/check.hpp"
 #include "claystack/export/formats.hpp"
+#include "claystack/export/job.hpp"
 #include "claystack/export/proof.hpp"
 #include "claystack/export/repair.hpp"
 #include "claystack/export/walls.hpp"
@@ -72,6 +73,9 @@ struct RepairSummary {
 
 enum class Grade { pass, warn, fail };
 [[nodiscard]] std::string_view name_of(Grade grade);
+
+/// The check that a problem belongs to, of a pot and of a mesh: "walls", "process" or "geometry".
+[[nodiscard]] std::string check_name(solid::ProblemKind kind);
 
 /// A result that is not about the soundness of the mesh.
 struct Finding {

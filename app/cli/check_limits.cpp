@@ -17,6 +17,7 @@
 namespace clay::cli {
 namespace {
 
+using solid::ProblemKind;
 using solid::TriangleMesh;
 
 void report_wall(const solid::SampledWall& wall, const solid::WallLimit& limit, bool united,
@@ -24,19 +25,19 @@ void report_wall(const solid::SampledWall& wall, const solid::WallLimit& limit, 
   const std::string sampled = united ? "sampled on the united shells" : std::string("sampled");
   if (wall.rays < command.wall_samples())
     verdict.add(
-        "walls", Grade::warn,
+        check_name(ProblemKind::thin_wall), Grade::warn,
         fmt::format("sampled by only {} rays instead of {}: too many triangles lie near each ray",
                     wall.rays, command.wall_samples()));
   if (std::isinf(wall.least_mm))
     return verdict.add(
-        "walls", Grade::fail,
+        check_name(ProblemKind::thin_wall), Grade::fail,
         fmt::format("not measured: none of {} rays reached the other side of a wall", wall.rays));
   if (wall.least_mm >= limit.min_wall_mm)
-    return verdict.add("walls", Grade::pass,
+    return verdict.add(check_name(ProblemKind::thin_wall), Grade::pass,
                        sampled + ": " + solid::wall_text(wall.least_mm, limit));
   // The triangles of united shells are not those of the file.
   const std::string triangle = united ? "" : fmt::format("triangle {} ", wall.triangle);
-  verdict.add("walls", Grade::fail,
+  verdict.add(check_name(ProblemKind::thin_wall), Grade::fail,
               fmt::format("thin wall ({}): {}at ({:.6g}, {:.6g}, {:.6g}) mm: {}", sampled, triangle,
                           wall.place.x, wall.place.y, wall.place.z,
                           solid::wall_text(wall.least_mm, limit)));
@@ -51,7 +52,8 @@ Result<void> measure_wall(const PrintedBody& body, const solid::WallLimit& limit
   if (!wall && wall.error().kind == ErrorKind::io)
     return failure(ErrorKind::io, command.file + ": " + wall.error().message);
   if (!wall) {
-    verdict.add("walls", Grade::fail, "not measured: " + wall.error().message);
+    verdict.add(check_name(ProblemKind::thin_wall), Grade::fail,
+                "not measured: " + wall.error().message);
     return {};
   }
   verdict.wall_sampled = *wall;
@@ -122,17 +124,13 @@ void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckC
   const auto& process = command.walls.demand().process;
   if (!process) return;
   std::string passed = fmt::format("{:.1f} x {:.1f} x {:.1f} mm", size.x, size.y, size.z);
-  if (const auto& most = process->size) {
-    const bool fits = std::min(size.x, size.y) <= std::min(most->width_mm, most->depth_mm) &&
-                      std::max(size.x, size.y) <= std::max(most->width_mm, most->depth_mm) &&
-                      size.z <= most->height_mm;
-    if (!fits)
-      verdict.add("process", Grade::fail,
-                  fmt::format("too large: {}; {}: at most {:g} x {:g} mm and {:g} mm high ({})",
-                              passed, process->name, most->width_mm, most->depth_mm,
-                              most->height_mm, most->source));
-    if (!fits) return;
-  }
+  const auto& largest = process->size;
+  const bool fits = !largest || largest->fits(size);
+  if (!fits)
+    verdict.add(check_name(ProblemKind::too_large), Grade::fail,
+                fmt::format("too large: {}; {}: at most {:g} x {:g} mm and {:g} mm high ({})",
+                            passed, process->name, largest->width_mm, largest->depth_mm,
+                            largest->height_mm, largest->source));
   if (process->overhang && verdict.mesh.closed && !verdict.mesh.oriented) {
     passed += ", overhangs not measured: some or all faces point into the clay";
   } else if (const auto& most = process->overhang) {
@@ -140,29 +138,30 @@ void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckC
     constexpr double kLeastMm2 = 4.0;  // smaller ones need no support
     if (steep.area_mm2 > kLeastMm2)
       return verdict.add(
-          "process", Grade::warn,
+          check_name(ProblemKind::overhang), Grade::warn,
           fmt::format("overhang of up to {:.1f} degrees ({:.3g} cm2 in all, the steepest at a "
                       "height of {:.1f} mm); {}: at most {:g} without support ({})",
                       steep.angle_deg, 0.01 * steep.area_mm2, steep.at_mm, process->name,
                       most->max_deg, most->source));
     passed += fmt::format(", no overhang above {:g} degrees", most->max_deg);
   }
-  verdict.add("process", Grade::pass, process->name + ": " + passed);
+  if (fits) verdict.add("process", Grade::pass, process->name + ": " + passed);
 }
 
 /// Compares the walls with the limit: those that a certificate of these bytes proves, without one
 /// a sample.
 Result<void> check_walls(const PrintedBody& body, const glm::dvec3& size,
                          const CheckCommand& command, const Console& console, Verdict& verdict) {
-  const auto limit = command.walls.demand().for_size(size.x + size.y + size.z);
+  const auto limit = command.walls.demand().for_size(solid::size_sum_mm(size));
   if (!limit) return {};
   if (!verdict.certified_wall_mm && !body.unknown.empty()) {
-    verdict.add("walls", Grade::fail, "not measured: " + body.unknown);
+    verdict.add(check_name(ProblemKind::thin_wall), Grade::fail, "not measured: " + body.unknown);
     return {};
   }
   if (!verdict.certified_wall_mm) return measure_wall(body, *limit, command, console, verdict);
   const double wall_mm = *verdict.certified_wall_mm;
-  verdict.add("walls", wall_mm >= limit->min_wall_mm ? Grade::pass : Grade::fail,
+  verdict.add(check_name(ProblemKind::thin_wall),
+              wall_mm >= limit->min_wall_mm ? Grade::pass : Grade::fail,
               "certified: " + solid::wall_text(wall_mm, *limit));
   return {};
 }

@@ -280,7 +280,7 @@ void check_cavities(const CheckCommand& command, Verdict& verdict) {
   if (verdict.mesh.cavities == 0) return;
   const auto& process = command.walls.demand().process;
   const bool fired = process && process->fired, one = verdict.mesh.cavities == 1;
-  verdict.add(fired ? "process" : "geometry", fired ? Grade::fail : Grade::warn,
+  verdict.add(check_name(solid::ProblemKind::cavity), fired ? Grade::fail : Grade::warn,
               fmt::format("{} closed {}, {:.4g} cm3 trapped: {}", verdict.mesh.cavities,
                           one ? "cavity" : "cavities", verdict.mesh.trapped_mm3 / 1000.0,
                           one ? "it needs a drain hole" : "they need drain holes"));
@@ -292,7 +292,7 @@ void check_standing(const TriangleMesh& mesh, Verdict& verdict) {
   if (!found) return;
   const bool one = found->hanging == 1;
   verdict.add(
-      "geometry", Grade::warn,
+      check_name(solid::ProblemKind::bodies), Grade::warn,
       fmt::format("{} of {} parts {} touch the bed or a part on it: {} lowest point is {:.3g} mm "
                   "above the bed",
                   found->hanging, found->parts, one ? "does not" : "do not", one ? "its" : "their",

@@ -47,22 +47,24 @@ Verdict verdict_on(const solid::ExportReport& report) {
   else
     verdict.examined = false;
   // Facets are slightly wider.
-  verdict.mesh.size_mm = {report.size.diameter_mm, report.size.diameter_mm, report.size.height_mm};
+  verdict.mesh.size_mm = report.size.extents_mm;
   verdict.wall_mm = report.walls.min_wall_mm;
   verdict.wall_parts = report.walls.parts;
   const auto& limit = report.walls.limit;
   if (limit && *verdict.wall_mm < limit->min_wall_mm)
-    verdict.add("walls", Grade::fail,
+    verdict.add(check_name(solid::ProblemKind::thin_wall), Grade::fail,
                 "thin wall: " + solid::thin_wall_text(profile, *verdict.wall_mm, *limit));
   else if (limit)
-    verdict.add("walls", Grade::pass, solid::wall_text(*verdict.wall_mm, *limit));
-  const std::string about = report.process.limits ? "process" : "geometry";
+    verdict.add(check_name(solid::ProblemKind::thin_wall), Grade::pass,
+                solid::wall_text(*verdict.wall_mm, *limit));
   for (const solid::Problem& problem : solid::problems_of(report)) {
     const bool bodies = problem.kind == solid::ProblemKind::bodies;
-    verdict.add(bodies ? "geometry" : about, problem.fails || bodies ? Grade::fail : Grade::warn,
+    verdict.add(check_name(problem.kind), problem.fails || bodies ? Grade::fail : Grade::warn,
                 problem.text);
   }
-  if (report.process.limits && solid::problems_of(report).empty())
+  const bool process_passes = std::ranges::none_of(
+      verdict.findings, [](const Finding& finding) { return finding.check == "process"; });
+  if (report.process.limits && process_passes)
     verdict.add("process", Grade::pass, process_text(report));
   return verdict;
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cassert>
 #include <nlohmann/json.hpp>
 
 namespace clay::cli {
@@ -61,6 +62,13 @@ Json file_json(const FileReport& file) {
                                  {"self_intersections", file.full_verification->self_intersections},
                                  {"volume_mm3", file.full_verification->volume_mm3}};
   return json;
+}
+
+/// Of a drawing or a table, whose name `export_files` has checked.
+const solid::SectionFile& section_facts(const FileReport& file) {
+  const solid::SectionFile* const facts = solid::section_file(file.path);
+  assert(facts != nullptr);
+  return *facts;
 }
 
 Json step_json(const FileReport& file) {
@@ -330,8 +338,7 @@ Json process_json(const ExportReport& report, const solid::ProcessLimits& proces
                  {"depth_mm", most.depth_mm},
                  {"height_mm", most.height_mm},
                  {"source", most.source},
-                 {"fits", report.size.diameter_mm <= std::min(most.width_mm, most.depth_mm) &&
-                              report.size.height_mm <= most.height_mm}};
+                 {"fits", most.fits(report.size.extents_mm)}};
   return json;
 }
 
@@ -423,9 +430,8 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
         break;
       case FileKind::section:
       case FileKind::wall_table:
-        json["files"].push_back({{"path", file.path},
-                                 {"format", solid::section_file(file.path)->name},
-                                 {"bytes", file.bytes}});
+        json["files"].push_back(
+            {{"path", file.path}, {"format", section_facts(file).name}, {"bytes", file.bytes}});
         break;
       case FileKind::given:
         json["files"].push_back(copy_json(*copy++, file.path));
@@ -459,7 +465,7 @@ void print_export(const Console& console, const ExportReport& report,
         break;
       case FileKind::section:
       case FileKind::wall_table:
-        console.print(fmt::format("{}: {}", file.path, solid::section_file(file.path)->title));
+        console.print(fmt::format("{}: {}", file.path, section_facts(file).title));
         break;
       case FileKind::given:
         console.print(copy_text(*copy++, file.path));

@@ -41,7 +41,8 @@ Result<MappedWalls> map_walls(const Pot& pot, const solid::WallDemand& demand, s
           const solid::Profile profile = parts.together();
           return MappedWalls{row_walls(solid::wall_field(profile, spacing_mm), rows, height_mm),
                              solid::min_wall_mm(profile),
-                             demand.for_size(4.0 * largest_radius_mm(pot.stack) + height_mm)};
+                             demand.for_size(solid::size_sum_mm(solid::round_size_mm(
+                                 2.0 * largest_radius_mm(pot.stack), height_mm)))};
         });
   solid::ExportOptions options;
   options.walls = demand;

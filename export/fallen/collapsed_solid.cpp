@@ -121,7 +121,7 @@ class Union {
     const FilledPockets filled = fill_pockets(both.mesh, both.on_seam, tolerance_mm_);
     solid.pockets = filled.pockets;
     solid.pockets_mm3 = filled.volume_mm3;
-    solid.max_move_mm += filled.max_depth_mm;
+    solid.max_move_mm += filled.max_ball_mm;
     const double rounding = float_rounding_mm(filled.mesh);
     Result<CollapsedSolid> result;
     for (const double shortest : kShortestEdges) {
@@ -141,7 +141,8 @@ class Union {
     double rounding = 0.0;
     for (std::size_t v = 0; v < solid.mesh.points.size(); ++v)
       rounding = std::max(rounding, glm::distance(solid.mesh.points[v], cured.mesh.points[v]));
-    solid.max_move_mm += cured.max_move_mm + rounding;
+    solid.reshaped_mm = cured.max_move_mm + rounding;
+    solid.max_move_mm += solid.reshaped_mm;
     solid.volume_mm3 = signed_volume(solid.mesh);
     for (const double volume : shell_volumes(solid.mesh)) {
       if (volume > 0.0) {

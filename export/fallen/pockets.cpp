@@ -1,10 +1,14 @@
 #include "export/fallen/pockets.hpp"
 
-#include "core/compensated_sum.hpp"
 #include "export/solid/disjoint_sets.hpp"
+#include "export/solid/shell_volumes.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
 
 namespace clay::solid::inline fallen {
 namespace {
@@ -19,19 +23,32 @@ DisjointSets joined_points(const TriangleMesh& mesh) {
   return sets;
 }
 
+/// By the point that names the set of a shell; 0 for all other points.
+std::vector<double> volumes_of(const TriangleMesh& mesh, DisjointSets& points) {
+  return volumes_of_shells(mesh, mesh.points.size(),
+                           [&](std::size_t t) { return points.of(mesh.triangles[t][0]); });
+}
+
 struct Shell {
   std::size_t triangles = 0;
-  glm::dvec3 origin{0.0};  // per shell: relative to a distant point, a pocket's volume would cancel
-  CompensatedSum sextuple;
-  double area_mm2 = 0.0;
+  double area_mm2 = 0.0, volume_mm3 = 0.0;
+  glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-low};
   bool on_seam = false;
 
-  [[nodiscard]] double volume_mm3() const { return sextuple.value() / 6.0; }
-  [[nodiscard]] double depth_mm() const { return -3.0 * volume_mm3() / area_mm2; }
+  /// Three times volume over area.
+  [[nodiscard]] double depth_mm() const { return -3.0 * volume_mm3 / area_mm2; }
+  /// Upper bound of the radius of a ball inside: half of the shortest side of the box, and the
+  /// radius of a ball of the same volume.
+  [[nodiscard]] double ball_mm() const {
+    const glm::dvec3 sides = high - low;
+    return std::min(0.5 * std::min({sides.x, sides.y, sides.z}),
+                    std::cbrt(-0.75 * volume_mm3 / std::numbers::pi));
+  }
   void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    if (triangles++ == 0) origin = a;
-    sextuple.add(glm::dot(a - origin, glm::cross(b - origin, c - origin)));
+    ++triangles;
     area_mm2 += 0.5 * glm::length(glm::cross(b - a, c - a));
+    low = glm::min(low, glm::min(a, glm::min(b, c)));
+    high = glm::max(high, glm::max(a, glm::max(b, c)));
   }
 };
 
@@ -40,6 +57,8 @@ std::vector<Shell> shells_of(const TriangleMesh& mesh, DisjointSets& points) {
   std::vector<Shell> shells(mesh.points.size());
   for (const auto& [a, b, c] : mesh.triangles)
     shells[points.of(a)].add(mesh.points[a], mesh.points[b], mesh.points[c]);
+  const std::vector<double> volumes = volumes_of(mesh, points);
+  for (std::size_t i = 0; i < shells.size(); ++i) shells[i].volume_mm3 = volumes[i];
   return shells;
 }
 
@@ -47,9 +66,10 @@ std::vector<Shell> shells_of(const TriangleMesh& mesh, DisjointSets& points) {
 
 std::vector<double> shell_volumes(const TriangleMesh& mesh) {
   DisjointSets points = joined_points(mesh);
+  const std::vector<Shell> shells = shells_of(mesh, points);
   std::vector<double> volumes;
-  for (const Shell& shell : shells_of(mesh, points))
-    if (shell.triangles > 0) volumes.push_back(shell.volume_mm3());
+  for (const Shell& shell : shells)
+    if (shell.triangles > 0) volumes.push_back(shell.volume_mm3);
   return volumes;
 }
 
@@ -60,7 +80,7 @@ FilledPockets fill_pockets(const TriangleMesh& mesh, const std::vector<bool>& on
   for (std::uint32_t v = 0; v < mesh.points.size(); ++v)
     if (on_seam[v]) shells[points.of(v)].on_seam = true;
   const auto is_pocket = [&](const Shell& shell) {
-    return shell.on_seam && shell.volume_mm3() < 0.0 && shell.depth_mm() <= deepest_mm;
+    return shell.on_seam && shell.volume_mm3 < 0.0 && shell.depth_mm() <= deepest_mm;
   };
 
   FilledPockets result;
@@ -69,8 +89,8 @@ FilledPockets fill_pockets(const TriangleMesh& mesh, const std::vector<bool>& on
     if (shells[i].triangles == 0 || !is_pocket(shells[i])) continue;
     filled[i] = true;
     ++result.pockets;
-    result.volume_mm3 -= shells[i].volume_mm3();
-    result.max_depth_mm = std::max(result.max_depth_mm, shells[i].depth_mm());
+    result.volume_mm3 -= shells[i].volume_mm3;
+    result.max_ball_mm = std::max(result.max_ball_mm, shells[i].ball_mm());
   }
   std::vector<std::uint32_t> kept(mesh.points.size());
   for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {

@@ -15,13 +15,13 @@ struct FilledPockets {
   TriangleMesh mesh;          ///< without unused points
   std::vector<bool> on_seam;  ///< for each of its points
   std::size_t pockets = 0;
-  double volume_mm3 = 0.0;    ///< total volume of the filled pockets
-  double max_depth_mm = 0.0;  ///< depth of the deepest filled pocket
+  double volume_mm3 = 0.0;   ///< total volume of the filled pockets
+  double max_ball_mm = 0.0;  ///< upper bound of the distance of filled air from the clay around it
 };
 
 /// Removes shells that face inward, touch the seam (`on_seam`, for each point of `mesh`) and are at
 /// most `deepest_mm` deep. The depth is three times volume over area: no convex pocket contains a
-/// ball of a larger radius.
+/// ball of a larger radius, but another one may. `max_ball_mm` is a bound for every pocket.
 FilledPockets fill_pockets(const TriangleMesh& mesh, const std::vector<bool>& on_seam,
                            double deepest_mm);
 

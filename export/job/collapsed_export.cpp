@@ -121,6 +121,7 @@ class CollapsedExport {
     report_.size.shells = solid.check.components;
     describe_size();
     report_.process.limits = options_.walls.process;
+    thin_walls_by(solid.reshaped_mm);
     report_.collapsed = std::move(solid);
     describe_volume(report_.collapsed->volume_mm3);
     ClayFigures clay = options_.clay;
@@ -131,12 +132,18 @@ class CollapsedExport {
   }
 
   void describe_size() {
-    const glm::dvec3 extent = extent_of(mesh_).size();
-    report_.size.diameter_mm = std::max(extent.x, extent.y);
-    report_.size.height_mm = extent.z;
+    const glm::dvec3 extents = extent_of(mesh_).size();
+    report_.size.extents_mm = extents;
+    report_.size.diameter_mm = std::max(extents.x, extents.y);
+    report_.size.height_mm = extents.z;
     report_.size.triangles = mesh_.triangles.size();
-    report_.walls.limit =
-        options_.walls.for_size(2.0 * report_.size.diameter_mm + report_.size.height_mm);
+    report_.walls.limit = options_.walls.for_size(size_sum_mm(extents));
+  }
+
+  /// Both sides of a wall may have moved.
+  void thin_walls_by(double moved_mm) {
+    double& wall_mm = report_.walls.min_wall_mm;
+    wall_mm = std::max(0.0, wall_mm - 2.0 * moved_mm);
   }
 
   void describe_volume(double volume_mm3) {
@@ -153,18 +160,18 @@ class CollapsedExport {
     return stages_.run("decimate", [&] { return decimate(mesh_, *options_.max_triangles); })
         .and_then([&](DecimatedMesh decimated) -> Result<void> {
           mesh_ = rounded_to_float(decimated.mesh);
+          const double moved_mm = decimated.max_error_mm + float_rounding_mm(mesh_);
           const MeshReport check = stages_.run("check", [&] { return completed_check(mesh_); });
           if (!check.sound())
             return failure(ErrorKind::unsound,
                            "decimated: found " + describe(check.problems.front()));
           describe_size();
-          // Both sides of a wall may have moved.
-          report_.walls.min_wall_mm =
-              std::max(0.0, report_.walls.min_wall_mm - 2.0 * decimated.max_error_mm);
-          report_.size.tolerance_mm += decimated.max_error_mm;
-          report_.size.chordal_error_mm += decimated.max_error_mm;
+          thin_walls_by(moved_mm);
+          report_.size.tolerance_mm += moved_mm;
+          report_.size.chordal_error_mm += moved_mm;
           describe_volume(check.volume_mm3);
-          report_.collapsed->max_move_mm += decimated.max_error_mm;
+          report_.collapsed->max_move_mm += moved_mm;
+          report_.collapsed->reshaped_mm += moved_mm;
           return {};
         });
   }
@@ -206,16 +213,20 @@ class CollapsedExport {
     FileContents contents = solid_contents(options_);
     DracoSettings& settings = contents.draco;
     settings.max_error_mm = allowed;
-    Result<double> moved;
-    for (int bits = least_draco_bits(mesh_); bits <= kMaxDracoBits; bits += kDracoBitsStep) {
+    double moved_mm = 0.0;
+    const auto encode = [&](int bits) {
       settings.min_bits = bits;
-      const auto bytes = stages_.run(stage_name("encode", format),
-                                     [&] { return encode_mesh(mesh_, format, contents); });
-      if (!bytes) return tl::make_unexpected(bytes.error());
-      moved = verify(*bytes, format, allowed + float_rounding_mm(mesh_));
-      if (moved) return written(*bytes, format, *moved, store);
-    }
-    return tl::make_unexpected(moved.error());
+      return stages_.run(stage_name("encode", format),
+                         [&] { return encode_mesh(mesh_, format, contents); });
+    };
+    const auto judge = [&](const std::string& bytes) {
+      return verify(bytes, format, allowed + float_rounding_mm(mesh_)).map([&](double moved) {
+        moved_mm = moved;
+      });
+    };
+    return encode_on_finer_grids(least_draco_bits(mesh_), encode, judge)
+        .and_then(
+            [&](const std::string& bytes) { return written(bytes, format, moved_mm, store); });
   }
 
   Result<double> verify(const std::string& bytes, MeshFormat format, double allowed_mm) {

@@ -103,6 +103,13 @@ class FilesExport {
   };
 
   Result<void> check() const {
+    for (const FileRequest& asked : request_.files) {
+      if (asked.kind != FileKind::section && asked.kind != FileKind::wall_table) continue;
+      const SectionFile* known = section_file(asked.path);
+      if (known == nullptr || known->kind != asked.kind)
+        return failure(ErrorKind::bad_input,
+                       asked.path + ": expected a name that ends in " + section_endings());
+    }
     if (!pot_.collapse) return {};
     const bool step = asks(FileKind::step);
     if (!request_.certificates && !step) return {};

@@ -63,15 +63,15 @@ std::optional<Problem> too_large(const ExportReport& report) {
   const auto& limits = report.process.limits;
   if (!limits || !limits->size) return std::nullopt;
   const SizeLimit& most = *limits->size;
-  const double width = report.size.diameter_mm, height = report.size.height_mm;
-  if (width <= std::min(most.width_mm, most.depth_mm) && height <= most.height_mm)
-    return std::nullopt;
-  return Problem{
-      fmt::format("too large: {:.1f} mm wide and {:.1f} mm high; {}: at most {:g} x {:g} "
-                  "mm and {:g} mm high ({})",
-                  width, height, limits->name, most.width_mm, most.depth_mm, most.height_mm,
-                  most.source),
-      std::nullopt, true, ProblemKind::too_large};
+  const glm::dvec3 size = report.size.extents_mm;
+  if (most.fits(size)) return std::nullopt;
+  const std::string across = size.x == size.y ? fmt::format("{:.1f}", size.x)
+                                              : fmt::format("{:.1f} x {:.1f}", size.x, size.y);
+  return Problem{fmt::format("too large: {} mm wide and {:.1f} mm high; {}: at most {:g} x {:g} "
+                             "mm and {:g} mm high ({})",
+                             across, size.z, limits->name, most.width_mm, most.depth_mm,
+                             most.height_mm, most.source),
+                 std::nullopt, true, ProblemKind::too_large};
 }
 
 /// Whether the place of the thinnest wall is known: not in a fallen pot.

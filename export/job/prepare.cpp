@@ -130,7 +130,8 @@ Result<PreparedPot> prepare(const Pot& pot, const ExportOptions& options) {
       .map([&](PreparedPot prepared) {
         const ClayStack& stack = prepared.pot.stack;
         prepared.done.counted_volume_mm3 = stack.volume_mm3();
-        prepared.limit = options.walls.for_size(4.0 * largest_radius_mm(stack) + stack.height_mm());
+        prepared.limit = options.walls.for_size(
+            size_sum_mm(round_size_mm(2.0 * largest_radius_mm(stack), stack.height_mm())));
         return prepared;
       });
 }

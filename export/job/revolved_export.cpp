@@ -267,6 +267,7 @@ class RevolvedExport {
     size.chordal_error_mm = chordal_error_mm(widest, size.segments);
     size.diameter_mm = 2.0 * widest * equal_area_factor(size.segments);
     size.height_mm = highest - lowest;
+    size.extents_mm = round_size_mm(size.diameter_mm, size.height_mm);
     return size;
   }
 
@@ -283,7 +284,7 @@ class RevolvedExport {
           stages_.run("wall_field", [&] { return wall_field(profile, *options_.wall_spacing_mm); });
       walls.parts = walls_by_part(profile, walls.field, walls.thinnest, min_wall_mm);
     }
-    walls.limit = options_.walls.for_size(2.0 * report_.size.diameter_mm + report_.size.height_mm);
+    walls.limit = options_.walls.for_size(size_sum_mm(report_.size.extents_mm));
     report_.process.limits = options_.walls.process;
     report_.process.overhang = steepest_overhang(profile);
   }

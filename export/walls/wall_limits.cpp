@@ -157,6 +157,12 @@ Result<ProcessLimits> read_process(const std::string& name) {
   });
 }
 
+bool SizeLimit::fits(const glm::dvec3& size_mm) const noexcept {
+  const auto [least, most] = std::minmax(size_mm.x, size_mm.y);
+  return least <= std::min(width_mm, depth_mm) && most <= std::max(width_mm, depth_mm) &&
+         size_mm.z <= height_mm;
+}
+
 std::optional<WallLimit> WallDemand::for_size(double size_sum_mm) const {
   std::optional<WallLimit> limit;
   if (min_wall_mm) limit = WallLimit{kAnySize, *min_wall_mm, "--min-wall", {}};

@@ -95,7 +95,8 @@ void run(const PotQuestion& question, const Pot& pot, const std::function<bool()
   if (!check.fallen) check.form = form_of(pot.stack);
   const auto limits = limits_of(question.process, pot.stack, check.remarks);
   if (limits)
-    check.limit = limits->wall_for(4.0 * largest_radius_mm(pot.stack) + pot.stack.height_mm());
+    check.limit = limits->wall_for(solid::size_sum_mm(
+        solid::round_size_mm(2.0 * largest_radius_mm(pot.stack), pot.stack.height_mm())));
   const std::size_t rows = std::max<std::size_t>(1, question.subject.outline.rows.size());
   solid::ExportOptions options;
   options.tolerance_mm = question.tolerance_mm;

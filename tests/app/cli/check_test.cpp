@@ -57,6 +57,27 @@ class CheckMesh : public testing::Test {
   ScratchFolder folder;
 };
 
+TEST_F(CheckMesh, ReadsFromStandardInputWhatItReadsFromAFile) {
+  const std::string off =
+      "COFF\n4 4 6\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  const solid::TriangleMesh mesh =
+      solid::decode_mesh(good_stl, solid::MeshFormat::stl_binary, "good").value();
+  std::string shouted = solid::encode_stl_ascii(mesh, "bowl");
+  const std::string spaced = std::string("\n").append(shouted);
+  shouted.replace(0, 5, "SOLID");
+  for (const auto& [name, bytes] : {std::pair<std::string, std::string>("t.off", off),
+                                    {"shouted.stl", shouted},
+                                    {"spaced.stl", spaced}}) {
+    const std::string file = folder.file(name);
+    write_text(file, bytes);
+    const Ran named = claystack("check --json " + file);
+    EXPECT_EQ(named.status, 0) << named.err;
+    const Ran piped = shell(CLAYSTACK_PROGRAM " check --json - < " + file);
+    EXPECT_EQ(piped.status, 0) << name << piped.err;
+    EXPECT_EQ(piped.json().at("triangles"), named.json().at("triangles")) << name;
+  }
+}
+
 TEST_F(CheckMesh, WarnsOfAMeshThatMayBeInMetres) {
   std::string stl = good_stl;
   for (std::size_t k = 0; 84 + 50 * k < stl.size(); ++k)
@@ -270,6 +291,15 @@ TEST(Check, ComparesAMeshWithTheLimitsOfTheProcess) {
     EXPECT_EQ(ran.status, 0) << ran.out;
     EXPECT_NE(ran.out.find("process: warn: overhang of "), std::string::npos) << ran.out;
   }
+  const std::string both =
+      process(R"("size": {"width_mm": 200, "depth_mm": 20, "height_mm": 200, "source": "s"},
+                 "overhang": {"max_deg": 30, "source": "s"})");
+  for (const std::string& file : {pot, mesh}) {
+    const Ran ran = claystack(both + file);
+    EXPECT_NE(ran.out.find("process: fail: too large: 1"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("process: warn: overhang of "), std::string::npos) << ran.out;
+    EXPECT_EQ(ran.out.find("process: pass"), std::string::npos) << ran.out;
+  }
   const Ran fits = claystack(process(R"("overhang": {"max_deg": 89, "source": "s"})") + mesh);
   EXPECT_NE(fits.out.find("process: pass: kiln: 1"), std::string::npos) << fits.out;
 }
@@ -307,6 +337,16 @@ TEST(CheckPot, WarnsOfAClosedCavity) {
   const Ran exported = claystack("export " + pot + " " + folder.file("p.stl"));
   EXPECT_EQ(exported.status, 0) << exported.err;
   EXPECT_NE(exported.err.find("drain hole"), std::string::npos);
+  // The pot and its mesh name the check alike, for each process.
+  for (const char* process : {"", "--process sla ", "--process stoneware "})
+    for (const std::string& file : {pot, folder.file("p.stl")}) {
+      const auto found = claystack(std::string("check --json ") + process + file).json();
+      std::string names;
+      for (const auto& check : found.at("checks"))
+        if (check.at("text").get<std::string>().find("drain hole") != std::string::npos)
+          names += check.at("check").get<std::string>() + ';';
+      EXPECT_EQ(names, "geometry;") << process << file;
+    }
 }
 
 TEST(CheckPot, DetectsAnEditedQuantumByTheLedger) {

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,6 +73,51 @@ TEST(ExportFallen, ADecimatedPotStatesTheSizeAndWallOfItsFile) {
   EXPECT_NEAR(report.size.height_mm, size.z, 1e-9);
   EXPECT_NEAR(report.size.diameter_mm, std::max(size.x, size.y), 1e-9);
   EXPECT_LE(report.walls.min_wall_mm, sampled_wall(mesh, 20'000).value().least_mm);
+}
+
+/// Width and depth of a fallen pot differ. A limit that its file just meets is met by the export.
+TEST(ExportFallen, ComparesTheThreeExtentsOfItsFileWithTheLimits) {
+  Pot pot = pot_of(shapes::vase(100));
+  pot.collapse = Collapse{30, {50, 70, 0}, {0, 0, 1}, 1.0, 12.0};
+  ExportOptions options;
+  options.tolerance_mm = 0.2;
+  const auto plain = exported(pot, {MeshFormat::stl_binary}, options);
+  ASSERT_TRUE(plain) << plain.error().message;
+  const TriangleMesh mesh = decode_mesh(plain->files[0], MeshFormat::stl_binary, "file").value();
+  const glm::dvec3 size = extent_of(mesh).size();
+  ASSERT_GT(std::abs(size.x - size.y), 1.0);
+  const auto with_size = [&](const SizeLimit& limit) {
+    options.walls.process = ProcessLimits{
+        "machine", {{size.x + size.y + size.z + 0.1, 0.01, "small", {}}, {1e6, 50.0, "large", {}}},
+        false,     {},
+        limit,     {}};
+    return exported(pot, {}, options).value().report;
+  };
+  const auto large = [](const ExportReport& report) {
+    const std::vector<Problem> problems = problems_of_solid(report);
+    return std::ranges::any_of(problems,
+                               [](const Problem& p) { return p.kind == ProblemKind::too_large; });
+  };
+  const ExportReport fits = with_size({size.y + 0.1, size.x + 0.1, size.z + 0.1, "s"});
+  EXPECT_FALSE(large(fits));
+  EXPECT_EQ(fits.walls.limit.value().min_wall_mm, 0.01);
+  EXPECT_TRUE(large(with_size({size.y - 0.1, size.x + 0.1, size.z + 0.1, "s"})));
+  EXPECT_TRUE(large(with_size({size.y + 0.1, size.x - 0.1, size.z + 0.1, "s"})));
+  EXPECT_TRUE(large(with_size({size.y + 0.1, size.x + 0.1, size.z - 0.1, "s"})));
+}
+
+/// A wall of a part may lose what the seam and rounding move on both of its sides.
+TEST(ExportFallen, WallOfTheSolidAllowsForWhatMoved) {
+  const Pot pot = shapes::fallen(shapes::vase(100), 30, {50, 70, 0}, 1.0);
+  ExportOptions options;
+  options.smoothing = Smoothing::none;
+  const ExportReport report = exported(pot, {}, options).value().report;
+  const auto parts = collapsed_parts(pot, Smoothing::none, options.tolerance_mm).value();
+  const double part_mm =
+      std::min(min_wall_mm(parts.lower.profile), min_wall_mm(parts.upper.profile)) *
+      std::cos(std::numbers::pi / static_cast<double>(report.size.segments));
+  ASSERT_GT(report.collapsed->reshaped_mm, 0.0);
+  EXPECT_NEAR(report.walls.min_wall_mm, part_mm - 2.0 * report.collapsed->reshaped_mm, 1e-12);
 }
 
 TEST(ExportFallen, WritesSeparatePiecesOnlyIfAllowed) {

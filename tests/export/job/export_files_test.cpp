@@ -36,6 +36,20 @@ class FullStore final : public FileStore {
   std::size_t written_ = 0;
 };
 
+/// The ending selects the kind of drawing: standard output has none.
+TEST(ExportErrors, ADrawingWithoutItsEndingIsRefused) {
+  for (const FileKind kind : {FileKind::section, FileKind::wall_table})
+    for (const char* path : {"-", "pot", "pot.stl"}) {
+      ExportRequest request;
+      request.files.push_back({path, kind});
+      const auto done = export_files(pot_of(shapes::vase(50)), request);
+      ASSERT_FALSE(done) << path;
+      EXPECT_EQ(done.error().kind, ErrorKind::bad_input);
+      EXPECT_NE(done.error().message.find("expected a name that ends in"), std::string::npos)
+          << done.error().message;
+    }
+}
+
 TEST(ExportErrors, NameTheFileOrThePot) {
   ExportOptions options;
   options.source = "p.pot.json";

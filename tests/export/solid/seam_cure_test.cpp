@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <numbers>
 #include <vector>
 
 namespace clay::solid {
@@ -134,12 +136,34 @@ TEST(Pockets, FillsShallowPocketsOfTheSeam) {
   EXPECT_EQ(filled.on_seam, std::vector<bool>(8, false));
   EXPECT_EQ(filled.pockets, 1u);
   EXPECT_NEAR(filled.volume_mm3, 1e-3, 1e-12);
-  EXPECT_NEAR(filled.max_depth_mm, 0.05, 1e-12);
+  EXPECT_NEAR(filled.max_ball_mm, 0.05, 1e-12);
   for (const FilledPockets& kept : {fill(10, 0.049), fill(3, 0.051)}) {
     EXPECT_EQ(kept.pockets, 0u);
     EXPECT_EQ(kept.mesh.triangles.size(), 24u);
     EXPECT_EQ(kept.mesh.points.size(), 16u);
   }
+}
+
+/// A cube of 2 mm with a thin plate at one corner: its volume over its area is that of the plate,
+/// but the cube holds a ball of 1 mm.
+TEST(Pockets, BoundsTheBallInAPocketThatIsNotConvex) {
+  TriangleMesh pocket = shapes::cube(2);
+  TriangleMesh plate = shapes::cube(20);
+  for (glm::dvec3& p : plate.points) p = glm::dvec3{2.0} + p * glm::dvec3{1.0, 1.0, 5e-4};
+  pocket = shapes::together(pocket, plate);
+  const auto corner = [&](std::size_t from) {
+    const auto at = std::find(pocket.points.begin() + static_cast<std::ptrdiff_t>(from),
+                              pocket.points.end(), glm::dvec3{2.0});
+    return static_cast<std::uint32_t>(at - pocket.points.begin());
+  };
+  for (auto& triangle : pocket.triangles)
+    std::replace(triangle.begin(), triangle.end(), corner(8), corner(0));
+  const double volume = 8.0 + 20.0 * 20.0 * 0.01, area = 24.0 + 800.0 + 0.8;
+  const FilledPockets filled = fill_pockets(shapes::inverted(pocket), std::vector<bool>(16, true),
+                                            3.0 * volume / area + 1e-9);
+  ASSERT_EQ(filled.pockets, 1u);
+  EXPECT_GE(filled.max_ball_mm, 1.0);
+  EXPECT_LE(filled.max_ball_mm, std::cbrt(0.75 * volume / std::numbers::pi) + 1e-9);
 }
 
 TEST(Pockets, ComputesVolumesOfShells) {

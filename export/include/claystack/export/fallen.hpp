@@ -54,7 +54,12 @@ struct CollapsedSolid {
   std::size_t pockets = 0;   ///< also trapped, but shallower than the tolerance: filled
   double pockets_mm3 = 0.0;  ///< their volume
   double volume_mm3 = 0.0;   ///< of `mesh`: union and pockets, up to rounding
-  double max_move_mm = 0.0;  ///< upper bound of the distance from the exact union to `mesh`
+  /// Upper bound of the distance of clay that only the exact union or only `mesh` has from the
+  /// surface of the other.
+  double max_move_mm = 0.0;
+  /// Part of it: upper bound of the displacement of the surface along the seam and by rounding. A
+  /// wall may lose twice as much.
+  double reshaped_mm = 0.0;
 };
 
 /// Both parts revolved in `segments` steps (the upper one possibly rotated against the lower), the

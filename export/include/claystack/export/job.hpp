@@ -149,7 +149,8 @@ enum class FileKind {
 
 /// A file to write.
 struct FileRequest {
-  std::string path;  ///< "-" is standard output
+  /// "-" is standard output. A drawing and a table need one of the endings of kSectionFiles.
+  std::string path;
   FileKind kind = FileKind::mesh;
   MeshFormat format = MeshFormat::stl_binary;  ///< of a mesh
   std::string bytes = {};                      ///< of a given file
@@ -224,12 +225,14 @@ struct SolidSize {
   std::size_t shells = 0;
   double tolerance_mm = 0.0;  ///< as used; coarser than requested if max_triangles requires it
   double chordal_error_mm = 0.0;
-  double diameter_mm = 0.0;
+  glm::dvec3 extents_mm{0.0};  ///< width, depth and height; of a fallen pot all differ
+  double diameter_mm = 0.0;    ///< the larger of width and depth
   double height_mm = 0.0;
 };
 
 struct WallReport {
-  /// Lower bound for the solid with its facets, rounded as in a binary STL: the wall of the pot.
+  /// Lower bound for the solid with its facets, rounded as in a binary STL: the wall of the pot. Of
+  /// a fallen pot that of its parts, less what the seam and rounding move.
   double min_wall_mm = 0.0;
   Wall thinnest;  ///< the thinnest place of the section
   /// Smoothing `exact`: the minimum wall of the steps, if overshoot made a thinner edge.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
 #include <string>
@@ -146,10 +147,23 @@ struct EdgeLimit {
   std::string source;
 };
 
+/// The sum by which a process chooses its minimum wall, of width, depth and height [mm].
+[[nodiscard]] inline double size_sum_mm(const glm::dvec3& size_mm) noexcept {
+  return size_mm.x + size_mm.y + size_mm.z;
+}
+/// Width, depth and height of a body of revolution that stands upright [mm].
+[[nodiscard]] inline glm::dvec3 round_size_mm(double diameter_mm, double height_mm) noexcept {
+  return {diameter_mm, diameter_mm, height_mm};
+}
+
 /// The largest object that a machine, a kiln or a service takes.
 struct SizeLimit {
   double width_mm = 0.0, depth_mm = 0.0, height_mm = 0.0;
   std::string source;
+
+  /// Whether an object of this width, depth and height fits upright, turned by 90 degrees if
+  /// needed.
+  [[nodiscard]] bool fits(const glm::dvec3& size_mm) const noexcept;
 };
 
 struct ProcessLimits {
