@@ -2,6 +2,7 @@
 
 #include "core/svg_writer.hpp"
 #include "export/section/stack_section.hpp"
+#include "export/smoothing/wall_guard.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,20 +54,6 @@ std::vector<Outline> cut_faces(const Profile& profile) {
     }
   }
   return faces;
-}
-
-/// The outer wall of a piece, from the edge of its foot to the edge of its rim.
-Polygon outer_wall(const Polygon& piece) {
-  const auto lower = [](const ProfilePoint& a, const ProfilePoint& b) {
-    return std::pair(a.y, -a.rho) < std::pair(b.y, -b.rho);
-  };
-  const auto foot = std::ranges::min_element(piece, lower);
-  Polygon turned(foot, piece.end());
-  turned.insert(turned.end(), piece.begin(), foot);
-  const auto rim = std::ranges::max_element(turned, [](const auto& a, const auto& b) {
-    return std::pair(a.y, a.rho) < std::pair(b.y, b.rho);
-  });
-  return {turned.begin(), rim + 1};
 }
 
 /// Distances from the axis at which the boundary crosses a height, farthest first.
@@ -163,7 +150,7 @@ class SheetMaker {
 
   void draw_pot() {
     for (const Polygon& piece : profile_.pieces) {
-      Outline right = right_of(outer_wall(piece)), left = mirrored(right);
+      Outline right = right_of(lines_of(piece).outer), left = mirrored(right);
       right.insert(right.end(), left.begin(), left.end());
       add(SheetLayer::outside, {std::move(right)}, true);
     }
@@ -209,7 +196,7 @@ class SheetMaker {
 
   void draw_heights() {
     const double foot = 0.5 * numbers_.thrown.size.foot_diameter_mm;
-    const double rim = outer_wall(profile_.pieces.back()).back().rho;
+    const double rim = lines_of(profile_.pieces.back()).outer.back().rho;
     if (numbers_.thrown.capacity_ml > 0.0) {
       const double floor = floor_mm();
       height(floor, top_, radius_ + 12.0, bore_at(floor), rim);
@@ -290,7 +277,7 @@ class SheetMaker {
 
   /// A template whose left edge shapes the outside.
   void draw_rib() {
-    const Polygon wall = outer_wall(profile_.pieces.back());
+    const Polygon wall = lines_of(profile_.pieces.back()).outer;
     double narrowest = radius_;
     for (const ProfilePoint& p : wall) narrowest = std::min(narrowest, p.rho);
     const double shift = radius_ + 34.0 - narrowest, back = radius_ + shift + 15.0;

@@ -10,8 +10,6 @@
 
 namespace clay::solid::inline repair {
 
-inline bool collapsed(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
-
 struct SoupEdge {
   std::uint32_t low, high, triangle;
   friend auto operator<=>(const SoupEdge&, const SoupEdge&) = default;

@@ -3,6 +3,7 @@
 #include "core/cancel.hpp"
 #include "core/compensated_sum.hpp"
 #include "export/section/simplify_line.hpp"
+#include "export/section/swept_volume.hpp"
 #include "export/smoothing/faired_curve.hpp"
 
 #include <algorithm>
@@ -110,12 +111,7 @@ Polygon stepped_wall(const PieceWalls& piece, const WallRings& wall) {
 }
 
 double swept_over_pi(const Polygon& line) noexcept {
-  CompensatedSum sum;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const double a = line[i].rho, b = line[i + 1].rho;
-    sum.add((line[i + 1].y - line[i].y) * (a * a + a * b + b * b));
-  }
-  return sum.value() / 3.0;
+  return thrice_squared_radii(line, false) / 3.0;
 }
 
 double scale_for(const Polygon& line, const std::vector<double>& weights,

@@ -12,8 +12,6 @@ namespace {
 
 std::uint32_t narrow(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
-bool collapsed(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
-
 /// A side of a triangle, stored with the lower vertex of its edge. Sides are numbered 3 * triangle
 /// + corner, from that corner to the next.
 struct Side {

@@ -14,6 +14,11 @@ namespace clay::solid {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// Uses a vertex twice.
+[[nodiscard]] inline bool collapsed(const Triangle& t) noexcept {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
 /// One kind of fault: its count and its first place.
 struct Fault {
   std::size_t count = 0;
