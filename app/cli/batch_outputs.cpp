@@ -43,6 +43,8 @@ std::vector<std::string> outputs_of(const std::vector<std::string>& words) {
       outputs.push_back(words[++i]);
     else if (equals != word.npos && is_output(std::string_view(word).substr(0, equals)))
       outputs.push_back(word.substr(equals + 1));
+    else if (word.starts_with("-o") && word.size() > 2)
+      outputs.push_back(word.substr(2));
     else if (exports && !word.starts_with('-') && is_exported(word) && !std::exchange(input, false))
       outputs.push_back(word);
   }

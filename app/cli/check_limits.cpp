@@ -32,7 +32,7 @@ void report_wall(const solid::SampledWall& wall, const solid::WallLimit& limit, 
     return verdict.add(
         check_name(ProblemKind::thin_wall), Grade::fail,
         fmt::format("not measured: none of {} rays reached the other side of a wall", wall.rays));
-  if (wall.least_mm >= limit.min_wall_mm)
+  if (limit.met_by(wall.least_mm))
     return verdict.add(check_name(ProblemKind::thin_wall), Grade::pass,
                        sampled + ": " + solid::wall_text(wall.least_mm, limit));
   // The triangles of united shells are not those of the file.
@@ -161,7 +161,7 @@ Result<void> check_walls(const PrintedBody& body, const glm::dvec3& size,
   if (!verdict.certified_wall_mm) return measure_wall(body, *limit, command, console, verdict);
   const double wall_mm = *verdict.certified_wall_mm;
   verdict.add(check_name(ProblemKind::thin_wall),
-              wall_mm >= limit->min_wall_mm ? Grade::pass : Grade::fail,
+              limit->met_by(wall_mm) ? Grade::pass : Grade::fail,
               "certified: " + solid::wall_text(wall_mm, *limit));
   return {};
 }

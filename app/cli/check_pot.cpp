@@ -51,7 +51,7 @@ Verdict verdict_on(const solid::ExportReport& report) {
   verdict.wall_mm = report.walls.min_wall_mm;
   verdict.wall_parts = report.walls.parts;
   const auto& limit = report.walls.limit;
-  if (limit && *verdict.wall_mm < limit->min_wall_mm)
+  if (limit && !limit->met_by(*verdict.wall_mm))
     verdict.add(check_name(solid::ProblemKind::thin_wall), Grade::fail,
                 "thin wall: " + solid::thin_wall_text(profile, *verdict.wall_mm, *limit));
   else if (limit)

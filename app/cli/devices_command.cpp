@@ -124,10 +124,12 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
                    "Device to open: auto, falcon, bridge, spacemouse, simulated, or its place")
       ->check(check_device_name);
   add_falcon_options(*command, options->falcon);
-  command->add_flag("--monitor", options->monitor, "Show position and buttons until interrupted");
+  CLI::Option* const monitor = command->add_flag("--monitor", options->monitor,
+                                                 "Show position and buttons until interrupted");
   command
       ->add_option("--seconds", options->seconds,
                    "Duration of the monitor [s] (default: until interrupted)")
+      ->needs(monitor)
       ->check(in_range(0.0, 1e6));
   add_place_options(*command, options->mapping);
   command->footer(

@@ -413,7 +413,7 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
   if (const auto& limit = report.walls.limit; limit && report.has_solid())
     json["wall_demand"] = {{"min_wall_mm", limit->min_wall_mm},
                            {"source", limit->asked_by()},
-                           {"passes", report.thinnest_mm() >= limit->min_wall_mm}};
+                           {"passes", limit->met_by(report.thinnest_mm())}};
   if (report.process.overhang) json["overhang"] = overhang_json(report.process);
   if (const auto& process = report.process.limits) json["process"] = process_json(report, *process);
   json["maker"] = maker_json(report);

@@ -119,10 +119,10 @@ void print_summary(const Console& console, const ImportOptions& options, const H
                             options.pot_settings.wall_mm ? "if it were solid" : "in the drawing"));
   console.print(text_of(drawn.deviation, "drawing"));
   if (drawn.thinnest)
-    console.print(
-        fmt::format("thinnest wall: {:.2f} mm, {:.2f} mm from the axis and {:.2f} mm above "
-                    "the foot",
-                    drawn.thinnest->mm, drawn.thinnest->radius_mm, drawn.thinnest->height_mm));
+    console.print(fmt::format(
+        "thinnest wall as drawn: {:.2f} mm, {:.2f} mm from the axis and {:.2f} mm above "
+        "the foot",
+        drawn.thinnest->mm, drawn.thinnest->radius_mm, drawn.thinnest->height_mm));
 }
 
 #ifdef CLAYSTACK_EXPORT

@@ -7,8 +7,9 @@
 namespace clay::cli {
 
 void WallOptions::add_to(CLI::App& command) {
-  add_length(command, "--min-wall", min_wall_mm_, "Minimum wall [mm] (default: no limit)", 1e-6,
-             1e4);
+  add_length(command, "--min-wall", min_wall_mm_,
+             "Minimum wall [mm]; with --process the larger of both applies (default: no limit)",
+             1e-6, 1e4);
   command.add_option(
       "--process", process_,
       "Process that sets the minimum wall: fdm, sla, earthenware, stoneware, porcelain, or a .json "

@@ -1,5 +1,7 @@
 #include "app/history/pot_scene.hpp"
 
+#include "claystack/engine/tick.hpp"
+
 #include <algorithm>
 #include <utility>
 

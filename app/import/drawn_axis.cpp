@@ -71,11 +71,17 @@ Result<std::optional<double>> take_axis_lines(Drawing& drawing, std::optional<do
   return axis;
 }
 
-/// No line begins, ends or runs along the vertical line, as they do at an axis.
+/// No line runs along the vertical line, and none begins or ends there as at an axis: nearly level,
+/// as a foot or a lid does.
 bool only_a_corner_at(const std::vector<Line>& lines, double x_mm) {
-  const auto near = [&](glm::dvec2 p) { return std::abs(p.x - x_mm) <= kSamePointMm; };
+  const auto level_at = [&](glm::dvec2 end, glm::dvec2 next) {
+    return std::abs(end.x - x_mm) <= kSamePointMm &&
+           std::abs(next.y - end.y) <= std::abs(next.x - end.x);
+  };
   return !edge_along(lines, x_mm) && std::none_of(lines.begin(), lines.end(), [&](const Line& l) {
-    return !l.closed && (near(l.points_mm.front()) || near(l.points_mm.back()));
+    const auto& p = l.points_mm;
+    return !l.closed && p.size() > 1 &&
+           (level_at(p[0], p[1]) || level_at(p.rbegin()[0], p.rbegin()[1]));
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Makes a pot from a half section: rings with the drawing's volume.
+// Makes a pot from a half section: rings that hold the clay of the drawing, whose levels
+// are first moved to the bounds of rings.
 
 #include "app/import/deviation.hpp"
 #include "app/import/half_section.hpp"

@@ -18,7 +18,7 @@ struct ScannedSlab {
 /// Where the radii scatter or change far more than the noise and the height, the half-planes cut
 /// the hills and hollows of a nearly level face, and no radius means anything. Each such range of
 /// heights becomes one level face, at the height that keeps the clay in it, if it is as thin as the
-/// noise; thicker ranges slope and stay. Without noise, so do all.
+/// noise. Thicker ranges are real slopes and are kept. With a noise of 0 all ranges are kept.
 [[nodiscard]] std::vector<Slab> with_level_faces(const std::vector<ScannedSlab>& slabs,
                                                  double noise_mm);
 

@@ -16,7 +16,8 @@ struct MeshAxis {
 
 /// The line that the normals of the triangles meet best, weighted by area, with those that miss it
 /// by far left out step by step (Pottmann, Wallner, "Computational Line Geometry", 2001: normals of
-/// a surface of revolution meet its axis). Upward is the end of the larger coordinate.
+/// a surface of revolution meet its axis). The largest component of its direction is positive;
+/// z wins a tie.
 [[nodiscard]] MeshAxis fitted_axis(const solid::TriangleMesh& mesh);
 
 /// Right-angled coordinates with the axis as z; x is as near as possible to the file's x, or to its

@@ -15,7 +15,7 @@ namespace clay::importing {
 [[nodiscard]] std::size_t fitting_ring_count(const std::vector<double>& levels, std::size_t fewest);
 
 /// The section with each level moved to the nearest bound of `count` rings, and everything between
-/// stretched with it. Levels that would meet stay.
+/// stretched with it. A level whose bound is taken by a lower one is moved with its surroundings.
 [[nodiscard]] std::vector<Slab> on_ring_bounds(const HalfSection& section,
                                                const std::vector<double>& levels,
                                                std::size_t count);

@@ -6,7 +6,7 @@
 
 namespace clay::render {
 
-/// A swatch of the wall map: an sRGB colour and its thickness [mm].
+/// A swatch of the wall map: an sRGB colour.
 struct Swatch {
   std::uint8_t red = 0, green = 0, blue = 0;
 };

@@ -30,7 +30,19 @@ std::vector<glm::dvec3> outline_points(const PotView& pot) {
       points.push_back(fell ? glm::dvec3(pot.fallen->place * glm::dvec4(point, 1.0)) : point);
     }
   };
-  for (std::size_t row = 0; row < count; row += stride) add(row, height * static_cast<double>(row));
+  for (std::size_t row = 0; row < count; row += stride) {
+    add(row, height * static_cast<double>(row));
+    // A flange may be narrower than a stride.
+    const std::size_t next = std::min(row + stride, count - 1);
+    const auto widest = static_cast<std::size_t>(
+        std::max_element(pot.rows.begin() + static_cast<std::ptrdiff_t>(row),
+                         pot.rows.begin() + static_cast<std::ptrdiff_t>(next) + 1,
+                         [](const Row& a, const Row& b) { return a.outer_mm < b.outer_mm; }) -
+        pot.rows.begin());
+    if (widest == row || widest == next) continue;
+    add(widest, height * static_cast<double>(widest));
+    add(widest, height * static_cast<double>(widest + 1));
+  }
   if (count > 0) add(count - 1, pot.height_mm);
   return points;
 }

@@ -36,8 +36,8 @@ Result<Image> drawn(Offscreen& screen, const Picture& picture, Viewport size);
 
 /// Called before each of `of` drawings; an error ends the turntable.
 using TurnProgress = std::function<Result<void>(std::size_t done, std::size_t of)>;
-/// One turn of the pot in three seconds, as a GIF. Returns the number of bytes. Errors as for
-/// write_gif, and those of `progress`.
+/// One turn of the pot as a GIF: in about three seconds, or 20 ms a frame if that is longer.
+/// Returns the number of bytes. Errors as for write_gif, and those of `progress`.
 Result<std::uint64_t> write_turntable(Offscreen& screen, Picture picture,
                                       const PictureChoices& choices, const TurnProgress& progress,
                                       const ByteSink& sink);

@@ -12,8 +12,8 @@ namespace clay::render {
 struct FrameBlock {
   glm::mat4 view_projection{1.0f};
   glm::vec4 eye{0.0f};                                       ///< [mm]
-  glm::vec4 to_lamp{0.0f};                                   ///< unit
-  glm::vec4 to_rim_lamp{0.0f};                               ///< unit; sine of that turn
+  glm::vec4 to_lamp{0.0f};                                   ///< unit; cosine of the wheel's turn
+  glm::vec4 to_rim_lamp{0.0f};                               ///< unit; sine of the wheel's turn
   glm::vec4 lamp{0.0f}, sky{0.0f}, bounce{0.0f}, rim{0.0f};  ///< linear colours
   glm::vec4 low{0.0f}, high{0.0f};                           ///< of the background, at its edges
   glm::vec4 viewport{0.0f};  ///< width, height [px]; half side of the shadow map [mm]

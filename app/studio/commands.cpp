@@ -68,11 +68,6 @@ bool has_written(View view) {
                                         : !view.ui.exporting.written.empty();
 }
 bool can_draw(View view) { return view.between_strokes() && PictureWriter::available(); }
-const char* why_no_pictures(View) {
-  return PictureWriter::available() ? nullptr
-                                    : "a web page cannot write pictures; open the pot in the "
-                                      "program for the desktop";
-}
 const char* why_no_undo(View view) {
   return can_undo(view) ? nullptr : "there is no stroke to undo";
 }
@@ -84,6 +79,11 @@ const char* why_not_between(View view) {
   return between(view)       ? nullptr
          : why_no_work(view) ? why_no_work(view)
                              : "a stroke is in progress";
+}
+const char* why_no_pictures(View view) {
+  return PictureWriter::available() ? why_not_between(view)
+                                    : "a web page cannot write pictures; open the pot in the "
+                                      "program for the desktop";
 }
 bool can_import(View view) {
   const auto* import = std::get_if<ImportDialog>(&view.ui.dialog);

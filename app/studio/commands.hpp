@@ -22,7 +22,8 @@ struct Command {
   Action action;
   bool (*enabled)(const ViewModel&);
   bool (*checked)(const ViewModel&) = nullptr;  ///< state of a command that toggles something
-  /// Why it is disabled now, for the end of a sentence; null: it is enabled.
+  /// Why it is disabled now, for the end of a sentence; null: it is enabled, or
+  /// the view shows the reason.
   const char* (*why_not)(const ViewModel&) = nullptr;
 };
 

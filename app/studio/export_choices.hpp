@@ -65,7 +65,8 @@ struct ExportFigures {
     solid::MeshFormat format = solid::MeshFormat::stl_binary;
     std::uint64_t bytes = 0;
   };
-  bool has_solid = false;  ///< a mesh was written; without one the figures are those of no solid
+  /// A mesh or a STEP file was written. Without one, no solid was made, and the sizes are 0.
+  bool has_solid = false;
   std::size_t triangles = 0;
   std::vector<Mesh> meshes;
   double diameter_mm = 0.0, height_mm = 0.0, shrinkage = 0.0;

@@ -119,7 +119,7 @@ bool is_part(std::string_view text, double least) {
   return number && *number >= least && *number <= 1.0;
 }
 
-/// The same for the commands of pens and gamepads.
+/// The fault of the arguments of a pen or gamepad command; empty: none.
 std::string fault_of_hand(const std::vector<std::string>& words) {
   const std::string_view command = words[0];
   const auto found = [&](std::string_view what, std::size_t word) {
@@ -139,6 +139,8 @@ std::string fault_of_hand(const std::vector<std::string>& words) {
   if (!is_over(words, 2 + numbers)) return found("over SECONDS", 2 + numbers);
   return {};
 }
+
+bool is_ascii(char c) { return static_cast<unsigned char>(c) < 128; }
 
 /// The fault of the arguments of a command; empty: none. Their number is right.
 std::string fault_of(const std::vector<std::string>& words) {
@@ -160,6 +162,7 @@ std::string fault_of(const std::vector<std::string>& words) {
   if (command == "wait" && !is_number(words[1], 0.0)) return expected("a number of seconds");
   if (command == "key" && !chord_of(words[1])) return expected("a key");
   if (command == "do" && find_command(words[1]) == nullptr) return expected("an action");
+  if (command == "type" && !std::ranges::all_of(words[1], is_ascii)) return expected("ASCII text");
   if (command == "open" && words.size() == 3 && words[2] != "fails") return expected("fails", 2);
   if (command != "expect") return fault_of_hand(words);
   if (!is_fact(words[1])) return expected("a fact");

@@ -17,9 +17,9 @@
 namespace clay::studio {
 
 inline constexpr double kSlowestHandMmPerS = 10.0, kFastestHandMmPerS = 200.0;
-/// How far the mouse digs the tool into the clay per turn of the wheel at most [mm].
 /// Stiffness of the contact [N/mm^2].
 inline constexpr double kSoftestClay = 1e-4, kStiffestClay = 10.0;
+/// How far the mouse digs the tool into the clay per turn of the wheel at most [mm].
 inline constexpr double kSoftestBiteMm = 0.5, kFirmestBiteMm = 20.0, kUsualBiteMm = 8.0;
 /// The bite of a press of this strength, 0 (soft) to 1 (firm).
 [[nodiscard]] double bite_at(double strength) noexcept;
@@ -53,7 +53,7 @@ void remember(Settings& settings, const std::filesystem::path& path);
 /// Selects a custom process file and puts it first in the list.
 void remember_process(Settings& settings, const std::filesystem::path& path);
 
-/// The file studio.json in the user's settings folder (cli::user_folder). Empty without one.
+/// The file studio.json in the user's settings folder (clay::user_folder). Empty without one.
 [[nodiscard]] std::filesystem::path settings_path();
 
 /// Errors name file, field, what was expected and what was found.

@@ -75,7 +75,7 @@ class Studio {
   void name_window();
   void turn_wheel(double elapsed_s);
   void lay_out(const ViewModel& model, Actions& actions);
-  void place_view(const ViewModel& model, const ViewRect& view, float timeline, bool narrow);
+  void place_view(const ViewModel& model, const ViewRect& view, float timeline, bool card);
   [[nodiscard]] bool needs_paint();
   void paint();
   bool update_canvas();

@@ -218,7 +218,7 @@ std::string result_text(const ExportFigures& figures, std::size_t count) {
   std::string text = fmt::format("{} file{} written", count, count == 1 ? "" : "s");
   std::uint64_t bytes = 0;
   for (const ExportFigures::Mesh& mesh : figures.meshes) bytes += mesh.bytes;
-  if (figures.has_solid)
+  if (!figures.meshes.empty())
     text += fmt::format("; {} triangles, {:.2f} MB of meshes, each proved and read back",
                         figures.triangles, 1e-6 * static_cast<double>(bytes));
   return figures.failed > 0 ? fmt::format("{}; {}", text, failed_text(figures.failed)) : text;

@@ -89,7 +89,6 @@ struct Shortest {
 /// The thickest place of a body in which every ray is close to an end.
 struct Thickest {
   double room_mm = 0.0;  ///< twice the distance from the middle of the ray to the nearest face seen
-  double mm = 0.0;       ///< length of the ray
   glm::dvec3 place{0.0};
   std::uint32_t triangle = 0;
   std::size_t sample = std::numeric_limits<std::size_t>::max();
@@ -118,8 +117,8 @@ struct Found {
   /// A compact body ends close to every ray. Its thickness is that of its thickest place.
   [[nodiscard]] SampledWall result() const {
     SampledWall result = wall;
-    const bool compact = std::isinf(least.mm) && at_an_end.mm > 0.0;
-    result.least_mm = compact ? at_an_end.mm : least.mm;
+    const bool compact = std::isinf(least.mm) && at_an_end.room_mm > 0.0;
+    result.least_mm = compact ? at_an_end.room_mm : least.mm;
     result.place = compact ? at_an_end.place : least.place;
     result.triangle = compact ? at_an_end.triangle : least.triangle;
     return result;
@@ -139,6 +138,11 @@ constexpr double kWedge = 0.79;
 /// thicknesses, it has less; farther than `kMostEnd`, even in a wedge it has more: 1.5, seen
 /// at 22.5 degrees.
 constexpr double kSpan = 3.06, kLeastEnd = 0.6, kMostEnd = 1.63;
+
+/// The clay ends on one side of a line if the other side is so many times longer: at a third of the
+/// width of a bar both sides are ends.
+constexpr double kOneSided = 2.0;
+constexpr double kLeansMore = 0.1;  ///< of the sines of two faces
 
 class WallProbe {
  public:
@@ -163,8 +167,7 @@ class WallProbe {
       const Beside beside = ray.mm < found.least.mm ? look_beside(middle, steps) : Beside{};
       if (is_end(middle, beside, steps)) {
         one.wall.oblique = 1;
-        one.at_an_end = {std::min(ray.mm, 2.0 * beside.nearest_mm), ray.mm, begin, triangle,
-                         sample};
+        one.at_an_end = {std::min(ray.mm, 2.0 * beside.nearest_mm), begin, triangle, sample};
       } else {
         one.least = ray;
       }
@@ -206,11 +209,11 @@ class WallProbe {
     struct Way {
       glm::dvec3 direction;
       double mm = kFar;
-      bool grazes = false;  // a leaning face, beside which the clay goes on
+      double facing = 1.0;  // as of a Middle
     };
     const auto way = [&](const glm::dvec3& direction) {
       const auto hit = hit_from(middle.place, direction, steps);
-      return hit ? Way{direction, *hit->mm, hit->facing < kGrazing} : Way{direction};
+      return hit ? Way{direction, *hit->mm, hit->facing} : Way{direction};
     };
     constexpr int kLines = 4;
     Beside beside;
@@ -220,8 +223,11 @@ class WallProbe {
       Way nearer = way(direction), farther = way(-direction);
       if (nearer.mm > farther.mm) std::swap(nearer, farther);
       beside.nearest_mm = std::min(beside.nearest_mm, nearer.mm);
+      const bool longer = farther.mm >= middle.thickness_mm && farther.mm > kOneSided * nearer.mm;
+      // Beside a leaning face the clay goes on; the sides of a bar lean alike.
+      const bool leans = farther.facing < kGrazing && farther.facing < nearer.facing - kLeansMore;
       const double end = nearer.mm / middle.thickness_mm;
-      if (end < beside.end && (farther.mm >= middle.thickness_mm || farther.grazes))
+      if (end < beside.end && (longer || leans))
         beside.end = end, beside.towards = nearer.direction;
     }
     return beside;

@@ -13,7 +13,7 @@ namespace clay::solid::inline formats {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_2;
+using FlatPoint = Kernel::Point_2;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
@@ -32,13 +32,13 @@ using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
 
 /// Counterclockwise, without the axis that the normal is nearest to. Coordinates are kept, so that
 /// predicates on them are exact.
-std::vector<Point> seen_along(const glm::dvec3& normal, const std::vector<glm::dvec3>& points) {
+std::vector<FlatPoint> seen_along(const glm::dvec3& normal, const std::vector<glm::dvec3>& points) {
   int axis = 0;
   for (const int other : {1, 2})
     if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
   int u = (axis + 1) % 3, v = (axis + 2) % 3;
   if (normal[axis] < 0.0) std::swap(u, v);
-  std::vector<Point> flat;
+  std::vector<FlatPoint> flat;
   flat.reserve(points.size());
   for (const glm::dvec3& p : points) flat.emplace_back(p[u], p[v]);
   return flat;
@@ -46,7 +46,7 @@ std::vector<Point> seen_along(const glm::dvec3& normal, const std::vector<glm::d
 
 /// Whether the fan from the first corner covers the polygon once: its triangles turn left, and less
 /// than a full turn together.
-bool is_fan(const std::vector<Point>& p) {
+bool is_fan(const std::vector<FlatPoint>& p) {
   bool beyond_half = false;
   for (std::size_t i = 1; i + 1 < p.size(); ++i) {
     if (CGAL::orientation(p[0], p[i], p[i + 1]) != CGAL::LEFT_TURN) return false;
@@ -59,7 +59,8 @@ bool is_fan(const std::vector<Point>& p) {
 
 class PolygonTriangulation {
  public:
-  PolygonTriangulation(const std::vector<std::uint32_t>& corners, const std::vector<Point>& flat)
+  PolygonTriangulation(const std::vector<std::uint32_t>& corners,
+                       const std::vector<FlatPoint>& flat)
       : corners_(corners), flat_(flat) {}
 
   std::optional<Triangles> run() {
@@ -136,7 +137,7 @@ class PolygonTriangulation {
   }
 
   const std::vector<std::uint32_t>& corners_;
-  const std::vector<Point>& flat_;
+  const std::vector<FlatPoint>& flat_;
   Triangulation made_;
   std::vector<Triangulation::Vertex_handle> vertices_;  ///< by corner
   std::vector<Edge> edges_;
@@ -147,7 +148,7 @@ class PolygonTriangulation {
 bool split_polygon(const std::vector<std::uint32_t>& corners, const std::vector<glm::dvec3>& points,
                    const glm::dvec3& area, std::span<std::array<std::uint32_t, 3>> triangles) {
   if (area == glm::dvec3(0.0)) return false;
-  const std::vector<Point> flat = seen_along(area, points);
+  const std::vector<FlatPoint> flat = seen_along(area, points);
   if (is_fan(flat)) return true;
   const auto made = PolygonTriangulation(corners, flat).run();
   if (made) std::ranges::copy(*made, triangles.begin());

@@ -27,7 +27,7 @@ namespace {
 std::optional<std::string> thin_wall_of_solid(const ExportReport& report) {
   const auto& limit = report.walls.limit;
   const double thinnest = report.thinnest_mm();
-  if (!limit || thinnest >= limit->min_wall_mm) return std::nullopt;
+  if (!limit || limit->met_by(thinnest)) return std::nullopt;
   return "thin wall: " + (report.collapsed
                               ? wall_text(thinnest, *limit)
                               : thin_wall_text(report.section.profile(), thinnest, *limit));

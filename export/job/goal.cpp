@@ -157,8 +157,7 @@ class GoalSearch {
   }
 
   Result<GoalReport> accept(const ExportReport& report) {
-    if (const auto& limit = report.walls.limit;
-        limit && report.walls.min_wall_mm < limit->min_wall_mm)
+    if (const auto& limit = report.walls.limit; limit && !limit->met_by(report.walls.min_wall_mm))
       return failure(
           ErrorKind::unsound,
           fmt::format("goal: scaled by {:.4f} across and {:.4f} up, thin wall: ", scale_.radius,

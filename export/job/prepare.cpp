@@ -50,7 +50,7 @@ Result<Pot> scaled(const Pot& pot, double radius_factor, double height_factor) {
                                              in_mm(2.0 * radius_mm) + " mm");
   std::vector<Ring> rings;
   rings.reserve(pot.stack.size());
-  // A double, and so every file, holds radii of at most 362 mm to the quantum.
+  // A double represents a radius to the quantum up to 362 mm; so does every file.
   for (const Ring& ring : pot.stack.rings())
     rings.push_back(times(ring, radius_factor * radius_factor));
   const WideQuanta crown = crown_of(pot.stack, rings.back());

@@ -106,12 +106,12 @@ class RevolvedExport {
   Result<Design> design_at(double tolerance_mm) {
     auto free = design_with(std::nullopt, tolerance_mm);
     if (!prepared_.limit) return free;
-    const double limit_mm = prepared_.limit->min_wall_mm;
-    const auto keeps_it = [limit_mm](const Result<Design>& design) {
-      return design && stated_wall_mm(design->claims, layout_of(*design)) >= limit_mm;
+    const WallLimit& limit = *prepared_.limit;
+    const auto keeps_it = [&limit](const Result<Design>& design) {
+      return design && limit.met_by(stated_wall_mm(design->claims, layout_of(*design)));
     };
     if (keeps_it(free)) return free;
-    auto limited = design_with(limit_mm, tolerance_mm);
+    auto limited = design_with(limit.min_wall_mm, tolerance_mm);
     return keeps_it(limited) || !free ? limited : free;
   }
 

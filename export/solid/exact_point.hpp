@@ -11,7 +11,7 @@
 
 namespace clay::solid::cgal {
 
-/// Rounded towards zero: so GMP rounds.
+/// Rounds towards zero, as GMP does.
 template <class Exact>
 [[nodiscard]] double double_of(const Exact& x) {
   return CGAL::to_double(x);

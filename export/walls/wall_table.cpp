@@ -26,11 +26,11 @@ std::string_view name_of(const WallSample& sample) {
   return sample.part == WallPart::wall ? name_of(sample.face) : name_of(sample.part);
 }
 
-std::vector<Stretch> thin_stretches(const Profile& profile, double min_wall_mm) {
+std::vector<Stretch> thin_stretches(const Profile& profile, const WallLimit& limit) {
   std::vector<Stretch> stretches;
   bool open = false;
   for (const WallSample& s : wall_field(profile, kWallTableSpacingMm)) {
-    const bool thin = s.thickness_mm < min_wall_mm;
+    const bool thin = !limit.met_by(s.thickness_mm);
     if (open && (stretches.back().name != name_of(s) || stretches.back().piece != s.piece))
       open = false;
     if (thin && !open) stretches.push_back({s.piece, name_of(s), s.at.y, s.at.y});
@@ -54,17 +54,19 @@ std::string text_of(const Stretch& stretch) {
 }  // namespace
 
 std::string wall_text(double thinnest_mm, const WallLimit& limit) {
-  // Enough digits to distinguish a wall that fails from its limit.
-  const bool fails = thinnest_mm < limit.min_wall_mm;
+  // Enough digits to distinguish a thinner wall from its limit.
+  const double below_mm = limit.min_wall_mm - thinnest_mm;
+  const bool fails = !limit.met_by(thinnest_mm);
   int digits = 3;
-  while (fails && digits < 9 && limit.min_wall_mm - thinnest_mm < std::pow(10.0, -digits)) ++digits;
-  return fmt::format("{:.{}f} mm, expected at least {:.{}f} mm ({})", thinnest_mm, digits,
-                     limit.min_wall_mm, digits, limit.asked_by());
+  while (below_mm > 0.0 && digits < 9 && below_mm < std::pow(10.0, -digits)) ++digits;
+  return fmt::format("{:.{}f} mm, expected at least {:.{}f} mm ({}){}", thinnest_mm, digits,
+                     limit.min_wall_mm, digits, limit.asked_by(),
+                     below_mm > 0.0 && !fails ? "; within the allowance" : "");
 }
 
 std::string thin_wall_text(const Profile& profile, double thinnest_mm, const WallLimit& limit) {
   std::string text = wall_text(thinnest_mm, limit);
-  const std::vector<Stretch> stretches = thin_stretches(profile, limit.min_wall_mm);
+  const std::vector<Stretch> stretches = thin_stretches(profile, limit);
   for (std::size_t i = 0; i < std::min(stretches.size(), kMostStretches); ++i)
     text += (i == 0 ? "; thinner: " : ", ") + text_of(stretches[i]);
   if (stretches.size() > kMostStretches)

@@ -174,7 +174,7 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
   if (const int chosen = choice_row("##smooth", kSmoothTitles, smooth); chosen >= 0)
     choices.smoothing = kSmooth[static_cast<std::size_t>(chosen)];
   tip("Fair: smooth walls. Exact: keeps the volume of every ring. None: keeps the steps.");
-  if (choices.smoothing == solid::Smoothing::fair)
+  if (choices.smoothing == solid::Smoothing::fair && !model.document.pot().collapse)
     choose_smooth_length(model.document.pot(), unit, choices);
   form_row("Process");
   (void)choose_process(model, "None", choices.process, actions);

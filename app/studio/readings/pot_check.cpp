@@ -183,7 +183,7 @@ render::WallMap wall_map_of(const PotCheck& check) {
   std::vector<float> faces;
   for (const render::RowWall& wall : check.walls)
     faces.insert(faces.end(), {wall.outer_mm, wall.inner_mm});
-  return {check.limit ? check.limit->min_wall_mm : 0.0, scale_top_mm(std::move(faces))};
+  return {check.limit ? check.limit->least_mm() : 0.0, scale_top_mm(std::move(faces))};
 }
 
 std::vector<Stretch> thin_stretches(const PotCheck& check) {
@@ -194,7 +194,7 @@ std::vector<Stretch> thin_stretches(const PotCheck& check) {
   for (std::size_t row = 0; row < check.walls.size(); ++row) {
     const render::RowWall& wall = check.walls[row];
     const bool thin =
-        static_cast<double>(std::min(wall.outer_mm, wall.inner_mm)) < check.limit->min_wall_mm;
+        !check.limit->met_by(static_cast<double>(std::min(wall.outer_mm, wall.inner_mm)));
     const double low_mm = row_mm * static_cast<double>(row);
     if (thin && !open) stretches.push_back({low_mm, low_mm});
     if (thin) stretches.back().to_mm = low_mm + row_mm;

@@ -84,7 +84,7 @@ struct PotCheck {
   [[nodiscard]] bool ready() const;
   [[nodiscard]] Verdict verdict() const;
   [[nodiscard]] bool thin() const {
-    return limit && proved && !fallen && thinnest_mm < limit->min_wall_mm;
+    return limit && proved && !fallen && !limit->met_by(thinnest_mm);
   }
 };
 

@@ -159,6 +159,10 @@ TEST_F(Batch, RefusesJobsThatWriteTheSameFile) {
   EXPECT_EQ(ran.status, 2) << ran.out;
   EXPECT_NE(ran.err.find("written by a.pot.json and again"), std::string::npos) << ran.err;
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
+  second["run"][2] = "-o" + folder.file("a.pot.json");
+  second["run"].erase(3);
+  write_jobs({thrown("a.pot.json"), second});
+  EXPECT_EQ(run("-j 2").status, 2) << "an attached name";
   // The input of several exports is no output.
   const std::string pot = folder.file("b.pot.json"), stl = folder.file("b.stl");
   ASSERT_EQ(claystack("throw -q " + sample("cylinder.scene.json") + " -o " + pot).status, 0);

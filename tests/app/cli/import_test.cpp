@@ -210,7 +210,7 @@ TEST(Import, ReportsTheThinnestWallOfAHollowedOutline) {
   EXPECT_NEAR(leaning.json().at("thinnest_wall_mm").get<double>(), 3.0, 1e-3);
   EXPECT_EQ(leaning.err, "");
   EXPECT_THAT(claystack("import --wall 3 " + dish + " -o " + pot).out,
-              HasSubstr("thinnest wall: 3.00 mm"));
+              HasSubstr("thinnest wall as drawn: 3.00 mm"));
   const Ran solid = claystack("import --json " + dish + " -o " + pot);
   EXPECT_TRUE(solid.json().at("thinnest_wall_mm").is_null());
 }

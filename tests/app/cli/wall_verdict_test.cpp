@@ -1,14 +1,18 @@
 // One wall for one pot, whichever command states it. CLAYSTACK_WALL_POTS=500 throws 500 pots.
 
 #include "claystack/engine/files.hpp"
+#include "claystack/export/walls.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iomanip>
 #include <random>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace clay::test {
 namespace {
@@ -51,6 +55,11 @@ void throw_at_random(std::mt19937_64& random, const std::string& scene_path,
   write_text(session_path, write_session(session));
 }
 
+/// The smallest limit that such a wall does not meet, for walls above 0.1 mm.
+double just_above(double wall_mm) {
+  return std::max(wall_mm / 0.999, std::min(wall_mm, 1.0) + 1e-3) * (1.0 + 1e-9);
+}
+
 TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
   std::mt19937_64 random(20'261'123);
   std::size_t passed = 0, failed = 0;
@@ -79,13 +88,15 @@ TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
     // A limit that the pot keeps changes nothing, nor one that it cannot keep. In between, it keeps
     // it with less smoothing.
     const std::string unlimited = read_text(stl);
-    for (const double asked : {wall, wall * (1.0 + 1e-9)}) {
+    for (const double asked : {wall, just_above(wall)}) {
       std::ostringstream limit_text;
       limit_text << " --min-wall " << std::setprecision(17) << asked << ' ';
       const std::string limit = limit_text.str();
       const Ran exported = claystack("export --json --certificate" + limit + pot + " " + stl);
       const Ran checked = claystack("check --json" + limit + pot);
-      const int expected = exported.json().at("min_wall_mm") >= asked ? 0 : 1;
+      solid::WallLimit asked_limit;
+      asked_limit.min_wall_mm = asked;
+      const int expected = asked_limit.met_by(exported.json().at("min_wall_mm")) ? 0 : 1;
       EXPECT_EQ(exported.status, expected) << exported.out << exported.err;
       EXPECT_EQ(checked.status, expected) << checked.out;
       ++(expected == 0 ? passed : failed);
@@ -103,6 +114,23 @@ TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
   }
   EXPECT_GE(2 * passed, pots());
   EXPECT_GE(2 * failed, pots());
+}
+
+TEST(WallVerdict, AWallDrawnAtTheLimitPasses) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("cup.pot.json"), stl = folder.file("cup.stl");
+  std::vector<Ring> rings(80, {quanta_from_radius(40.0), quanta_from_radius(36.0)});
+  for (std::size_t i = 0; i < 6; ++i) rings[i].inner2 = 0;
+  Pot cup;
+  cup.stack = ClayStack::from_rings(1.0, rings, 0, rings.size()).value();
+  cup.ledger.initial = cup.stack.volume();
+  write_text(pot, write_pot(cup, PotEncoding::json));
+  for (const auto& [limit, status] : {std::pair{"4", 0}, {"4.003", 0}, {"4.01", 1}}) {
+    EXPECT_EQ(claystack("export -q " + pot + " " + stl + " --min-wall " + limit).status, status)
+        << limit;
+    EXPECT_EQ(claystack("check -q " + pot + " --min-wall " + limit).status, status) << limit;
+    EXPECT_EQ(claystack("check -q " + stl + " --min-wall " + limit).status, status) << limit;
+  }
 }
 
 // A lip that tapers to 0.23 mm.

@@ -175,6 +175,12 @@ TEST(HalfSection, WarnsOfAnAxisThroughACorner) {
   EXPECT_TRUE(half_section({{wall}, false}, {AxisRule::at, 100.0, {}}, "pot")->notes.empty());
   const Line open{{{0, 0}, {40, 0}, {20, 90}}, false};
   EXPECT_TRUE(half_section({{open}, false}, {}, "pot")->notes.empty());
+  // The outside of a wall, drawn without an axis: its foot is no point of the axis.
+  const Line outside{{{130, 0}, {145, 30}, {140, 80}, {142, 100}}, false};
+  const auto spike = half_section({{outside}, false}, {}, "pot");
+  ASSERT_TRUE(spike) << refusal_of(spike);
+  ASSERT_EQ(spike->notes.size(), 1u);
+  EXPECT_THAT(spike->notes[0], HasSubstr("found only a corner at the left end, x = 130 mm"));
 }
 
 TEST(HalfSection, HeightOptionScalesUniformly) {

@@ -46,6 +46,23 @@ RC_GTEST_PROP(Camera, MatricesProjectToTheSamePixel, ()) {
   RC_ASSERT(std::abs((1.0 - clip.y / clip.w) * 180.0 - pixel->y) < scale);
 }
 
+TEST(Camera, FramesANarrowFlangeWhereverItIs) {
+  const auto with_flange = [](std::size_t row) {
+    render::PotView pot;
+    pot.height_mm = 100.0;
+    pot.rows.assign(1000, {20.0f, 15.0f});
+    pot.rows[row].outer_mm = 80.0f;
+    return pot;
+  };
+  const double none = render::wheel_radius_mm(with_flange(0));
+  const double near = render::framed(with_flange(500), 1.5).distance_mm;
+  for (const std::size_t row : {501u, 506u, 509u, 514u}) {
+    const render::PotView pot = with_flange(row);
+    EXPECT_EQ(render::wheel_radius_mm(pot), none) << row;
+    EXPECT_NEAR(render::framed(pot, 1.5).distance_mm, near, 0.03 * near) << row;
+  }
+}
+
 TEST(Camera, LooksAtItsTargetFromItsEye) {
   const Camera camera{0.3, 0.5, 400.0, {5.0, 60.0, -3.0}, 0.5};
   EXPECT_NEAR(glm::distance(render::eye_mm(camera), camera.target_mm), 400.0, 1e-9);

@@ -26,6 +26,7 @@ TEST(Script, ErrorsNameTheLine) {
   EXPECT_EQ(error_of("type \"open"), "s:1: expected a closing quote, found none");
   EXPECT_EQ(error_of("wait 1\nkey Hyper+X"), "s:2: expected a key, found Hyper+X");
   EXPECT_EQ(error_of("expect colour red"), "s:1: expected a fact, found colour");
+  EXPECT_EQ(error_of("type \xc3\xbc"), "s:1: expected ASCII text, found \xc3\xbc");
   EXPECT_EQ(error_of("do edit.fly"), "s:1: expected an action, found edit.fly");
   EXPECT_EQ(error_of("expect node over 3"), "s:1: expected below NUMBER or above NUMBER");
   EXPECT_EQ(error_of("press both"), "s:1: expected left, right or middle, found both");

@@ -24,14 +24,15 @@ inline constexpr std::size_t kMostUnitedPairs = 200;
 
 /// Parts in mid-air, which a printer cannot hold up without supports.
 struct HangingParts {
-  std::size_t parts = 0;    ///< of the mesh
-  std::size_t hanging = 0;  ///< of them, or of groups of them that touch each other
-  double lowest_mm = 0.0;   ///< of the lowest point of those, above the bed
+  std::size_t parts = 0;    ///< connected parts of the mesh
+  std::size_t hanging = 0;  ///< parts, or groups of touching parts, that hang
+  double lowest_mm = 0.0;   ///< height of the lowest point of the hanging parts above the bed
 };
 
 /// The bed is at the lowest point of the mesh. A part stands if it comes within 0.05 mm of the bed,
-/// or meets a part that stands, or would if it were 0.05 mm lower, or lies in its clay, as a cavity
-/// does. Empty if all do, or if `report`, which is on this mesh, leaves open where its clay is.
+/// if it meets a standing part (also after a drop of 0.05 mm), or if it lies in the clay of one, as
+/// a cavity does. Empty if all parts stand, or if `report`, which is on this mesh, does not decide
+/// where the clay is.
 [[nodiscard]] std::optional<HangingParts> hanging_parts(const TriangleMesh& mesh,
                                                         const MeshReport& report);
 
@@ -64,8 +65,8 @@ inline constexpr std::size_t kMostWallSamples = 10'000'000;
 /// beside the edge of a rim, the distance is not a wall thickness and is not counted. Neither is it
 /// where the clay ends on one side only within so little that the boundary around the end is
 /// shorter than three thicknesses: such ends of lips and flanges are no walls for `min_wall`
-/// either. In a body where that holds for every ray, the one through the thickest place is
-/// reported.
+/// either. In a body where that holds for every ray, the thickest place is reported: twice the
+/// distance from the middle of a ray to the nearest face.
 ///
 /// If the work exceeds `most_steps`, fewer rays are followed, still evenly distributed; `rays`
 /// holds their number. `progress` is called with the number of rays done or skipped, up to

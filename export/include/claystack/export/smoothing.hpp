@@ -23,8 +23,9 @@ struct SmoothingOptions {
   Smoothing mode = Smoothing::fair;
   /// `fair`: maximum simplification of the walls, both together [mm].
   double tolerance_mm = 0.02;
-  /// No place becomes thinner than this or than it was, whichever is smaller [mm]; a flange, than
-  /// this or the thinnest wall of the steps. Empty: the minimum wall of the piece's steps.
+  /// Smoothing makes no place thinner than this [mm], unless the place was thinner before. For a
+  /// flange the limit is this or the thinnest wall of the steps, whichever is smaller. Empty: the
+  /// minimum wall of the piece's steps.
   std::optional<double> min_wall_mm;
   /// Radius of the arcs that round both edges of the lip [mm]; `fair` only. At most half the width
   /// of the lip, and half the height above the last corner of its walls.

@@ -4,6 +4,7 @@
 #include "claystack/core/result.hpp"
 #include "claystack/export/section.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,8 +37,8 @@ struct Wall {
 /// The boundary between the two points must be at least three diameters long, either way round.
 /// So the clay continues on both sides of the disc: a flange counts where it is longer than it is
 /// thick, and so does a lip. A shorter part is an edge, a step or a rounded end. There is no rule
-/// by angle: two faces that meet in a wedge of 2 atan(1/3) = 37 degrees or less are thin where they
-/// meet, and a blunter wedge is thin nowhere. A piece of clay in which no disc has that much
+/// by angle: two faces that meet in a wedge of 4 atan(1/6) = 37.8 degrees or less are thin where
+/// they meet, and a blunter wedge is thin nowhere. A piece of clay in which no disc has that much
 /// boundary, such as a round hoop, is as thick as the largest disc in it (to 0.1 %): the thickness
 /// is never infinite.
 ///
@@ -133,6 +134,12 @@ struct WallLimit {
 
   /// "porcelain: SOURCE".
   [[nodiscard]] std::string asked_by() const;
+  /// The thinnest wall that passes [mm], so that a wall drawn at the limit passes although facets
+  /// and rings make it a little thinner: 0.1 % thinner; below 1 mm 0.001 mm, but at most 1 %.
+  [[nodiscard]] double least_mm() const noexcept {
+    return min_wall_mm - std::max(1e-3 * min_wall_mm, std::min(1e-3, 1e-2 * min_wall_mm));
+  }
+  [[nodiscard]] bool met_by(double wall_mm) const noexcept { return wall_mm >= least_mm(); }
 };
 
 /// The steepest underside that a process makes without support, from the vertical [deg].
