@@ -23,6 +23,8 @@ inline constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
 inline constexpr std::string_view kMeshopt = "EXT_meshopt_compression";
 inline constexpr std::string_view kQuantization = "KHR_mesh_quantization";
 
+inline constexpr std::string_view kInstancing = "EXT_mesh_gpu_instancing";
+
 inline constexpr double kMmPerMetre = 1000.0;
 
 [[nodiscard]] inline glm::dvec3 to_metres(const glm::dvec3& mm) noexcept {

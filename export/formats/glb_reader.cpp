@@ -3,113 +3,31 @@
 #include "core/little_endian.hpp"
 #include "core/text.hpp"
 #include "export/formats/file_floats.hpp"
-#include "export/formats/glb.hpp"
+#include "export/formats/glb_json.hpp"
 #include "export/formats/mesh_limits.hpp"
 #include "export/formats/meshopt_view.hpp"
 #include "export/solid/vertex_welder.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 namespace clay::solid::inline formats {
 namespace {
 
 using namespace glb;
-using Json = nlohmann::json;
 
-constexpr std::size_t kMaxJsonBytes = std::size_t{16} << 20;
-constexpr int kMaxJsonDepth = 32;
 constexpr std::size_t kMaxNodeDepth = 32;
 
-/// Thrown within this file; `guarded` turns it into an error.
-struct BadGlb : std::runtime_error {
-  using std::runtime_error::runtime_error;
+/// The error of the reader of a compressed mesh within the file.
+struct BadStream {
+  Error error;
 };
-
-struct Chunks {
-  std::string_view json, binary;
-};
-
-Chunks chunks_of(std::string_view file) {
-  if (file.size() < kGlbHeaderBytes + kChunkHeaderBytes || load_u32(file.data()) != kMagic)
-    throw BadGlb("expected a GLB file, which begins with glTF");
-  if (load_u32(file.data() + 4) != kVersion)
-    throw BadGlb("expected version 2, found " + std::to_string(load_u32(file.data() + 4)));
-  if (load_u32(file.data() + 8) != file.size())
-    throw BadGlb("expected " + std::to_string(load_u32(file.data() + 8)) +
-                 " bytes by the header, found " + std::to_string(file.size()));
-  Chunks chunks;
-  for (std::size_t at = kGlbHeaderBytes; at < file.size();) {
-    if (file.size() - at < kChunkHeaderBytes) throw BadGlb("the file ends within a chunk");
-    const std::size_t size = load_u32(file.data() + at);
-    const std::uint32_t type = load_u32(file.data() + at + 4);
-    const bool first = at == kGlbHeaderBytes;
-    at += kChunkHeaderBytes;
-    if (size > file.size() - at || size % 4 != 0) throw BadGlb("the file ends within a chunk");
-    if (first != (type == kJsonChunk)) throw BadGlb("expected one JSON chunk, and that first");
-    if (first) chunks.json = file.substr(at, size);
-    if (type == kBinaryChunk && chunks.binary.data() == nullptr)
-      chunks.binary = file.substr(at, size);
-    at += size;
-  }
-  if (chunks.json.size() > kMaxJsonBytes)
-    throw BadGlb("expected JSON of at most " + std::to_string(kMaxJsonBytes) + " bytes");
-  return chunks;
-}
-
-Json parsed(std::string_view text) {
-  const auto limit = [](int depth, Json::parse_event_t, const Json&) {
-    if (depth > kMaxJsonDepth) throw BadGlb("expected JSON nested at most 32 deep, found deeper");
-    return true;
-  };
-  Json json = Json::parse(text, limit);
-  if (!json.is_object()) throw BadGlb("expected a JSON object");
-  return json;
-}
-
-// ---- fields
-
-std::size_t count_in(const Json& json, const char* key, std::optional<std::size_t> absent = {}) {
-  const auto found = json.find(key);
-  if (found == json.end() && absent) return *absent;
-  if (found == json.end() || !found->is_number_unsigned())
-    throw BadGlb(std::string(key) + ": expected a whole number of 0 or more");
-  return found->get<std::size_t>();
-}
-
-/// Element `index` of a list of objects.
-const Json& object_at(const Json& json, const char* list, std::size_t index) {
-  const auto found = json.find(list);
-  const std::size_t count = found != json.end() && found->is_array() ? found->size() : 0;
-  if (index >= count || !(*found)[index].is_object())
-    throw BadGlb(std::string(list) + ": " + expected_number("an element", 0, count) + ", found " +
-                 std::to_string(index));
-  return (*found)[index];
-}
-
-std::vector<double> numbers_in(const Json& json, const char* key, std::vector<double> absent) {
-  const auto found = json.find(key);
-  if (found == json.end()) return absent;
-  const auto bad = [&] {
-    return BadGlb(std::string(key) + ": expected " + std::to_string(absent.size()) + " numbers");
-  };
-  if (!found->is_array() || found->size() != absent.size()) throw bad();
-  for (std::size_t i = 0; i < absent.size(); ++i) {
-    if (!(*found)[i].is_number()) throw bad();
-    absent[i] = (*found)[i].get<double>();
-    if (!std::isfinite(absent[i])) throw bad();
-  }
-  return absent;
-}
 
 // ---- numbers
 
@@ -151,15 +69,15 @@ Component component_of(std::size_t type) {
 
 class GlbReader {
  public:
-  GlbReader(std::string_view file, std::string_view name)
-      : chunks_(chunks_of(file)), json_(parsed(chunks_.json)), name_(name) {}
+  GlbReader(std::string_view file, std::string_view name, const ReadOptions& options)
+      : chunks_(chunks_of(file)), json_(parsed(chunks_.json)), name_(name), options_(options) {}
 
   Result<TriangleMesh> read() {
     check_extensions();
-    const Json& scene = object_at(json_, "scenes", count_in(json_, "scene", 0));
-    for (const std::size_t node : nodes_in(scene, "nodes")) visit(node, glm::dmat4(1.0), 0);
+    for (const std::size_t node : first_nodes()) visit(node, glm::dmat4(1.0), 0);
     if (auto fits = check_limit(); !fits) return tl::make_unexpected(fits.error());
     for (const auto& [mesh, matrix] : placed_) place(meshes_.at(mesh), matrix);
+    note_differences();
     return std::move(mesh_);
   }
 
@@ -176,6 +94,23 @@ class GlbReader {
                      std::string(kQuantization) + " and those of materials, found '" +
                      one_line(text.substr(0, 60)) + "'");
     }
+  }
+
+  /// Those of the scene. A file may have no scenes: then the nodes that are no child of another.
+  [[nodiscard]] std::vector<std::size_t> first_nodes() {
+    if (json_.contains("scenes"))
+      return nodes_in(object_at(json_, "scenes", count_in(json_, "scene", 0)), "nodes");
+    no_scene_ = true;
+    const auto found = json_.find("nodes");
+    const std::size_t count = found != json_.end() && found->is_array() ? found->size() : 0;
+    std::vector<bool> child(count);
+    for (std::size_t i = 0; i < count; ++i)
+      for (const std::size_t node : nodes_in(object_at(json_, "nodes", i), "children"))
+        if (node < count) child[node] = true;
+    std::vector<std::size_t> first;
+    for (std::size_t i = 0; i < count; ++i)
+      if (!child[i]) first.push_back(i);
+    return first;
   }
 
   [[nodiscard]] static std::vector<std::size_t> nodes_in(const Json& json, const char* key) {
@@ -201,9 +136,22 @@ class GlbReader {
     if (node.contains("mesh")) {
       const std::size_t mesh = count_in(node, "mesh");
       load(mesh);
-      placed_.emplace_back(mesh, matrix);
+      // By the specification, only the joints of a skin move its mesh.
+      const bool skinned = node.contains("skin");
+      placed_.emplace_back(mesh, skinned ? glm::dmat4(1.0) : matrix);
+      skinned_ += skinned;
+      morphed_ += is_morphed(node, object_at(json_, "meshes", mesh));
+      instanced_ += has_extension(node, kInstancing);
     }
     for (const std::size_t child : nodes_in(node, "children")) visit(child, matrix, depth + 1);
+  }
+
+  /// Whether weights other than 0 move the points. Those of the node replace those of the mesh.
+  [[nodiscard]] static bool is_morphed(const Json& node, const Json& mesh) {
+    const Json& owner = node.contains("weights") ? node : mesh;
+    const auto weights = owner.find("weights");
+    return weights != owner.end() && weights->is_array() &&
+           std::ranges::any_of(*weights, [](const Json& w) { return w.is_number() && w != 0; });
   }
 
   [[nodiscard]] static glm::dmat4 matrix_of(const Json& node) {
@@ -244,7 +192,7 @@ class GlbReader {
 
   void add_primitive(const Json& primitive, TriangleMesh& mesh) {
     const std::size_t mode = count_in(primitive, "mode", kTriangles);
-    if (mode < kTriangles) return;  // points and lines
+    if (mode < kTriangles) return void(++without_surface_);
     if (mode > kTriangleFan) throw BadGlb("mode: expected 0 to 6, found " + std::to_string(mode));
     const auto attributes = primitive.find("attributes");
     if (attributes == primitive.end() || !attributes->is_object())
@@ -283,10 +231,7 @@ class GlbReader {
     if (!draco.is_object()) throw BadGlb(std::string(kDraco) + ": expected an object");
     const std::string_view bytes = view(count_in(draco, "bufferView"));
     auto decoded = decode_drc(bytes, name_);
-    if (!decoded) {
-      if (!fault_) fault_ = decoded.error();
-      throw BadGlb("");
-    }
+    if (!decoded) throw BadStream{decoded.error()};
     expect_room(decoded->points.size(), decoded->triangles.size());
     const auto first = static_cast<std::uint32_t>(mesh.points.size());
     mesh.points.insert(mesh.points.end(), decoded->points.begin(), decoded->points.end());
@@ -454,9 +399,27 @@ class GlbReader {
     }
   }
 
+  void note_differences() const {
+    if (options_.notes == nullptr) return;
+    const auto note = [&](std::size_t count, std::string_view noun, std::string_view what) {
+      if (count > 0) options_.notes->push_back(counted(count, noun).append(what));
+    };
+    if (no_scene_) options_.notes->push_back("no scene in the file: all its root nodes are read");
+    note(morphed_, "node", " with morph weights, which are not applied");
+    note(skinned_, "node", " with a skin, whose skeleton is not applied");
+    note(instanced_, "node",
+         " with EXT_mesh_gpu_instancing, which is not applied: the mesh is read once");
+    note(without_surface_, "primitive", " of points or lines not read");
+  }
+
   Chunks chunks_;
   Json json_;
   std::string_view name_;
+  ReadOptions options_;
+  bool no_scene_ = false;
+  /// Nodes with a mesh that another program shows in another shape or place.
+  std::size_t morphed_ = 0, skinned_ = 0, instanced_ = 0;
+  std::size_t without_surface_ = 0;  ///< primitives of points or lines
   std::map<std::size_t, TriangleMesh> meshes_;
   std::map<std::size_t, bool> visited_;
   std::map<std::size_t, std::string> unpacked_;  ///< views by number
@@ -465,24 +428,18 @@ class GlbReader {
   std::uint64_t stored_ = 0, stored_points_ = 0;  ///< triangles and points of all meshes read
   TriangleMesh mesh_;
   VertexWelder welder_{mesh_.points, 0};
-
- public:
-  std::optional<Error> fault_;  ///< of the Draco stream
 };
 
 }  // namespace
 
-Result<TriangleMesh> decode_glb(std::string_view bytes, std::string_view name) {
+Result<TriangleMesh> decode_glb(std::string_view bytes, std::string_view name,
+                                const ReadOptions& options) {
   return check_file_size(bytes, name).and_then([&] {
     return guarded(name, [&]() -> Result<TriangleMesh> {
       try {
-        GlbReader reader(bytes, name);
-        try {
-          return reader.read();
-        } catch (const BadGlb&) {
-          if (reader.fault_) return tl::make_unexpected(*reader.fault_);
-          throw;
-        }
+        return GlbReader(bytes, name, options).read();
+      } catch (const BadStream& bad) {
+        return tl::make_unexpected(bad.error);
       } catch (const BadGlb& error) {
         return bad_file(name, error.what());
       }

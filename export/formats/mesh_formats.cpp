@@ -119,7 +119,7 @@ Result<TriangleMesh> decode_as(MeshFormat format, std::string_view bytes, std::s
     case MeshFormat::three_mf_model:
       return decode_3mf_model(bytes, name, options);
     case MeshFormat::glb:
-      return decode_glb(bytes, name);
+      return decode_glb(bytes, name, options);
   }
   return failure(ErrorKind::bad_input, std::string(name).append(": unknown mesh format"));
 }

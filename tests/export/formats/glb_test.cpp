@@ -277,6 +277,11 @@ TEST(Glb, RefusesBadFiles) {
   expect("glTF", "p.glb: expected a GLB file");
   expect(good.substr(0, good.size() - 1), "bytes by the header");
   expect(good + "x", "bytes by the header");
+  std::string odd = good;
+  store_u32(odd.data() + 12, load_u32(odd.data() + 12) + 1);
+  expect(odd, "expected a chunk size that is a multiple of 4, found ");
+  store_u32(odd.data() + 12, 1U << 30);
+  expect(odd, "the file ends within a chunk");
   expect(changed("/accessors/0/count", 5), "expected 5 values within bufferView 0");
   expect(changed("/accessors/0/count", 4000000000U), "values within bufferView 0");
   expect(changed("/accessors/1/count", 11), "3 corners for each triangle");
@@ -299,6 +304,48 @@ TEST(Glb, RefusesBadFiles) {
   Json deep;
   for (int i = 0; i < 100; ++i) deep = Json::array({deep});
   expect(changed("/extras", deep), "nested at most 32 deep");
+}
+
+std::vector<std::string> notes_on(const Plain& plain, TriangleMesh& mesh) {
+  std::vector<std::string> notes;
+  const auto read = decode_glb(plain.file(), "x", {.notes = &notes});
+  EXPECT_TRUE(read) << read.error().message;
+  mesh = read.value_or(TriangleMesh());
+  return notes;
+}
+
+TEST(Glb, NotesWhatChangesTheShapeAndIsNotApplied) {
+  const auto notes_with = [](const char* pointer, const char* value) {
+    Plain plain;
+    plain.json[Json::json_pointer(pointer)] = Json::parse(value);
+    TriangleMesh mesh;
+    const auto notes = notes_on(plain, mesh);
+    EXPECT_NEAR(signed_volume(mesh), 1e9 / 6.0, 1.0) << pointer;
+    return notes;
+  };
+  using Notes = std::vector<std::string>;
+  const std::string morph = "1 node with morph weights, which are not applied";
+  EXPECT_EQ(notes_with("/meshes/0/weights", "[0, 0.5]"), Notes{morph});
+  EXPECT_EQ(notes_with("/nodes/0/weights", "[1]"), Notes{morph});
+  EXPECT_EQ(notes_with("/meshes/0/weights", "[0, 0]"), Notes{});
+  EXPECT_EQ(notes_with("/nodes/0/extensions", R"({"EXT_mesh_gpu_instancing": {}})"),
+            Notes{"1 node with EXT_mesh_gpu_instancing, which is not applied: the mesh is read "
+                  "once"});
+  EXPECT_EQ(notes_with("/meshes/0/primitives/1", R"({"attributes": {"POSITION": 0}, "mode": 1})"),
+            Notes{"1 primitive of points or lines not read"});
+  // The transform of a node with a skin does not move its mesh.
+  EXPECT_EQ(notes_with("/nodes/0", R"({"mesh": 0, "skin": 0, "scale": [2, 2, 2]})"),
+            Notes{"1 node with a skin, whose skeleton is not applied"});
+}
+
+TEST(Glb, ReadsTheRootNodesOfAFileWithoutScenes) {
+  Plain plain;
+  plain.json.erase("scenes");
+  plain.json["nodes"] = Json::parse(R"([{"mesh": 0}, {"children": [0], "scale": [2, 2, 2]}])");
+  TriangleMesh mesh;
+  EXPECT_EQ(notes_on(plain, mesh),
+            std::vector<std::string>{"no scene in the file: all its root nodes are read"});
+  EXPECT_NEAR(signed_volume(mesh), 8e9 / 6.0, 10.0);
 }
 
 /// A strip of one corner too many, before a primitive that is not read.

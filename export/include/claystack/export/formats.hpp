@@ -156,6 +156,8 @@ Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& con
 /// Input that a reader accepts beyond its format.
 struct ReadOptions {
   /// Binary STL whose size differs from what its count requires: the whole facets that are there.
+  /// Without the faces of an OBJ of fewer than 3 corners, and the triangles of a 3MF that use a
+  /// vertex twice.
   bool repair = false;
   /// Gets a line for each kind of fault that was passed over, none of which changes the surface.
   /// May be null.
@@ -185,7 +187,7 @@ struct ByteSource {
 inline constexpr std::uint64_t kMaxTextBytes = std::uint64_t{8} << 30;
 
 /// Read an STL or OBJ file like `decode_stl` and `decode_obj`, but hold only one or two megabytes
-/// of it in memory; text may have up to kMaxTextBytes. Errors of the source are passed on.
+/// of it in memory, or its longest line; text may have up to kMaxTextBytes. Errors of the source are passed on.
 /// `read_mesh` takes either format.
 Result<TriangleMesh> read_mesh(const ByteSource& source, MeshFormat streamed, std::string_view name,
                                const ReadOptions& options = {});
@@ -202,7 +204,7 @@ Result<TriangleMesh> read_obj(const ByteSource& source, std::string_view name,
 Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name,
                                 const ReadOptions& options = {});
 
-/// Reads v, vt, vn and f, with polygons (up to 4096 corners) as triangles: a fan from the first
+/// Reads v, vt, vn and f, with polygons (up to 65536 corners) as triangles: a fan from the first
 /// corner where that covers the polygon, otherwise its constrained Delaunay triangulation, and with
 /// a note a fan if the polygon crosses or touches itself. So do PLY and OFF. Ignores o, g, s,
 /// mtllib, usemtl, l, p and comments, and opens no other file. Indices are kept: coincident points
@@ -221,7 +223,7 @@ Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name);
 Result<std::size_t> drc_triangles(std::string_view bytes, std::string_view name);
 
 /// PLY 1.0 as text or binary of either byte order. Vertices need the properties x, y and z of any
-/// number type; faces a list `vertex_indices` or `vertex_index`, of up to 4096 corners. Other
+/// number type; faces a list `vertex_indices` or `vertex_index`, of up to 65536 corners. Other
 /// properties and elements are passed over, and with a note lines before the first element that
 /// begin with no keyword of PLY. Every count is compared with the size of the file before memory is
 /// allocated.
@@ -240,8 +242,8 @@ Result<TriangleMesh> decode_off(std::string_view bytes, std::string_view name,
 /// references to objects that are not defined before, triangles that use a vertex twice. An archive
 /// that unpacks to more than 100 times its size (above 32 MiB), has more than 10 000 entries,
 /// components nested more than 32 deep, or a build of more than 64 times the triangles in the file
-/// (above a million) is refused. Other namespaces are passed over. An object of type `support` is
-/// not part of the mesh; a note says so.
+/// (above a million) is refused. Other namespaces are passed over. Objects of type `support` and
+/// items with `printable="0"` are not part of the mesh; a note says so.
 Result<TriangleMesh> decode_3mf(std::string_view bytes, std::string_view name,
                                 const ReadOptions& options = {});
 /// The same of the model part alone.
@@ -254,8 +256,11 @@ Result<TriangleMesh> decode_3mf_model(std::string_view xml, std::string_view nam
 /// Refused: other required extensions except those of materials and textures, sparse points, other
 /// buffers than the file's own, views that unpack to more than 1 GiB together, nodes in a cycle or
 /// nested more than 32 deep, JSON of more than 16 MiB or 32 levels, and a scene of more than 64
-/// times the triangles in the file (above a million) or its points (above three million).
-Result<TriangleMesh> decode_glb(std::string_view bytes, std::string_view name);
+/// times the triangles in the file (above a million) or its points (above three million). Not
+/// applied, with a note: morph weights, skeletons, and the instances of EXT_mesh_gpu_instancing.
+/// Passed over with a note: points and lines. A file without scenes: all its root nodes.
+Result<TriangleMesh> decode_glb(std::string_view bytes, std::string_view name,
+                                const ReadOptions& options = {});
 
 /// Parts that Claystack put into a 3MF beside the mesh; empty: not there.
 struct PackedParts {
