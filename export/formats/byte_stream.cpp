@@ -16,8 +16,8 @@ bool ByteStream::fill(std::size_t bytes) {
   end_ = kept.size();
   begin_ = 0;
   while (end_ < bytes && !ended_) {
-    // For a file that has grown since it was opened.
-    if (end_ == buffer_.size()) buffer_.resize(2 * kStretch);
+    // For a long line, or a file that has grown since it was opened.
+    if (end_ == buffer_.size()) buffer_.resize(2 * std::max(buffer_.size(), kStretch));
     const auto count = source_.read(std::span(buffer_).subspan(end_));
     if (!count) fault_ = count.error();
     ended_ = !count || *count == 0;

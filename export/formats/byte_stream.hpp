@@ -24,7 +24,7 @@ class ByteStream {
     return std::string_view(buffer_.data(), end_).substr(begin_);
   }
   /// Reads on until `bytes` are available; false if the file ends before or cannot be read.
-  /// Invalidates views of `ahead`. At most kStretch.
+  /// Invalidates views of `ahead`.
   bool fill(std::size_t bytes);
   void take(std::size_t bytes) noexcept { begin_ += bytes; }
 

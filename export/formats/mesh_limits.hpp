@@ -18,7 +18,7 @@ namespace clay::solid::inline formats {
 
 inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 inline constexpr std::size_t kMaxPoints = 3 * kMaxTriangles;  // if no facets share a corner
-inline constexpr std::size_t kMaxFaceCorners = 4096;
+inline constexpr std::size_t kMaxFaceCorners = 65536;
 inline constexpr float kMaxCoordinateMm = 1e6F;
 inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 mm";
 

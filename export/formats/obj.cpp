@@ -54,7 +54,9 @@ CornerWords split_corner(std::string_view word) {
 class ObjReader {
  public:
   ObjReader(ByteStream& text, std::string_view name, const ReadOptions& options)
-      : scanner_(text, name, LineRule::backslash_continues), name_(name), options_(options) {}
+      : scanner_(text, name, LineRule::backslash_continues, kLongLineKib),
+        name_(name),
+        options_(options) {}
 
   Result<TriangleMesh> read() {
     for (auto keyword = scanner_.word(); !keyword.empty(); keyword = scanner_.word()) {
@@ -156,17 +158,23 @@ class ObjReader {
       if (words.texture) (void)resolve(*words.texture, textures_);
       if (words.normal) (void)resolve(*words.normal, normals_);
       if (corners_.size() > kMaxFaceCorners)
-        scanner_.fail("expected a face of at most 4096 corners");
+        return scanner_.fail("expected a face of at most " + std::to_string(kMaxFaceCorners) +
+                             " corners");
     }
-    if (corners_.size() < 3)
-      scanner_.fail("expected a face of at least 3 corners, found " +
-                    std::to_string(corners_.size()));
+    if (corners_.size() < 3) return read_short_face(line);
     if (mesh_.triangles.size() + corners_.size() > kMaxTriangles + 2)
       scanner_.fail("expected at most 20000000 triangles");
     if (scanner_.fault()) return;
     if (odd && odd_faces_++ == 0) odd_face_line_ = line;
     if (corners_.size() > 4 && refused_faces_++ == 0) refused_face_line_ = line;
     polygons_.add(corners_, mesh_);
+  }
+
+  void read_short_face(std::size_t line) {
+    if (!options_.repair)
+      return scanner_.fail("expected a face of at least 3 corners, found " +
+                           std::to_string(corners_.size()) + "; check --repair leaves it out");
+    if (short_faces_++ == 0) short_face_line_ = line;
   }
 
   std::uint32_t resolve_point(std::string_view word) {
@@ -215,6 +223,8 @@ class ObjReader {
       note(list->bad_line > 0 ? list->bad_line : list->line_of_highest,
            "a face names a " + std::string(list->keyword) + " that the file does not define");
     }
+    if (short_faces_ > 0)
+      note(short_face_line_, counted(short_faces_, "face") + " of fewer than 3 corners left out");
     if (odd_faces_ > 0)
       note(odd_face_line_, counted(odd_faces_, "face") +
                                " with a slash at the end of a corner, or on several lines: "
@@ -233,6 +243,8 @@ class ObjReader {
   std::size_t odd_faces_ = 0, odd_face_line_ = 0;
   /// Faces of more than 4 corners: PrusaSlicer 2.5 refuses the whole file; the first.
   std::size_t refused_faces_ = 0, refused_face_line_ = 0;
+  /// Faces of fewer than 3 corners, left out for repairs; the first.
+  std::size_t short_faces_ = 0, short_face_line_ = 0;
   /// Unknown statements, and the line of the first.
   struct StrayLines {
     std::size_t count = 0, first = 0;

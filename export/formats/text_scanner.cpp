@@ -10,8 +10,6 @@
 namespace clay::solid::inline formats {
 namespace {
 
-constexpr std::size_t kMaxLineBytes = 64 * 1024;
-
 bool is_blank(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
@@ -62,8 +60,9 @@ bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept
                     [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
 }
 
-TextScanner::TextScanner(ByteStream& text, std::string_view name, LineRule rule)
-    : stream_(text), name_(name), rule_(rule) {
+TextScanner::TextScanner(ByteStream& text, std::string_view name, LineRule rule,
+                         std::size_t most_kib)
+    : stream_(text), name_(name), rule_(rule), most_line_(most_kib * 1024) {
   if (!next_lines()) return;
   at_ = text_.size() - without_byte_order_mark(text_).size();
   check_lines(line_);
@@ -73,8 +72,12 @@ TextScanner::TextScanner(ByteStream& text, std::string_view name, LineRule rule)
 bool TextScanner::next_lines() {
   if (fault_) return false;
   stream_.take(text_.size());
-  const bool more = stream_.fill(ByteStream::kStretch);
+  bool more = stream_.fill(ByteStream::kStretch);
   text_ = stream_.ahead();
+  while (more && text_.size() <= most_line_ && text_.find('\n') == text_.npos) {
+    more = stream_.fill(text_.size() + ByteStream::kStretch);
+    text_ = stream_.ahead();
+  }
   at_ = 0;
   if (stream_.fault()) {
     fault_ = stream_.fault();
@@ -92,7 +95,9 @@ void TextScanner::check_lines(std::size_t line) {
     step_of_loop();
     const std::size_t end = std::min(text_.find('\n', begin), text_.size());
     if (nul < end) return fail_at(line, "expected text, found a NUL byte");
-    if (end - begin > kMaxLineBytes) return fail_at(line, "expected a line of at most 64 KiB");
+    if (end - begin > most_line_)
+      return fail_at(line, "expected a line of at most " + std::to_string(most_line_ / 1024) +
+                               " KiB");
     begin = end + 1;
   }
 }

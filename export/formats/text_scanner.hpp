@@ -17,11 +17,15 @@ namespace clay::solid::inline formats {
 
 enum class LineRule { plain, backslash_continues };
 
+/// Of lines [KiB]; the longer ones are for formats whose faces may have any number of corners.
+inline constexpr std::size_t kUsualLineKib = 64, kLongLineKib = 16 * 1024;
+
 class TextScanner {
  public:
-  /// Skips a byte order mark. Reports a NUL byte or a line of more than 64 KiB, up to a megabyte
+  /// Skips a byte order mark. Reports a NUL byte or a longer line than `most_kib`, up to a megabyte
   /// before the parser reaches it. The stream and the name outlive this.
-  TextScanner(ByteStream& text, std::string_view name, LineRule rule);
+  TextScanner(ByteStream& text, std::string_view name, LineRule rule,
+              std::size_t most_kib = kUsualLineKib);
 
   /// The next word on this line or a later one; empty at the end of the text. The view is valid
   /// until the next read.
@@ -57,6 +61,7 @@ class TextScanner {
   std::string_view text_;  ///< the complete lines in memory
   std::string_view name_;
   LineRule rule_;
+  std::size_t most_line_;  ///< bytes
   std::size_t at_ = 0;
   std::size_t line_ = 1;
   std::optional<Error> fault_;

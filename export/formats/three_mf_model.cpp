@@ -324,8 +324,12 @@ void ModelReader::add_triangle(XmlReader& reader, const XmlElement& element) {
                          expected_number("a vertex", 0, object.points.size()) + found(text));
     corners[i] = *index;
   }
-  if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
-    return reader.fail("expected a triangle of three vertices, found one that uses a vertex twice");
+  if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
+    if (options_.repair) return void(++twice_);
+    return reader.fail(
+        "expected a triangle of three vertices, found one that uses a vertex twice; check --repair "
+        "leaves it out");
+  }
   if (element.attributes.size() > 3) check_property(reader, element);
   if (++stored_triangles_ > kMaxTriangles)
     return reader.fail("expected at most 20000000 triangles");
@@ -355,7 +359,12 @@ void ModelReader::add_placed(XmlReader& reader, const XmlElement& element,
     return reader.fail("expected an object to build, found one of type other");
   if (list.size() == kMaxPlaced)
     return reader.fail("expected at most " + std::to_string(kMaxPlaced) + " components or items");
-  list.push_back(placed);
+  // Not in the core specification, but PrusaSlicer and Bambu Studio write and obey it.
+  const std::string_view printable = element.value_of("printable").value_or("1");
+  if (places_.back() == Place::item && (printable == "0" || printable == "false"))
+    ++not_printed_;
+  else
+    list.push_back(placed);
 }
 
 // ---- build
@@ -409,35 +418,55 @@ class Builder {
 
 }  // namespace
 
-Result<TriangleMesh> ModelReader::build(std::string_view name) const {
-  if (!has_build_) return bad_file(name, "expected a 3MF model with resources and build");
-  std::uint64_t points = 0, triangles = 0;
-  std::size_t supports = 0;
+std::string ModelReader::left_out() const {
+  const auto supports = static_cast<std::size_t>(std::ranges::count_if(
+      items_, [&](const Placed& item) { return objects_[item.object].type == "support"; }));
+  std::string text;
+  if (supports > 0) text = counted(supports, "support item");
+  if (not_printed_ > 0)
+    text.append(supports > 0 ? " and " : "")
+        .append(counted(not_printed_, "item"))
+        .append(" with printable=\"0\"");
+  return text;
+}
+
+/// Before anything is built, because a few components can stand for billions of triangles.
+Result<ModelReader::Counts> ModelReader::counted_build(std::string_view name) const {
+  Counts sum;
   for (const Placed& item : items_) {
     const Object& object = objects_[item.object];
-    supports += object.type == "support";
     if (object.type == "support") continue;
-    points += object.all_points;
-    triangles += object.all_triangles;
+    sum.points += object.all_points;
+    sum.triangles += object.all_triangles;
   }
   constexpr std::uint64_t kFree = 1'000'000, kMostCopies = 64;
-  if (triangles > std::max(kFree, kMostCopies * stored_triangles_) ||
-      points > std::max(3 * kFree, kMostCopies * stored_points_) || points > kMaxPoints)
+  if (sum.triangles > std::max(kFree, kMostCopies * stored_triangles_) ||
+      sum.points > std::max(3 * kFree, kMostCopies * stored_points_) || sum.points > kMaxPoints)
     return bad_file(name, "expected a build of at most " + std::to_string(kMostCopies) +
                               " times the " + std::to_string(stored_triangles_) +
-                              " triangles in the file, found " + std::to_string(triangles));
-  if (auto counted = check_facet_count(triangles, name); !counted)
-    return tl::make_unexpected(counted.error());
+                              " triangles in the file, found " + std::to_string(sum.triangles));
+  if (const std::string others = left_out(); sum.triangles == 0 && !others.empty())
+    return bad_file(name, "expected an item to print, found only " + others);
+  return check_facet_count(sum.triangles, name).map([&] { return sum; });
+}
+
+Result<TriangleMesh> ModelReader::build(std::string_view name) const {
+  if (!has_build_) return bad_file(name, "expected a 3MF model with resources and build");
+  const auto counts = counted_build(name);
+  if (!counts) return tl::make_unexpected(counts.error());
   TriangleMesh mesh;
-  mesh.points.reserve(points);
-  mesh.triangles.reserve(triangles);
+  mesh.points.reserve(counts->points);
+  mesh.triangles.reserve(counts->triangles);
   Builder builder(objects_, unit_mm_, mesh);
   for (const Placed& item : items_)
     if (objects_[item.object].type != "support" && !builder.add(item, kStill))
       return bad_file(name, std::string("expected ").append(kCoordinateRule) +
                                 " after the transforms of its items");
-  if (supports > 0 && options_.notes != nullptr)
-    options_.notes->push_back(counted(supports, "support item") + " not read");
+  if (options_.notes == nullptr) return mesh;
+  if (const std::string others = left_out(); !others.empty())
+    options_.notes->push_back(others + " not read");
+  if (twice_ > 0)
+    options_.notes->push_back(counted(twice_, "triangle") + " with a vertex twice left out");
   return mesh;
 }
 

@@ -80,6 +80,13 @@ class ModelReader final : public XmlReader::Events {
   void add_resource(XmlReader& reader, const XmlElement& element);
   void check_property(XmlReader& reader, const XmlElement& element);
 
+  struct Counts {
+    std::uint64_t points = 0, triangles = 0;
+  };
+  [[nodiscard]] Result<Counts> counted_build(std::string_view name) const;
+  /// The items that are not read, for a message; empty: all are.
+  [[nodiscard]] std::string left_out() const;
+
   ReadOptions options_;
   std::vector<Place> places_{Place::outside};
   std::size_t foreign_depth_ = 0;  ///< within an element of another namespace
@@ -91,6 +98,8 @@ class ModelReader final : public XmlReader::Events {
   std::uint32_t id_ = 0;  ///< of the object that is read
   bool has_mesh_ = false, has_components_ = false;
   std::vector<Placed> items_;
+  std::size_t not_printed_ = 0;  ///< items with printable="0"
+  std::size_t twice_ = 0;        ///< triangles that use a vertex twice, left out for repairs
   std::set<std::string, std::less<>> metadata_;
   bool reads_pot_ = false;
   std::string pot_text_;

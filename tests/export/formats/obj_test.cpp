@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace clay::solid {
 namespace {
@@ -115,7 +116,7 @@ struct BadObj {
 
 TEST(Obj, ErrorsNameTheLine) {
   std::string corners = "f";
-  for (int i = 0; i < 4097; ++i) corners += " 1";
+  for (int i = 0; i < 65'537; ++i) corners += " 1";
   for (const BadObj& bad : std::vector<BadObj>{
            {"", "pot.obj: expected 1 to 20000000 triangles, found 0"},
            {kSquare, "pot.obj: expected 1 to 20000000 triangles, found 0"},
@@ -138,7 +139,7 @@ TEST(Obj, ErrorsNameTheLine) {
            {kSquare + "vt 0\nvn 0 0 1\nf 1/1/1/1 2 3\n",
             "pot.obj:7: expected a whole number, found '1/1'"},
            {kSquare + "f 1.5 2 3\n", "pot.obj:5: expected a whole number, found '1.5'"},
-           {kSquare + corners + "\n", "pot.obj:5: expected a face of at most 4096 corners"},
+           {kSquare + corners + "\n", "pot.obj:5: expected a face of at most 65536 corners"},
            {"v 0 0\n",
             "pot.obj:1: expected a coordinate within +-1e6 mm, found the end of the line or file"},
            {"v 0 0 x\n", "pot.obj:1: expected a coordinate within +-1e6 mm, found 'x'"},
@@ -164,8 +165,8 @@ TEST(Obj, ErrorsNameTheLine) {
            {kSquare + "f 1/x 2 3\n", "pot.obj:5: expected a whole number, found 'x'"},
            {kSquare + "f 1 2 3\\", "pot.obj:5: expected a whole number"},
            {kSquare + std::string("f 1 2\0 3\n", 9), "pot.obj:5: expected text, found a NUL byte"},
-           {std::string("#\n#").append(70'000, 'x'),
-            "pot.obj:2: expected a line of at most 64 KiB"},
+           {std::string("#\n#").append(std::size_t{17} << 20, 'x'),
+            "pot.obj:2: expected a line of at most 16384 KiB"},
        }) {
     EXPECT_EQ(obj_message(bad.text).rfind(bad.says, 0), 0u)
         << "wanted: " << bad.says << "\nfound:  " << obj_message(bad.text);
@@ -220,6 +221,33 @@ TEST(Obj, AcceptsAFaceOf4096Corners) {
   std::string face = "f";
   for (int i = 0; i < 4096; ++i) face.append(" ").append(std::to_string(1 + i % 4));
   EXPECT_EQ(triangles_of(kSquare + face).size(), 4094u);
+}
+
+/// The bottom of a round vase, as CAD programs write it: one line of far more than 64 KiB.
+TEST(Obj, ReadsAFaceOnALongLine) {
+  constexpr int kCorners = 60'000;
+  std::string text, face = "f";
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 6.283185307179586 * i / kCorners;
+    text += "v " + std::to_string(1000 * std::cos(angle)) + " " +
+            std::to_string(1000 * std::sin(angle)) + " 0\n";
+    const std::string number = std::to_string(i + 1);
+    face += " " + number + "/" + number + "/" + number;
+  }
+  face += std::string(std::size_t{5} << 20, ' ');
+  EXPECT_EQ(triangles_of(text + face + "\nf 1 2 3\n").size(), kCorners - 2 + 1);
+}
+
+TEST(Obj, LeavesOutFacesOfTwoCornersForRepairs) {
+  const std::string text = kSquare + "f 1 2\nf 1 2 3\nf 3\n";
+  EXPECT_EQ(obj_message(text),
+            "pot.obj:5: expected a face of at least 3 corners, found 2; check --repair leaves it "
+            "out");
+  std::vector<std::string> notes;
+  const auto mesh = decode_obj(text, "pot.obj", {.repair = true, .notes = &notes});
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh->triangles, (Triangles{{0, 1, 2}}));
+  EXPECT_EQ(notes, std::vector<std::string>{"line 5: 2 faces of fewer than 3 corners left out"});
 }
 
 }  // namespace

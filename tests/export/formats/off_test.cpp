@@ -85,7 +85,7 @@ TEST(Off, RefusesOtherKindsAndBadValues) {
   expect("OFF\n3 1 0\n" + points + "3 0 1 3\n",
          "p.off:6: expected the number of a vertex, from 0 to 2, found 3");
   expect("OFF\n3 1 0\n" + points + "3 0 1 -1\n", "found -1");
-  expect("OFF\n3 1 0\n" + points + "2 0 1\n", "a face of 3 to 4096 corners, found 2");
+  expect("OFF\n3 1 0\n" + points + "2 0 1\n", "a face of 3 to 65536 corners, found 2");
   expect("OFF\n3 1 0\n" + points, "the end of the line or file");
   expect("OFF\n3 1 0\n" + points + "3 0 1 2\n3 0 1 2\n", "the end of the file after its faces");
   expect("OFF\n4000000000 1 0\n" + points, "expected a count of vertices that the file's");

@@ -162,7 +162,7 @@ TEST(Ply, RefusesBadValues) {
   expect(with(ply_text(), "3 0 2 1", "3 0 2 4"),
          "p.ply:16: expected the number of a vertex, from 0 to 3, found 4");
   expect(with(ply_text(), "3 0 2 1", "3 0 2 -1"), "found -1");
-  expect(with(ply_text(), "3 0 2 1", "2 0 2"), "a face of 3 to 4096 corners, found 2");
+  expect(with(ply_text(), "3 0 2 1", "2 0 2"), "a face of 3 to 65536 corners, found 2");
   expect(with(ply_text(), "10 0 0", "nan 0 0"), "p.ply:13: expected a coordinate");
   expect(with(ply_text(), "3 0 3 2\n", ""), "the end of the line or file");
   expect(ply_text() + "9\n", "expected the end of the file after its elements");

@@ -301,6 +301,32 @@ TEST(ThreeMf, NotesSupportsThatAreNotRead) {
   EXPECT_EQ(notes, std::vector<std::string>{"1 support item not read"});
 }
 
+/// PrusaSlicer leaves them out, too.
+TEST(ThreeMf, NotesItemsThatAreNotPrinted) {
+  const auto with_items = [](const std::string& items) {
+    return kModelStart + kObject + R"(</resources><build>)" + items + "</build></model>";
+  };
+  const std::string printed = R"(<item objectid="1" printable="1"/>)";
+  const std::string left_out = R"(<item objectid="1" printable="0"/>)";
+  std::vector<std::string> notes;
+  const auto mesh =
+      decode_3mf_model(with_items(left_out + printed + left_out), "m", {.notes = &notes});
+  EXPECT_EQ(mesh.value(), tetrahedron());
+  EXPECT_EQ(notes, std::vector<std::string>{"2 items with printable=\"0\" not read"});
+  EXPECT_TRUE(refused(decode_3mf_model(with_items(left_out), "m"), ErrorKind::bad_input,
+                      "expected an item to print, found only 1 item with printable=\"0\""));
+}
+
+TEST(ThreeMf, LeavesOutTrianglesOfTwoVerticesForRepairs) {
+  const std::string model =
+      changed(kModel, "<triangles>", R"(<triangles><triangle v1="1" v2="1" v3="3"/>)");
+  EXPECT_TRUE(refused(decode_3mf_model(model, "m"), ErrorKind::bad_input, "uses a vertex twice"));
+  std::vector<std::string> notes;
+  const auto mesh = decode_3mf_model(model, "m", {.repair = true, .notes = &notes});
+  EXPECT_EQ(mesh.value(), tetrahedron());
+  EXPECT_EQ(notes, std::vector<std::string>{"1 triangle with a vertex twice left out"});
+}
+
 TEST(ThreeMf, RefusesBombs) {
   // A model that unpacks to a thousand times its size.
   const std::string blanks(std::size_t{40} << 20, ' ');
