@@ -31,9 +31,7 @@ Result<Imported> import_drawing(const std::string& bytes, const std::string& nam
                                            settings.axis_mm, asked(settings.height_mm)};
   importing::DrawnPotSettings pot_settings;
   pot_settings.wall_mm = asked(settings.wall_mm);
-  auto section = importing::read_drawing(bytes, name).and_then([&](importing::Drawing&& drawing) {
-    return importing::half_section(std::move(drawing), how, name);
-  });
+  const auto section = importing::read_half_section(bytes, name, {}, how);
   if (!section) return tl::make_unexpected(section.error());
   return importing::drawn_pot(*section, pot_settings, name).map([&](importing::DrawnPot&& drawn) {
     return Imported{std::move(drawn.pot), section->volume_mm3(), section->axis_mm, section->notes};
