@@ -13,6 +13,7 @@
 #include "export/repair/soup_repair.hpp"
 #include "export/repair/stage_report.hpp"
 #include "export/repair/surface_making.hpp"
+#include "export/repair/wall_gaps.hpp"
 #include "export/repair/wrapping.hpp"
 
 #include <algorithm>
@@ -48,22 +49,26 @@ Result<TriangleMesh> wrapped_or_error(const TriangleMesh& soup, double offset_mm
 }
 
 /// A wall around an open surface. On curved surfaces the triangles of a wrap lie too low, so that
-/// the wall would be thinner there: the wrap is repeated farther out until rays find the thickness.
+/// the wall would be thinner there: the wrap is repeated farther out, by what rays find missing.
 Result<TriangleMesh> thickened(const TriangleMesh& soup, double asked_mm, const Error& reason,
                                ThickenedWall& wall) {
   constexpr int kMostWraps = 8;
   constexpr std::size_t kRays = 50'000;
-  // The thinnest places are few, and another wrap may not have them: small steps add less.
-  constexpr double kFarther = 1.04;
+  // The thinnest places are few, and another wrap has them elsewhere.
+  constexpr double kFarther = 1.25, kLeastStep = 0.01;
   double offset_mm = 0.5 * asked_mm;
   for (int wraps = 1;; ++wraps) {
     auto mesh = wrapped_or_error(soup, offset_mm, kThickenAlpha * 0.5 * asked_mm, reason);
     if (!mesh) return mesh;
     const auto sampled = sampled_wall(*mesh, kRays);
     if (!sampled) return tl::make_unexpected(sampled.error());
-    wall = {asked_mm, sampled->least_mm};
-    if (sampled->least_mm >= asked_mm || wraps == kMostWraps) return mesh;
-    offset_mm *= kFarther;
+    wall.asked_mm = asked_mm;
+    wall.least_mm = sampled->least_mm;
+    if (sampled->least_mm >= asked_mm || wraps == kMostWraps) {
+      wall.filled_share = share_filled(soup, *mesh, offset_mm);
+      return mesh;
+    }
+    offset_mm += 0.5 * std::max(kFarther * (asked_mm - sampled->least_mm), kLeastStep * asked_mm);
   }
 }
 
@@ -131,7 +136,9 @@ Result<TriangleMesh> closed_surface(Surface& surface, const TriangleMesh& soup,
                                     const RepairOptions& options, RepairedMesh& report,
                                     StageReport& stage) {
   stage.begin("filling holes");
-  auto holes = fill_holes(surface, options.cap_openings || is_closed(soup));
+  auto holes = fill_holes(surface, is_closed(soup)        ? Openings::closed
+                                   : options.cap_openings ? Openings::capped
+                                                          : Openings::refused);
   if (!holes) return tl::make_unexpected(holes.error());
   if (holes->left) {
     // Borders in one place close each other, as where solids share a face.
@@ -180,6 +187,16 @@ Result<TriangleMesh> repaired_or_error(const TriangleMesh& soup, const RepairOpt
   return failure(ErrorKind::unsound, std::string("repair failed: ") + e.what());
 }
 
+TriangleMesh usable(TriangleMesh mesh) {
+  drop_unusable(mesh);
+  drop_unused_points(mesh);  // their places may not be finite
+  return mesh;
+}
+
+SurfaceChange change_of_usable(const TriangleMesh& before, const TriangleMesh& after) {
+  return surface_change(before, after, kDistanceTolerance * glm::length(extent_of(after).size()));
+}
+
 Result<RepairedMesh> repair_unsound(const TriangleMesh& mesh, const RepairOptions& options) {
   RepairedMesh result;
   StageReport stage(options.progress);
@@ -199,15 +216,12 @@ Result<RepairedMesh> repair_unsound(const TriangleMesh& mesh, const RepairOption
   }
   if (!sound) return tl::make_unexpected(sound.error());
   stage.begin("measuring the change");
-  soup = mesh;
-  drop_unusable(soup);
-  drop_unused_points(soup);  // their places may not be finite
-  const double tolerance_mm = kDistanceTolerance * glm::length(extent_of(*sound).size());
+  soup = usable(mesh);
   for_each_part(2, [&](std::size_t part) {
     if (part == 0)
       result.mesh = in_order_of(soup, *sound);
     else
-      result.change = surface_change(soup, *sound, tolerance_mm);
+      result.change = change_of_usable(soup, *sound);
   });
   return result;
 }
@@ -222,7 +236,7 @@ Result<RepairedMesh> repair_if_size_fits(const TriangleMesh& mesh, const RepairO
 
 /// Exceptions become errors.
 template <class Work>
-Result<RepairedMesh> guarded(const RepairOptions& options, const Work& work) try {
+auto guarded(const RepairOptions& options, const Work& work) -> decltype(work()) try {
   const CancelScope scope(options.cancelled ? &options.cancelled : CancelScope::current());
   return work();
 } catch (const std::bad_alloc&) {
@@ -247,6 +261,14 @@ Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& 
 
 Result<RepairedMesh> repair_unsound_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
   return guarded(options, [&] { return repair_if_size_fits(mesh, options); });
+}
+
+Result<SurfaceChange> change_between(const TriangleMesh& before, const TriangleMesh& after) {
+  return guarded({}, [&]() -> Result<SurfaceChange> {
+    const TriangleMesh from = usable(before);
+    if (from.triangles.empty() || after.triangles.empty()) return SurfaceChange{};
+    return change_of_usable(from, after);
+  });
 }
 
 }  // namespace clay::solid::inline repair

@@ -2,14 +2,13 @@
 
 #include "core/cancel.hpp"
 #include "export/repair/surface_making.hpp"
+#include "export/repair/surface_samples.hpp"
 #include "export/repair/winding_ray.hpp"
 #include "export/solid/shell_volumes.hpp"
 
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -24,46 +23,6 @@ constexpr double kCavityShare = 0.25;
 
 /// Points at which a negative shell is examined.
 constexpr std::size_t kPoints = 32;
-
-/// Points on a shell, spread evenly over its area, each with its triangle.
-class SurfacePoints {
- public:
-  SurfacePoints(const TriangleMesh& mesh, std::vector<std::uint32_t> triangles)
-      : mesh_(mesh), triangles_(std::move(triangles)) {
-    double area = 0.0;
-    for (const std::uint32_t t : triangles_) {
-      const auto& [a, b, c] = mesh.triangles[t];
-      area +=
-          glm::length(glm::cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]));
-      area_to_.push_back(area);
-    }
-  }
-
-  [[nodiscard]] std::uint32_t triangle(std::size_t i) const {
-    const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(kPoints);
-    const auto at =
-        std::upper_bound(area_to_.begin(), std::prev(area_to_.end()), share * area_to_.back());
-    return triangles_[static_cast<std::size_t>(at - area_to_.begin())];
-  }
-
-  /// By a sequence of low discrepancy, also if all points lie on one triangle.
-  [[nodiscard]] ExactPoint point(std::size_t i) const {
-    constexpr double kFirst = 0.7548776662466927, kSecond = 0.5698402909980532;
-    double intact = 0.0;
-    double u = std::modf(0.5 + kFirst * static_cast<double>(i), &intact);
-    double v = std::modf(0.5 + kSecond * static_cast<double>(i), &intact);
-    if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
-    const auto& [a, b, c] = mesh_.triangles[triangle(i)];
-    const ExactPoint from = exact_point(mesh_.points[a]);
-    return from + u * (exact_point(mesh_.points[b]) - from) +
-           v * (exact_point(mesh_.points[c]) - from);
-  }
-
- private:
-  const TriangleMesh& mesh_;
-  std::vector<std::uint32_t> triangles_;
-  std::vector<double> area_to_;
-};
 
 /// Shells that may intersect others or themselves: their volumes show their orientation. A negative
 /// shell in clay is a cavity, and any other one is turned. A positive shell stays, also inside
@@ -87,7 +46,7 @@ class OrientedShells {
       if (volumes_mm3_[shells_.of_face[t]] < 0.0) negative[shells_.of_face[t]].push_back(t);
     for (std::size_t shell = 0; shell < shells_.count; ++shell)
       if (!negative[shell].empty() &&
-          !is_cavity(ray, shell, SurfacePoints(mesh_, std::move(negative[shell]))))
+          !is_cavity(ray, shell, SurfaceSamples(mesh_, std::move(negative[shell]), kPoints)))
         turn[shell] = !all;
     return turn;
   }
@@ -99,14 +58,15 @@ class OrientedShells {
   }
 
   /// Whether a negative shell removes clay. Inside a cavity it is an island.
-  bool is_cavity(const WindingRay& ray, std::size_t shell, const SurfacePoints& points) const {
+  bool is_cavity(const WindingRay& ray, std::size_t shell, const SurfaceSamples& samples) const {
     constexpr auto kFewest = static_cast<std::size_t>(kCavityShare * kPoints);
     std::size_t in_clay = 0;
     bool removes = false;
     for (std::size_t i = 0; i < kPoints && (in_clay <= kFewest || !removes); ++i) {
       if (in_clay + kPoints - i <= kFewest) return false;
       stop_if_cancelled();
-      const auto [positive, others] = within(ray, shell, points.triangle(i), points.point(i));
+      const auto [positive, others] =
+          within(ray, shell, samples.triangle(i), SurfaceSamples::weights(i));
       if (positive > 0) ++in_clay;
       if (others > 0) removes = true;
     }
@@ -120,10 +80,13 @@ class OrientedShells {
   /// The winding numbers just inside a negative shell, before the front of its triangle. Outside,
   /// a pocket that is flush with a face has no clay at that face.
   Windings within(const WindingRay& ray, std::size_t shell, std::uint32_t t,
-                  const ExactPoint& from) const {
-    const auto& [a, b, c] = mesh_.triangles[t];
-    const ExactKernel::Vector_3 normal = CGAL::normal(
-        exact_point(mesh_.points[a]), exact_point(mesh_.points[b]), exact_point(mesh_.points[c]));
+                  const glm::dvec2& weights) const {
+    const auto& corners = mesh_.triangles[t];
+    const ExactPoint a = exact_point(mesh_.points[corners[0]]),
+                     b = exact_point(mesh_.points[corners[1]]),
+                     c = exact_point(mesh_.points[corners[2]]);
+    const ExactKernel::Vector_3 normal = CGAL::normal(a, b, c);
+    const ExactPoint from = a + weights.x * (b - a) + weights.y * (c - a);
     const int axis = longest_axis_of(normal);
     Windings windings;
     for (const Crossing& crossed :

@@ -183,5 +183,97 @@ TEST(OpenBorders, HolesThatTouchInAVertexAreFilledEachByItself) {
   EXPECT_GT(pairs, 50U);
 }
 
+/// Of a revolved outline, without the triangles in a plane of equal height.
+TriangleMesh without_level(TriangleMesh mesh, double z) {
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    return std::ranges::all_of(t, [&](std::uint32_t v) { return mesh.points[v].z == z; });
+  });
+  return mesh;
+}
+
+/// Turned about (1, 1, 1), so that no coordinate of a plane is the same, and rounded.
+TriangleMesh turned(TriangleMesh mesh) {
+  const glm::dmat3 by = glm::dmat3(2.0, 2.0, -1.0, -1.0, 2.0, 2.0, 2.0, -1.0, 2.0) / 3.0;
+  for (glm::dvec3& p : mesh.points) p = by * p;
+  round_to_file(mesh.points);
+  return mesh;
+}
+
+TEST(OpenBorders, TheRimOfACupIsARingBetweenItsWalls) {
+  // A wall and a floor of 1 mm; the rim is 1.1 % of the surface.
+  const TriangleMesh cup = revolve({{{{0, 0}, {20, 0}, {20, 40}, {19, 40}, {19, 1}, {0, 1}}}}, 64);
+  for (const TriangleMesh& open : {without_level(cup, 40.0), turned(without_level(cup, 40.0))}) {
+    const auto result = repair_mesh(open);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_EQ(check_mesh(result->mesh).components, 1U);
+    ASSERT_EQ(result->holes.size(), 1U);
+    EXPECT_EQ(result->holes[0].edges, 128U);
+    // The 64-gons have the area of the circles: equal volume.
+    EXPECT_NEAR(result->holes[0].area_mm2, 3.14159265 * (400.0 - 361.0), 1e-3);
+    EXPECT_NEAR(signed_volume(result->mesh), signed_volume(cup), 1e-4 * signed_volume(cup));
+    EXPECT_LT(result->change.added_mm, 1.0);  // the middle of the rim is 0.5 mm from both walls
+  }
+}
+
+TEST(OpenBorders, TwoWallsOfAPipeAreJoinedByRingsOnRequest) {
+  const TriangleMesh pipe = revolve({{{{15, 0}, {20, 0}, {20, 40}, {15, 40}}}}, 64);
+  const TriangleMesh walls = without_level(without_level(pipe, 0.0), 40.0);
+  for (const TriangleMesh& open : {walls, turned(walls)}) {
+    const auto refused = repair_mesh(open);
+    ASSERT_FALSE(refused);
+    for (const char* part : {"one around the other", "--cap closes by a ring", "--thicken MM"})
+      EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
+    const auto capped = repair_mesh(open, {.cap_openings = true});
+    ASSERT_TRUE(capped) << capped.error().message;
+    EXPECT_EQ(capped->holes.size(), 2U);
+    EXPECT_EQ(check_mesh(capped->mesh).components, 1U);
+    EXPECT_NEAR(signed_volume(capped->mesh), signed_volume(pipe), 1e-4 * signed_volume(pipe));
+  }
+}
+
+TEST(OpenBorders, TheWidthOfAHoleIsItsLargestDistance) {
+  // A regular polygon of 400 corners: opposite ones are a diameter apart.
+  const TriangleMesh tube = revolve({{{{0, 0}, {35, 0}, {35, 50}, {0, 50}}}}, 400);
+  const auto open = without_level(tube, 50.0);
+  double widest = 0.0;
+  for (const glm::dvec3& p : open.points) widest = std::max(widest, 2.0 * std::hypot(p.x, p.y));
+  const auto refused = repair_mesh(open);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("an opening 70 mm wide"), std::string::npos)
+      << refused.error().message;
+  const auto capped = repair_mesh(open, {.cap_openings = true});
+  ASSERT_TRUE(capped) << capped.error().message;
+  ASSERT_EQ(capped->holes.size(), 1U);
+  EXPECT_NEAR(capped->holes[0].extent_mm, widest, 1e-4);
+}
+
+TEST(OpenBorders, AMoebiusStripIsASurfaceWithoutAWall) {
+  constexpr std::uint32_t kSteps = 40;
+  TriangleMesh strip;
+  for (std::uint32_t i = 0; i < kSteps; ++i) {
+    const double angle = 2.0 * 3.141592653589793 * i / kSteps;
+    for (const double side : {-3.0, 3.0}) {
+      const double r = 20.0 + side * std::cos(0.5 * angle);
+      strip.points.emplace_back(r * std::cos(angle), r * std::sin(angle),
+                                side * std::sin(0.5 * angle));
+    }
+    // The last quadrilateral joins the sides crosswise.
+    const bool last = i + 1 == kSteps;
+    const std::uint32_t a = 2 * i, b = a + 1, c = last ? 1 : a + 2, d = last ? 0 : a + 3;
+    strip.triangles.push_back({a, c, b});
+    strip.triangles.push_back({b, c, d});
+  }
+  for (const bool cap : {false, true}) {
+    const auto refused = repair_mesh(strip, {.cap_openings = cap});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, ErrorKind::unsound);
+    EXPECT_NE(refused.error().message.find("a surface without a wall"), std::string::npos)
+        << refused.error().message;
+  }
+  const auto thick = repair_mesh(strip, {.thicken_mm = 2.0});
+  ASSERT_TRUE(thick) << thick.error().message;
+  EXPECT_TRUE(check_mesh(thick->mesh).sound());
+}
+
 }  // namespace
 }  // namespace clay::solid
