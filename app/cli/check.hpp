@@ -61,7 +61,8 @@ struct RepairSummary {
   std::vector<solid::Repair> repaired;
   std::vector<solid::FilledHole> holes;
   std::optional<solid::ThickenedWall> thickened;
-  solid::SurfaceChange change;
+  solid::SurfaceChange change;  ///< of the written mesh
+  double reading_mm = 0.0;      ///< upper bound of the rounding of points as they were read
   std::optional<double> wrapped_mm;
   std::optional<double> volume_before_mm3;    ///< of the input file; empty: it has no volume
   std::size_t triangles_before = 0;           ///< before decimation
@@ -86,8 +87,9 @@ struct Finding {
 
 struct Verdict {
   MeshState state = MeshState::sound;
-  solid::MeshReport mesh;  ///< of the written mesh, after repairs
-  bool examined = true;    ///< false: no mesh was made, `mesh` holds only problems
+  solid::MeshReport mesh;        ///< of the written mesh, after repairs
+  bool examined = true;          ///< false: no mesh was made, `mesh` holds only problems
+  std::optional<Error> failure;  ///< the reason why no result was made; `mesh` is that of the input
   std::vector<Finding> findings;
   std::optional<double> wall_mm;                   ///< of pots
   std::vector<solid::PartWall> wall_parts;         ///< of pots

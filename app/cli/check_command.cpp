@@ -68,7 +68,6 @@ Result<Verdict> check_stream(const CheckCommand& command, const Console& console
 }
 
 Result<Verdict> check_file(const CheckCommand& command, const Console& console) {
-  if (auto usage = check_usage(command, console); !usage) return tl::make_unexpected(usage.error());
   if (command.file == "-") return check_stream(command, console);
   if (is_pot(command.file))
     return read_file(command.file).and_then([&](const std::string& bytes) {
@@ -85,7 +84,7 @@ Result<Verdict> check_file(const CheckCommand& command, const Console& console) 
   return check_mesh_file(*format, command, console);
 }
 
-/// For a file that could not be examined or repaired.
+/// For a file that could not be examined.
 Verdict failed(const Error& error) {
   switch (error.kind) {
     case ErrorKind::unsound:
@@ -102,9 +101,12 @@ Verdict failed(const Error& error) {
 int check(CheckCommand& command, Console& console) {
   if (command.out == "-" && !console.json) console.quiet = true;
   if (auto loaded = command.walls.load(); !loaded) return report(loaded.error());
+  if (const auto usage = check_usage(command, console); !usage) return report(usage.error());
   const auto verdict = check_file(command, console);
   if (!verdict)
     return report(verdict.error(), verdict_json(command.file, failed(verdict.error()), false));
+  if (verdict->failure)
+    return report(*verdict->failure, verdict_json(command.file, *verdict, false));
   if (console.json) print_json(verdict_json(command.file, *verdict, command.accept_prints()));
   print_verdict(console, command.file, *verdict);
   return verdict->passes(command.accept_prints()) ? kDone : kUnsound;

@@ -10,7 +10,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <utility>
 
 namespace clay::cli {
@@ -38,14 +41,13 @@ MeshState as_sliced(MeshState state, bool slicer_reads_less) {
   return slicer_reads_less && state == MeshState::prints ? MeshState::will_not_print : state;
 }
 
-/// Repairs and decimates if requested.
-Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const CheckCommand& command,
-                                   RepairSummary& summary, Progress& progress) {
-  auto found = checked(mesh);
-  if (!found) return tl::make_unexpected(found.error());
-  summary.before = state_of(mesh, *found);
-  summary.found = std::move(found->problems);
-  if (found->has_volume) summary.volume_before_mm3 = found->volume_mm3;
+/// Repairs and decimates if requested. `found` is the report on the mesh.
+Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const solid::MeshReport& found,
+                                   const CheckCommand& command, RepairSummary& summary,
+                                   Progress& progress) {
+  summary.before = state_of(mesh, found);
+  summary.found = found.problems;
+  if (found.has_volume) summary.volume_before_mm3 = found.volume_mm3;
   if (command.repair && !summary.found.empty()) {
     solid::RepairOptions options = command.repair_options;
     options.progress = [&](std::string_view stage, double share) { progress.stage(stage, share); };
@@ -87,11 +89,16 @@ Result<WrittenMesh> read_back(const std::string& bytes, MeshFormat format,
   });
 }
 
+/// Draco's grid, also of the mesh in a GLB.
+bool is_on_grid(MeshFormat format) {
+  return format == MeshFormat::drc || format == MeshFormat::glb;
+}
+
 /// Compares files with their mesh, and keeps the last one that is no worse.
 class FileJudge {
  public:
   FileJudge(const TriangleMesh& mesh, MeshFormat format, const std::string& name)
-      : mesh_(mesh), format_(format), name_(name) {}
+      : mesh_(mesh), format_(format), name_(name), volume_mm3_(solid::signed_volume(mesh)) {}
 
   Result<void> operator()(const std::string& bytes) {
     auto found = read_back(bytes, format_, name_);
@@ -102,6 +109,11 @@ class FileJudge {
       if (!before) return tl::make_unexpected(before.error());
       wanted_ = state_of(mesh_, *before);
     }
+    if (!keeps_volume(found->report))
+      return failure(ErrorKind::unsound,
+                     "expected a file with the volume of the mesh within 1 %, found " +
+                         fmt::format("{:.6g} mm3 instead of {:.6g} mm3", found->report.volume_mm3,
+                                     volume_mm3_));
     if (state != MeshState::sound && state > *wanted_)
       return failure(ErrorKind::unsound,
                      "expected a file as sound as the mesh, found faults after rounding to the "
@@ -117,9 +129,17 @@ class FileJudge {
   }
 
  private:
+  /// A grid that is coarse for a thin plate changes its volume. float32 has no finer one.
+  [[nodiscard]] bool keeps_volume(const solid::MeshReport& report) const {
+    constexpr double kMostShare = 0.01;
+    if (!is_on_grid(format_) || !report.has_volume) return true;
+    return std::abs(report.volume_mm3 - volume_mm3_) <= kMostShare * std::abs(volume_mm3_);
+  }
+
   const TriangleMesh& mesh_;
   MeshFormat format_;
   const std::string& name_;
+  double volume_mm3_;
   std::optional<MeshState> wanted_;  ///< of the mesh, if a file is not sound
   WrittenMesh accepted_;
 };
@@ -127,8 +147,11 @@ class FileJudge {
 /// In a format with a grid, on finer ones until the file is no worse than the mesh. Errors:
 /// `unsound` if none is fine enough.
 Result<WrittenMesh> encoded(const TriangleMesh& mesh, MeshFormat format, const std::string& name) {
-  const bool on_grid = format == MeshFormat::drc || format == MeshFormat::glb;
+  constexpr double kGridOfSize = 1e-5;
+  const bool on_grid = is_on_grid(format);
   solid::FileContents contents{.name = "repaired"};
+  contents.draco.max_error_mm = std::min(contents.draco.max_error_mm,
+                                         kGridOfSize * glm::length(solid::extent_of(mesh).size()));
   FileJudge judge(mesh, format, name);
   const auto encode = [&](int bits) {
     contents.draco.min_bits = bits;
@@ -144,31 +167,52 @@ Result<WrittenMesh> encoded(const TriangleMesh& mesh, MeshFormat format, const s
 
 /// The verdict is on the contents of the output file, so they are decoded and checked before the
 /// file gets its name.
-Result<WrittenMesh> written(const TriangleMesh& mesh, const CheckCommand& command,
-                            RepairSummary& summary) {
-  return encoded(mesh, summary.format, command.out)
-      .and_then([&](WrittenMesh file) -> Result<WrittenMesh> {
-        summary.bytes = file.bytes.size();
-        if (command.dry_run) return file;
-        if (const auto done = publish(command.out, file.bytes); !done)
-          return tl::make_unexpected(done.error());
-        summary.path = command.out;
-        return file;
-      });
+Result<WrittenMesh> written(WrittenMesh file, const CheckCommand& command, RepairSummary& summary) {
+  summary.bytes = file.bytes.size();
+  if (command.dry_run) return file;
+  if (const auto done = publish(command.out, file.bytes); !done)
+    return tl::make_unexpected(done.error());
+  summary.path = command.out;
+  return file;
 }
 
-Result<WrittenMesh> repair_and_write(TriangleMesh mesh, const CheckCommand& command,
-                                     RepairSummary& summary, Progress& progress) {
+/// The farthest that reading moves a point: half a unit of the last place of float32 along each
+/// axis, in formats with decimals, doubles or a unit or transformation of their own.
+double reading_error_mm(const TriangleMesh& mesh, MeshFormat format) {
+  if (format == MeshFormat::stl_binary || format == MeshFormat::drc) return 0.0;
+  double reach = 0.0;
+  for (const glm::dvec3& p : mesh.points)
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::isfinite(p[axis])) reach = std::max(reach, std::abs(p[axis]));
+  return std::sqrt(3.0) * 0x1p-24 * reach;
+}
+
+/// The bounds of the change of what the file holds.
+Result<WrittenMesh> with_change(WrittenMesh file, const TriangleMesh& input,
+                                RepairSummary& summary) {
+  // Other formats hold float32, as the mesh that was compared.
+  if (!summary.decimation_error_mm && !is_on_grid(summary.format)) return file;
+  return solid::change_between(input, file.mesh).map([&](const solid::SurfaceChange& change) {
+    summary.change = change;
+    return std::move(file);
+  });
+}
+
+Result<WrittenMesh> repair_and_write(const TriangleMesh& mesh, const solid::MeshReport& found,
+                                     const CheckCommand& command, RepairSummary& summary,
+                                     Progress& progress) {
   // Without a name, a dry run takes the format of the input, if it can be written.
   auto format = solid::mesh_format_of(command.out.empty() ? command.file : command.out,
                                       solid::FormatUse::write);
   if (!format && (command.out.empty() || command.out == "-")) format = MeshFormat::stl_binary;
   if (!format) return tl::make_unexpected(format.error());
   summary.format = *format;
-  return repaired_mesh(std::move(mesh), command, summary, progress)
+  return repaired_mesh(mesh, found, command, summary, progress)
       .and_then([&](const TriangleMesh& result) {
         progress.stage("writing");
-        return written(result, command, summary);
+        return encoded(result, summary.format, command.out)
+            .and_then([&](WrittenMesh file) { return with_change(std::move(file), mesh, summary); })
+            .and_then([&](WrittenMesh file) { return written(std::move(file), command, summary); });
       });
 }
 
@@ -275,15 +319,28 @@ Result<void> verify(std::string_view bytes, MeshFormat format, const CheckComman
   });
 }
 
-/// A closed cavity bursts in a kiln, and traps resin or powder elsewhere.
+/// Four digits without an exponent; "less than 0.001" for tiny volumes.
+std::string in_mm3(double mm3) {
+  return mm3 < 0.001 ? "less than 0.001" : fmt::format("{:.4g}", mm3);
+}
+
+/// A closed cavity bursts in a kiln, and traps resin or powder elsewhere. A tiny one, as between
+/// triangles that cross, holds nothing that could drain.
 void check_cavities(const CheckCommand& command, Verdict& verdict) {
+  constexpr double kLeastMm3 = 1.0, kLeastShownMm3 = 1'000.0;
   if (verdict.mesh.cavities == 0) return;
+  const double trapped_mm3 = verdict.mesh.trapped_mm3;
   const auto& process = command.walls.demand().process;
   const bool fired = process && process->fired, one = verdict.mesh.cavities == 1;
+  std::string text =
+      fmt::format("{} closed {}, ", verdict.mesh.cavities, one ? "cavity" : "cavities");
+  text += trapped_mm3 < kLeastShownMm3 ? fmt::format("{} mm3 trapped", in_mm3(trapped_mm3))
+                                       : fmt::format("{:.4g} cm3 trapped", trapped_mm3 / 1000.0);
+  if (trapped_mm3 < kLeastMm3)
+    return verdict.add(check_name(solid::ProblemKind::cavity), Grade::warn, std::move(text));
+  text += one ? ": it needs a drain hole" : ": they need drain holes";
   verdict.add(check_name(solid::ProblemKind::cavity), fired ? Grade::fail : Grade::warn,
-              fmt::format("{} closed {}, {:.4g} cm3 trapped: {}", verdict.mesh.cavities,
-                          one ? "cavity" : "cavities", verdict.mesh.trapped_mm3 / 1000.0,
-                          one ? "it needs a drain hole" : "they need drain holes"));
+              std::move(text));
 }
 
 /// A part in mid-air falls while it is printed.
@@ -319,20 +376,43 @@ Result<void> check_contents(std::string_view bytes, const TriangleMesh& mesh, Me
   return check_packed(bytes, mesh, command.file, verdict);
 }
 
-/// Repairs if requested, and gives its verdict on the mesh, or on the result.
-Result<TriangleMesh> judged(TriangleMesh mesh, const CheckCommand& command, bool slicer_reads_less,
-                            Progress& progress, Verdict& verdict) {
+/// A wall that is thick for an opening closes it, and the cavity behind it is filled.
+void warn_of_filled_gaps(const RepairSummary& summary, Verdict& verdict) {
+  constexpr double kMostShare = 0.2;  // corners have less
+  if (!summary.thickened || summary.thickened->filled_share <= kMostShare) return;
+  verdict.add(
+      "geometry", Grade::warn,
+      fmt::format("the wall of {:.4g} mm fills gaps: just beyond it, {:.0f} % of the places "
+                  "beside the surface are clay, sampled; a thinner --thicken leaves them "
+                  "open",
+                  summary.thickened->asked_mm, 100.0 * summary.thickened->filled_share));
+}
+
+/// Repairs if requested, and gives its verdict on the mesh, or on the result. If no result was
+/// made, the verdict is on the mesh, with the failure.
+Result<TriangleMesh> judged(TriangleMesh mesh, MeshFormat format, const CheckCommand& command,
+                            bool slicer_reads_less, Progress& progress, Verdict& verdict) {
   const auto name = [&](const Error& error) {
     return failure(error.kind, command.file + ": " + error.message);
   };
   progress.stage("checking");
   if (command.changes_mesh()) {
-    RepairSummary& summary = verdict.repair_summary.emplace();
-    auto repaired = repair_and_write(std::move(mesh), command, summary, progress);
-    if (!repaired) return name(repaired.error());
+    auto found = checked(mesh);
+    if (!found) return name(found.error());
+    verdict.mesh = std::move(*found);
+    verdict.state = as_sliced(state_of(mesh, verdict.mesh), slicer_reads_less);
+    RepairSummary summary;
+    summary.reading_mm = reading_error_mm(mesh, format);
+    auto repaired = repair_and_write(mesh, verdict.mesh, command, summary, progress);
+    if (!repaired) {
+      verdict.failure = name(repaired.error()).value();
+      return mesh;
+    }
+    warn_of_filled_gaps(summary, verdict);
     mesh = std::move(repaired->mesh);
     verdict.mesh = std::move(repaired->report);
     summary.before = as_sliced(summary.before, std::exchange(slicer_reads_less, false));
+    verdict.repair_summary = std::move(summary);
   } else {
     auto report = checked(mesh);
     if (!report) return name(report.error());
@@ -373,8 +453,9 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
       {.repair = command.repair, .notes = &verdict.notes, .slicer_reads_less = &slicer_reads_less});
   if (!mesh && mesh.error().kind == ErrorKind::bad_input && verdict.certificate)
     return unread_with_certificate(bytes, format, command, std::move(verdict));
-  if (mesh) mesh = judged(std::move(*mesh), command, slicer_reads_less, progress, verdict);
+  if (mesh) mesh = judged(std::move(*mesh), format, command, slicer_reads_less, progress, verdict);
   if (!mesh) return tl::make_unexpected(mesh.error());
+  if (verdict.failure) return verdict;
   if (auto done = check_contents(bytes, *mesh, format, command, verdict); !done)
     return tl::make_unexpected(done.error());
   progress.clear();

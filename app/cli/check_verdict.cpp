@@ -60,10 +60,13 @@ void add_repair(Json& json, const RepairSummary& summary, const Verdict& verdict
                              {"area_mm2", hole.area_mm2},
                              {"at_mm", {hole.place.x, hole.place.y, hole.place.z}}});
   if (const auto& wall = summary.thickened)
-    json["thickened"] = {
-        {"asked_mm", wall->asked_mm}, {"least_mm", wall->least_mm}, {"bound", false}};
+    json["thickened"] = {{"asked_mm", wall->asked_mm},
+                         {"least_mm", wall->least_mm},
+                         {"bound", false},
+                         {"filled_share", wall->filled_share}};
   json["change"] = {{"added_mm", summary.change.added_mm},
                     {"removed_mm", summary.change.removed_mm},
+                    {"reading_mm", summary.reading_mm},
                     {"bound", true}};
   if (summary.wrapped_mm) json["wrapped_mm"] = *summary.wrapped_mm;
   json["volume_before_mm3"] = volume_json(summary.volume_before_mm3);
@@ -125,11 +128,15 @@ void print_repair(const Console& console, const RepairSummary& summary, const Ve
   if (const auto& wall = summary.thickened)
     console.print(fmt::format("  thickened: {:.4g} mm requested, thinnest sample {:.4g} mm",
                               wall->asked_mm, wall->least_mm));
-  if (!summary.repaired.empty())
+  if (!summary.repaired.empty() || summary.change.added_mm > 0.0 || summary.change.removed_mm > 0.0)
     console.print(
         fmt::format("  change: the new surface within {:.3g} mm of the old one, the old one within "
                     "{:.3g} mm of the new one",
                     summary.change.added_mm, summary.change.removed_mm));
+  constexpr double kLeastShownMm = 5e-4;
+  if (summary.reading_mm >= kLeastShownMm)
+    console.print(
+        fmt::format("  read: points rounded to float32, by up to {:.3g} mm", summary.reading_mm));
   const std::string before =
       summary.volume_before_mm3
           ? fmt::format("{:.6g} cm3 before", *summary.volume_before_mm3 / 1e3)
@@ -212,7 +219,7 @@ std::string_view name_of(Grade grade) {
 
 bool Verdict::passes(bool accept_prints) const {
   const bool accepted = state == MeshState::sound || (accept_prints && state == MeshState::prints);
-  return accepted && std::ranges::none_of(findings, [](const Finding& finding) {
+  return accepted && !failure && std::ranges::none_of(findings, [](const Finding& finding) {
            return finding.grade == Grade::fail;
          });
 }
