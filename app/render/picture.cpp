@@ -14,6 +14,7 @@ constexpr double kDefaultAzimuth = 0.6, kDefaultElevation = 0.42, kDefaultFov = 
 constexpr double kFilled = 0.80;  // fraction of the picture's width or height that the pot fills
 constexpr double kWheelBeyond = 1.45;  // radii of the clay
 constexpr std::size_t kCircles = 64, kCirclePoints = 24;
+constexpr double kFlange = 1.01;  // times as wide as the circles beside it
 
 /// Points on circles of the outside, in the wheel's coordinates: their hull is that of the pot.
 std::vector<glm::dvec3> outline_points(const PotView& pot) {
@@ -39,7 +40,8 @@ std::vector<glm::dvec3> outline_points(const PotView& pot) {
                          pot.rows.begin() + static_cast<std::ptrdiff_t>(next) + 1,
                          [](const Row& a, const Row& b) { return a.outer_mm < b.outer_mm; }) -
         pot.rows.begin());
-    if (widest == row || widest == next) continue;
+    const auto radius = [&](std::size_t at) { return static_cast<double>(pot.rows[at].outer_mm); };
+    if (radius(widest) < kFlange * std::max(radius(row), radius(next))) continue;
     add(widest, height * static_cast<double>(widest));
     add(widest, height * static_cast<double>(widest + 1));
   }
