@@ -96,8 +96,8 @@ void TextScanner::check_lines(std::size_t line) {
     const std::size_t end = std::min(text_.find('\n', begin), text_.size());
     if (nul < end) return fail_at(line, "expected text, found a NUL byte");
     if (end - begin > most_line_)
-      return fail_at(line, "expected a line of at most " + std::to_string(most_line_ / 1024) +
-                               " KiB");
+      return fail_at(line,
+                     "expected a line of at most " + std::to_string(most_line_ / 1024) + " KiB");
     begin = end + 1;
   }
 }

@@ -93,9 +93,8 @@ TEST(ThrowFrom, ContinuesAPotByHand) {
   const auto pot = folder.file("1.pot.json"), live = folder.file("live.pot.json"),
              again = folder.file("again.pot.json"), session = folder.file("live.session");
   ASSERT_EQ(claystack("throw " + scene + " -o " + pot).status, 0);
-  const auto run =
-      claystack("throw " + scene + " --from " + pot +
-                " --device simulated --seconds 3 --record " + session + " -o " + live);
+  const auto run = claystack("throw " + scene + " --from " + pot +
+                             " --device simulated --seconds 3 --record " + session + " -o " + live);
   ASSERT_EQ(run.status, 0) << run.err;
   ASSERT_EQ(
       claystack("throw " + scene + " --from " + pot + " -s " + session + " -o " + again).status, 0);
