@@ -83,6 +83,7 @@ Json summary(const std::string& name, const solid::TriangleMesh& mesh,
                      {"height_mm", {part.low_mm, part.high_mm}},
                      {"off_mm", part.off_mm}});
   const ClayStack& stack = made.pot.stack;
+  const bool known = made.measured > 0;
   return {{"mesh", name},
           {"triangles", mesh.triangles.size()},
           {"mesh_mm3", mesh_mm3 ? Json(*mesh_mm3) : Json()},
@@ -92,8 +93,10 @@ Json summary(const std::string& name, const solid::TriangleMesh& mesh,
           {"ring_height_mm", stack.ring_height_mm()},
           {"height_mm", stack.height_mm()},
           {"volume_mm3", stack.volume_mm3()},
-          {"deviation_mm", made.deviation.mm},
-          {"deviation_at_mm", {made.deviation.radius_mm, made.deviation.height_mm}},
+          {"deviation_mm", known ? Json(made.deviation.mm) : Json()},
+          {"deviation_at_mm",
+           known ? Json{made.deviation.radius_mm, made.deviation.height_mm} : Json()},
+          {"deviation_half_planes", {made.measured, kMeshCuts}},
           {"not_of_revolution", std::move(parts)},
           {"noise_mm", made.noise_mm},
           {"notes", notes},
@@ -110,6 +113,16 @@ int whole_degrees(double degrees) {
   return ((static_cast<int>(std::lround(degrees)) % 360) + 360) % 360;
 }
 
+std::string deviation_text(const MeshPot& made) {
+  if (made.measured == 0)
+    return "deviation from the mesh: not measured, no half-plane through the axis has a complete "
+           "wall";
+  std::string text = text_of(made.deviation, "mesh");
+  if (made.measured < kMeshCuts)
+    text += fmt::format(", in {} of {} half-planes through the axis", made.measured, kMeshCuts);
+  return text;
+}
+
 void print_summary(const Console& console, const MeshPot& made,
                    const std::optional<double>& mesh_mm3) {
   const glm::dvec3 foot = rounded(made.axis.through, 1e-3), up = rounded(made.axis.direction, 1e-5);
@@ -121,7 +134,7 @@ void print_summary(const Console& console, const MeshPot& made,
       "{} rings of {:.4g} mm: {:.1f} mm high, {:.1f} cm3 of clay{}", stack.size(),
       stack.ring_height_mm(), stack.height_mm(), stack.volume_mm3() / 1e3,
       mesh_mm3 ? fmt::format(" ({:.1f} cm3 in the mesh)", *mesh_mm3 / 1e3) : std::string()));
-  console.print(text_of(made.deviation, "mesh"));
+  console.print(deviation_text(made));
   for (const MeshPart& part : made.parts)
     console.print(fmt::format(
         "not of revolution, left out: azimuth {} to {} degrees, {:.1f} to {:.1f} mm above the "

@@ -18,10 +18,20 @@ inline constexpr std::size_t kMeshCuts = 64;
 /// Some times as many as the finest scan has. mesh_cuts stops there.
 inline constexpr std::size_t kMostCutSegments = 2'000'000;
 
+/// How an edge of the mesh is cut: as the chord that it is, or with the radius between those of its
+/// ends, as if it lay on a surface of revolution. Then the facets of such a surface do not scatter.
+enum class Edges { straight, revolved };
+
 /// The segments in which each half-plane meets the triangles: (distance from the axis, height).
 /// `points` are those of the mesh with the axis as z.
 [[nodiscard]] std::vector<std::vector<Segment>> mesh_cuts(const solid::TriangleMesh& mesh,
-                                                          std::span<const glm::dvec3> points);
+                                                          std::span<const glm::dvec3> points,
+                                                          Edges edges = Edges::straight);
+
+/// For each half-plane, whether the mesh has a surface all along it: it meets no open edge without
+/// another one within 0.05 mm.
+[[nodiscard]] std::vector<bool> complete_cuts(const solid::TriangleMesh& mesh,
+                                              std::span<const glm::dvec3> points);
 
 /// The clay of the largest area at one height of one cut; none if `outer_mm` is 0.
 struct Wall {

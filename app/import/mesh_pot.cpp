@@ -24,9 +24,9 @@ struct Revolved {
 
 /// `noise_mm`: see revolved_section.
 Result<Revolved> revolved(const solid::TriangleMesh& mesh, const MeshAxis& axis, double noise_mm,
-                          const std::string& name) {
+                          const std::string& name, Edges edges = Edges::straight) {
   const auto points = about_axis(mesh, axis);
-  Revolved result{mesh_cuts(mesh, points), {}, 0.0};
+  Revolved result{mesh_cuts(mesh, points, edges), {}, 0.0};
   std::size_t segments = 0;
   for (const std::vector<Segment>& cut : result.cuts) segments += cut.size();
   if (segments >= kMostCutSegments)
@@ -152,10 +152,13 @@ struct Made {
   std::vector<CutOff> cuts;
   double limit_mm = 0.0;  ///< cuts beyond it have a part that is not of revolution
   DrawnPot drawn;
-  Deviation deviation;  ///< of the rings from the other cuts
+  Deviation deviation;       ///< of the rings from the other cuts that are complete
+  std::size_t measured = 0;  ///< their number
 };
 
-Result<Made> rings_of(Revolved pot, const DrawnPotSettings& settings, const std::string& name) {
+/// `complete`: see complete_cuts.
+Result<Made> rings_of(Revolved pot, const std::vector<bool>& complete,
+                      const DrawnPotSettings& settings, const std::string& name) {
   Made made;
   made.limit_mm = part_limit_mm(largest_radius(pot.section));
   made.cuts = offsets(pot, made.limit_mm);
@@ -171,7 +174,8 @@ Result<Made> rings_of(Revolved pot, const DrawnPotSettings& settings, const std:
   made.drawn = std::move(*drawn);
   const std::vector<Segment> rings = outline_of(slabs_of(made.drawn.pot.stack));
   for (std::size_t i = 0; i < kMeshCuts; ++i) {
-    if (made.cuts[i].mm > made.limit_mm) continue;
+    if (made.cuts[i].mm > made.limit_mm || !complete[i] || pot.cuts[i].empty()) continue;
+    ++made.measured;
     const Deviation deviation = deviation_between(pot.cuts[i], rings);
     if (deviation.mm > made.deviation.mm) made.deviation = deviation;
   }
@@ -206,20 +210,30 @@ bool rough(const DrawnPot& drawn) {
   return drawn.deviation.mm > kDrawnDeviationMm || drawn.pot.stack.ring_height_mm() < kFineRingMm;
 }
 
+constexpr double kLeastNoiseMm = 1e-3;
+
+/// Less than kLeastNoiseMm: none, or not known.
+double noise_of(const solid::TriangleMesh& mesh, const MeshAxis& axis, const std::string& name) {
+  const auto noise_in = [&](double level_mm) {
+    const auto pot = revolved(mesh, axis, level_mm, name, Edges::revolved);
+    return pot ? noise_of(*pot) : 0.0;
+  };
+  const double first_mm = noise_in(0.0);
+  if (first_mm < kLeastNoiseMm) return 0.0;
+  // The first section runs through the noise of level faces, so it seems less.
+  return std::max(noise_in(first_mm), kLeastNoiseMm);
+}
+
 /// The pot with level faces, where that is better; `result` gets the noise.
-Result<Made> leveled(Made made, const solid::TriangleMesh& mesh, DrawnPotSettings settings,
-                     MeshPot& result, const std::string& name) {
-  constexpr double kLeastNoiseMm = 1e-3, kAim = 2.0;
-  double noise_mm = noise_of(made.pot);
+Result<Made> leveled(Made made, const solid::TriangleMesh& mesh, const std::vector<bool>& complete,
+                     DrawnPotSettings settings, MeshPot& result, const std::string& name) {
+  constexpr double kAim = 2.0;
+  const double noise_mm = noise_of(mesh, result.axis, name);
   if (noise_mm < kLeastNoiseMm) return made;
   auto pot = revolved(mesh, result.axis, noise_mm, name);
   if (!pot) return made;
-  // The first section ran through the noise of level faces, so it seemed less.
-  noise_mm = std::max(noise_of(*pot), kLeastNoiseMm);
-  pot = revolved(mesh, result.axis, noise_mm, name);
-  if (!pot) return made;
   settings.deviation_mm = std::max(settings.deviation_mm, kAim * noise_mm);
-  auto level = rings_of(std::move(*pot), settings, name);
+  auto level = rings_of(std::move(*pot), complete, settings, name);
   if (!level) return made;
   const double gained_mm = made.deviation.mm - level->deviation.mm;
   const bool fewer = level->drawn.pot.stack.size() < made.drawn.pot.stack.size();
@@ -240,14 +254,17 @@ Result<MeshPot> mesh_pot(solid::TriangleMesh mesh, const MeshPotSettings& settin
   DrawnPotSettings by_itself = settings.rings;
   by_itself.ring_height_mm.reset();
   result.aimed_mm = by_itself.deviation_mm;
-  auto made = rings_of(std::move(*pot), by_itself, name);
-  if (made && rough(made->drawn)) made = leveled(std::move(*made), mesh, by_itself, result, name);
+  const std::vector<bool> complete = complete_cuts(mesh, about_axis(mesh, result.axis));
+  auto made = rings_of(std::move(*pot), complete, by_itself, name);
+  if (made && rough(made->drawn))
+    made = leveled(std::move(*made), mesh, complete, by_itself, result, name);
   if (made && settings.rings.ring_height_mm)
-    made = rings_of(std::move(made->pot), settings.rings, name);
+    made = rings_of(std::move(made->pot), complete, settings.rings, name);
   if (!made) return tl::make_unexpected(made.error());
   result.pot = std::move(made->drawn.pot);
   result.off_mm = made->drawn.deviation.mm;
   result.deviation = made->deviation;
+  result.measured = made->measured;
   result.axis.through += made->pot.foot_mm * result.axis.direction;
   result.section_mm3 = made->pot.section.volume_mm3();
   result.parts = parts_of(made->cuts, made->limit_mm);

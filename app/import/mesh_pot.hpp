@@ -3,6 +3,7 @@
 
 #include "app/import/drawn_pot.hpp"
 #include "app/import/mesh_axis.hpp"
+#include "app/import/mesh_cuts.hpp"
 
 #include <string>
 #include <vector>
@@ -22,11 +23,12 @@ struct MeshPot {
   double section_mm3 = 0.0;  ///< volume of the revolved section
   double scale = 1.0;        ///< of lengths in the mesh, from `MeshPotSettings::height_mm`
   /// Of the rings from the mesh in half-planes through the axis, in both directions, at azimuths
-  /// without parts.
+  /// without parts and without openings in the mesh.
   Deviation deviation;
-  double noise_mm = 0.0;  ///< of a scan whose faces were made level within it; 0: none were
-  double off_mm = 0.0;    ///< largest deviation of the rings from the revolved section
-  double aimed_mm = 0.0;  ///< what that was to be
+  std::size_t measured = 0;  ///< half-planes of kMeshCuts; 0: `deviation` is not known
+  double noise_mm = 0.0;     ///< of a scan whose faces were made level within it; 0: none were
+  double off_mm = 0.0;       ///< largest deviation of the rings from the revolved section
+  double aimed_mm = 0.0;     ///< what that was to be
   std::vector<MeshPart> parts;
 };
 
