@@ -8,15 +8,17 @@ namespace clay::cli {
 namespace {
 
 #ifdef CLAYSTACK_EXPORT
-/// A collapsed pot has neither foot nor capacity.
-Json state_json(const solid::PotState& state, bool stands) {
+/// A collapsed pot has neither foot nor capacity; one without a floor or an opening has no
+/// capacity.
+Json state_json(const solid::PotState& state, bool stands, bool holds) {
   const auto if_standing = [&](double number) { return stands ? Json(number) : Json(nullptr); };
+  const auto if_holding = [&](double number) { return holds ? Json(number) : Json(nullptr); };
   return {{"diameter_mm", state.size.diameter_mm},
           {"height_mm", state.size.height_mm},
           {"foot_diameter_mm", if_standing(state.size.foot_diameter_mm)},
           {"weight_g", state.weight_g},
-          {"capacity_ml", if_standing(state.capacity_ml)},
-          {"to_line_ml", if_standing(state.to_line_ml)},
+          {"capacity_ml", if_holding(state.capacity_ml)},
+          {"to_line_ml", if_holding(state.to_line_ml)},
           {"inside_cm2", if_standing(state.inside_cm2)},
           {"outside_cm2", if_standing(state.outside_cm2)}};
 }
@@ -62,9 +64,9 @@ std::string capacity_text(const Json& state) {
 std::string capacity_row(const Json& numbers) {
   const bool fired = !numbers["fired"].is_null(), glazed = !numbers["glazed"].is_null();
   const Json& used = used_state(numbers);
-  if (used["capacity_ml"].is_null()) return "none: the pot collapsed";
   if (!numbers["no_capacity"].is_null())
     return "none: " + numbers["no_capacity"].get<std::string>();
+  if (used["capacity_ml"].is_null()) return "none: the pot collapsed";
   const std::string to_brim = by_state(numbers, capacity_text) + " to the brim; ";
   const double to_line_ml = number_in(used, "to_line_ml");
   const double line_mm = number_in(numbers, "fill_line_mm");
@@ -93,6 +95,7 @@ namespace {
 
 Json maker_json(const solid::MakerNumbers& numbers, bool stands) {
   const solid::ClayFigures& clay = numbers.clay;
+  const bool holds = stands && numbers.no_capacity.empty();
   Json json = {{"clay",
                 {{"density_g_cm3", clay.density_g_cm3},
                  {"shrinkage", clay.shrinkage},
@@ -100,16 +103,16 @@ Json maker_json(const solid::MakerNumbers& numbers, bool stands) {
                  {"water", clay.water},
                  {"ignition_loss", clay.ignition_loss}}},
                {"fill_line_mm", numbers.fill_line_mm},
-               {"thrown", state_json(numbers.thrown, stands)},
+               {"thrown", state_json(numbers.thrown, stands, holds)},
                {"dry", nullptr},
                {"fired", nullptr},
                {"glazed", nullptr},
                {"no_capacity", nullptr},
                {"empty", nullptr},
                {"full", nullptr}};
-  if (numbers.dry) json["dry"] = state_json(*numbers.dry, stands);
-  if (numbers.fired) json["fired"] = state_json(*numbers.fired, stands);
-  if (numbers.glazed) json["glazed"] = state_json(*numbers.glazed, stands);
+  if (numbers.dry) json["dry"] = state_json(*numbers.dry, stands, holds);
+  if (numbers.fired) json["fired"] = state_json(*numbers.fired, stands, holds);
+  if (numbers.glazed) json["glazed"] = state_json(*numbers.glazed, stands, holds);
   if (!numbers.no_capacity.empty()) json["no_capacity"] = numbers.no_capacity;
   if (stands) json["empty"] = balance_json(numbers.empty);
   if (numbers.full) json["full"] = balance_json(*numbers.full);

@@ -185,10 +185,14 @@ std::string text_of(const MetGoal& met) {
       text.append(text.empty() ? "" : ", ").append(before + short_number_text(*number) + after);
   };
   add(goal.holds_ml, "holds ", goal.to_fill_line ? " ml to the fill line" : " ml to the brim");
-  add(goal.weighs_g, "weighs ", " g");
+  // The weight of the glaze is not known.
+  const bool only_weight = !goal.holds_ml && !goal.height_mm && !goal.diameter_mm;
+  add(goal.weighs_g, "weighs ", met.glazed && !only_weight ? " g without its glaze" : " g");
   add(goal.height_mm, "", " mm high");
   add(goal.diameter_mm, "", " mm wide");
-  return text + (!goal.fired ? ", as thrown" : met.glazed ? ", fired and glazed" : ", fired");
+  if (!goal.fired) return text + ", as thrown";
+  if (!met.glazed) return text + ", fired";
+  return text + (only_weight ? ", fired, without its glaze" : ", fired and glazed");
 }
 
 Result<GoalReport> scaled_to(const Pot& pot, const Goal& goal, const ExportOptions& options) {

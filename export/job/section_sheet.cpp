@@ -203,7 +203,8 @@ class SheetMaker {
       write_floor(floor);
     }
     height(0.0, top_, radius_ + 22.0, foot, rim);
-    if (lip_mm_ > 0.0) {
+    constexpr double kLeastLipMm = 0.05;  // a smaller one would be written as 0.0
+    if (lip_mm_ >= kLeastLipMm) {
       // Between the line of the height and the words of the mouth.
       line(SheetLayer::dimensions, {rim, top_}, {radius_ + 5.0, top_ + 3.0});
       write(SheetLayer::dimensions, {radius_ + 6.0, top_ + 2.5}, "lip R " + size(lip_mm_),
@@ -304,8 +305,8 @@ class SheetMaker {
 
   [[nodiscard]] static std::string state(std::string_view name, const PotState& pot) {
     return std::string(name) + ": " + fixed(pot.size.diameter_mm, 1) + " x " +
-           fixed(pot.size.height_mm, 1) + " mm, " + fixed(pot.weight_g, 0) + " g, holds " +
-           fixed(pot.capacity_ml, 0) + " ml";
+           fixed(pot.size.height_mm, 1) + " mm, " + fixed(pot.weight_g, 0) + " g" +
+           (pot.capacity_ml > 0.0 ? ", holds " + fixed(pot.capacity_ml, 0) + " ml" : "");
   }
 
   /// On two lines, which are as long as the others.

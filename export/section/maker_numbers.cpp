@@ -207,6 +207,8 @@ void add_later_states(MakerNumbers& numbers) {
 constexpr double kPerMl = 1e-3;
 
 std::string no_capacity_of(const Profile& profile) {
+  if (profile.pieces.size() > 1)
+    return "the pot is in " + std::to_string(profile.pieces.size()) + " pieces";
   const Polygon& top = profile.pieces.back();
   return top[brim_of(top)].rho > 0.0 ? "no floor under an open bore" : "no opening at the top";
 }

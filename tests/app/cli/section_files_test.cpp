@@ -188,6 +188,24 @@ TEST_F(SectionFiles, ScalesAPotToACapacityUnderItsGlaze) {
       EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 
+TEST_F(SectionFiles, StatesNoCapacityOfATube) {
+  const std::string drawing = folder.file("tube.svg"), tube = folder.file("tube.pot.json");
+  write_text(drawing, R"(<svg xmlns="http://www.w3.org/2000/svg" width="80mm" height="80mm" )"
+                      R"(viewBox="0 0 80 80"><rect x="30" y="10" width="10" height="60"/></svg>)");
+  ASSERT_EQ(claystack("import -q --axis 0 " + drawing + " -o " + tube).status, 0);
+  const std::string page = folder.file("tube.html");
+  const Ran made =
+      claystack("export --json --report " + page + " " + tube + " " + folder.file("tube.stl"));
+  const auto json = made.json();
+  EXPECT_EQ(violation(load_schema("report"), Json::parse(made.out)), "");
+  EXPECT_EQ(json.at("maker").at("no_capacity"), "no floor under an open bore");
+  for (const char* none : {"capacity_ml", "to_line_ml"})
+    EXPECT_TRUE(json.at("maker").at("thrown").at(none).is_null()) << none;
+  EXPECT_EQ(read_text(page).find("capacity to the brim"), std::string::npos);
+  const Ran table = claystack("export " + tube + " " + folder.file("again.stl"));
+  EXPECT_NE(table.out.find("none: no floor under an open bore"), std::string::npos) << table.out;
+}
+
 TEST_F(SectionFiles, StatesOneMinimumWall) {
   // The files have different walls, because they are rounded differently.
   const std::string files = folder.file("a.stl") + " " + folder.file("a.drc");

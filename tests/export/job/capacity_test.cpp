@@ -189,6 +189,18 @@ TEST(Goal, OfTheFinishedPotCountsItsGlaze) {
   EXPECT_EQ(numbers.glazed->weight_g, numbers.fired->weight_g);
 }
 
+/// The weight of the glaze is not known.
+TEST(Goal, StatesAWeightWithoutTheGlaze) {
+  Goal goal;
+  goal.weighs_g = 400.0;
+  goal.fired = true;
+  EXPECT_EQ(text_of(MetGoal{goal, true}), "weighs 400 g, fired, without its glaze");
+  EXPECT_EQ(text_of(MetGoal{goal, false}), "weighs 400 g, fired");
+  goal.height_mm = 100.0;
+  EXPECT_EQ(text_of(MetGoal{goal, true}),
+            "weighs 400 g without its glaze, 100 mm high, fired and glazed");
+}
+
 TEST(Goal, IsRefusedWithTheReason) {
   const Pot vase = pot_of(shapes::vase(100));
   const auto why = [&](const Pot& pot, const Goal& goal, const ExportOptions& options = {}) {

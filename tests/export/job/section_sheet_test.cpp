@@ -56,6 +56,32 @@ TEST(SectionSheet, StatesTheSizesOfThePot) {
   for (std::size_t i = 7; i < 11; ++i) EXPECT_EQ(found[i], expected[i]);
 }
 
+TEST(SectionSheet, StatesNoCapacityOfATube) {
+  const auto holds = [](const Sheet& sheet) {
+    return std::ranges::any_of(sheet.texts, [](const SheetText& text) {
+      return text.words.find("holds") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(holds(sheet_of(cup())));
+  EXPECT_FALSE(holds(sheet_of(pot_of(stack_of(10.0, {{40, 35}, {40, 35}, {40, 35}})))));
+}
+
+TEST(SectionSheet, StatesALipThatCanBeMeasured) {
+  const auto lip = [](double fillet_mm) {
+    ExportOptions options;
+    options.smoothing = Smoothing::none;
+    auto report = run_export(cup(), {}, options);
+    if (!report) throw std::runtime_error(report.error().message);
+    report->section.smoothed.lip_fillet_mm = fillet_mm;
+    const Sheet sheet = section_sheet(*report, options);
+    for (const std::string& words : words_on(sheet, SheetLayer::dimensions))
+      if (words.starts_with("lip R")) return words;
+    return std::string();
+  };
+  EXPECT_EQ(lip(1.5), "lip R 1.5");
+  EXPECT_EQ(lip(0.03), "");
+}
+
 TEST(SectionSheet, StatesFiredSizesBesideThoseDrawn) {
   ExportOptions options;
   options.shrinkage = 0.2;

@@ -143,6 +143,9 @@ TEST(MakerNumbers, NothingHoldsWaterWithoutAFloor) {
   const Profile tube{{{{30, 0}, {40, 0}, {40, 60}, {30, 60}}}};
   const MakerNumbers numbers = maker_numbers(tube, {});
   EXPECT_EQ(numbers.thrown.capacity_ml, 0.0);
+  EXPECT_EQ(numbers.no_capacity, "no floor under an open bore");
+  const Profile apart{{{{0, 0}, {40, 0}, {40, 6}, {0, 6}}, {{30, 7}, {40, 7}, {40, 60}, {30, 60}}}};
+  EXPECT_EQ(maker_numbers(apart, {}).no_capacity, "the pot is in 2 pieces");
   EXPECT_FALSE(numbers.full);
   EXPECT_EQ(numbers.thrown.inside_cm2, 0.0);
   EXPECT_NEAR(numbers.thrown.outside_cm2, 1e-2 * kHalfTurn * (2.0 * 70.0 * 60.0 + 700.0), 1e-9);
