@@ -75,9 +75,11 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
   add_length(command, "--gap", settings.gap_mm, "Gap of a pinch [mm] (default: that of the scene)");
   command.add_option("--damping", settings.arm.damping_ns_per_mm, "Damping of the arm [N s/mm]")
       ->capture_default_str();
-  command.add_flag("!--no-soften", options.soften,
-                   "Refuse a scene that is stiffer than the arm can render (default: lower its "
-                   "force.stiffness_n_per_mm2, with a warning)");
+  // A flag "!--no-soften" is shown as --no-soften{false} in the help.
+  command.add_flag_callback(
+      "--no-soften", [&options] { options.soften = false; },
+      "Refuse a scene that is stiffer than the arm can render (default: lower its "
+      "force.stiffness_n_per_mm2, with a warning)");
   command.add_flag("--wait", options.wait, "Wait for a disconnected device to return");
   begin_group(command, "Device and workspace");
   add_falcon_options(command, options.falcon);

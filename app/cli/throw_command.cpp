@@ -372,8 +372,8 @@ void add_replay_options(CLI::App& command, ThrowOptions& options) {
       ->check(one_of({"conserving", "paper"}));
   command.add_option(
       "--trace", options.trace,
-      "CSV file with one row per tick: time [s], volume error [%], the same over the top ring's "
-      "volume [%], height [mm], force [N]");
+      "CSV file with one row per tick: time [s], volume error [% of all clay], the clay of the top "
+      "ring [% of all clay] (the bound of the paper), height [mm], force [N]");
   command.add_option("--error-plot", options.error_plot,
                      "SVG plot of the volume error over time, for both models");
 }

@@ -202,8 +202,8 @@ TEST(Throw, RefusesAPinchSessionWithoutAGapInTheScene) {
   const auto run = claystack("throw " + sample("paper/vase.scene.json") + " --session " + session +
                              " -o " + pot);
   EXPECT_EQ(run.status, 2);
-  EXPECT_NE(run.err.find(session + ": expected one tool throughout, as the scene sets no "
-                                   "tool.gap_mm, found a gap of 36 mm at "),
+  EXPECT_NE(run.err.find(session + ": expected one tool throughout, because the scene sets "
+                                   "no tool.gap_mm, found a gap of 36 mm at "),
             std::string::npos)
       << run.err;
   EXPECT_FALSE(std::filesystem::exists(pot));
@@ -217,7 +217,7 @@ TEST(Throw, NamesThePotWhereThereIsNoScene) {
   const Ran two_tools =
       claystack("throw --from " + pot + " --session " + sample("paper/cylinder.session"));
   EXPECT_EQ(two_tools.status, 2);
-  EXPECT_NE(two_tools.err.find("expected one tool throughout, as the pot " + pot +
+  EXPECT_NE(two_tools.err.find("expected one tool throughout, because the pot " + pot +
                                " holds no tool.gap_mm, found a gap of 36 mm"),
             std::string::npos)
       << two_tools.err;
