@@ -123,6 +123,17 @@ Finding examine_real_time() {
                  "then log in again"};
 }
 
+/// Installed under another prefix, installed and moved, or in a clone.
+std::string rule_to_copy() {
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  const fs::path beside =
+      program.parent_path().parent_path() / "lib/udev/rules.d/60-claystack.rules";
+  if (!failed && fs::exists(beside, failed)) return beside.string();
+  if (fs::exists(CLAYSTACK_UDEV_RULE, failed)) return CLAYSTACK_UDEV_RULE;
+  return "falcon/device/60-claystack.rules";
+}
+
 Finding examine_udev_rule() {
   constexpr std::array kFolders{"/etc/udev/rules.d", "/run/udev/rules.d", "/usr/lib/udev/rules.d",
                                 "/usr/local/lib/udev/rules.d", "/lib/udev/rules.d"};
@@ -131,12 +142,10 @@ Finding examine_udev_rule() {
   for (const char* folder : kFolders)
     if (fs::exists(fs::path(folder) / kRule, ignored))
       return {"udev rule", true, (fs::path(folder) / kRule).string(), "permission for devices", {}};
-  // Installed under another prefix, or in a clone.
-  const bool installed = fs::exists(CLAYSTACK_UDEV_RULE, ignored);
   return {"udev rule", false, "none", "permission for devices",
           fmt::format("sudo cp {} /etc/udev/rules.d/ && sudo udevadm control --reload && sudo "
                       "udevadm trigger",
-                      installed ? CLAYSTACK_UDEV_RULE : "falcon/device/60-claystack.rules")};
+                      rule_to_copy())};
 }
 #endif
 

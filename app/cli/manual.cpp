@@ -53,6 +53,33 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
   return choices;
 }
 
+/// The words that an option takes beside the names of files.
+struct OpenChoices {
+  std::string_view option;
+  std::vector<std::string> words;
+};
+
+const std::vector<OpenChoices>& open_choices() {
+  static const std::vector<OpenChoices> all = {
+      {"process", {"fdm", "sla", "earthenware", "stoneware", "porcelain"}},
+      {"device", {"auto", "falcon", "bridge", "spacemouse", "simulated"}}};
+  return all;
+}
+
+/// What a shell offers for the value of an option.
+struct Completion {
+  std::vector<std::string> words;
+  bool files = false;
+};
+
+Completion completion_of(const CLI::Option& option) {
+  if (is_flag(option)) return {};
+  if (auto choices = choices_of(option); !choices.empty()) return {std::move(choices), false};
+  for (const OpenChoices& open : open_choices())
+    if (option.check_lname(std::string(open.option))) return {open.words, true};
+  return {{}, true};
+}
+
 std::vector<std::string> names_of(const CLI::Option& option) {
   std::vector<std::string> names;
   for (const std::string& name : option.get_snames()) names.push_back("-" + name);
@@ -133,6 +160,24 @@ void add_synopsis(std::ostream& page, const CLI::App* command) {
   }
 }
 
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : commands_of(app)) names.push_back(command->get_name());
+  return names;
+}
+
+/// Case lines: the values of the options of a command.
+void add_values_for_bash(std::ostream& script, const CLI::App& command) {
+  for (const CLI::Option* option : options_of(command, false)) {
+    const Completion offered = completion_of(*option);
+    if (offered.words.empty()) continue;
+    for (const std::string& name : names_of(*option))
+      script << "    " << command.get_name() << ':' << name
+             << ") words=" << shell_word(joined(offered.words, " "))
+             << (offered.files ? " files=1" : "") << " ;;\n";
+  }
+}
+
 std::string words_for_bash(const CLI::App& command) {
   std::vector<std::string> words;
   for (const CLI::Option* option : options_of(command, false))
@@ -148,6 +193,16 @@ std::string for_zsh(std::string_view text) {
     word += c == '\n' ? ' ' : c;
   }
   return word;
+}
+
+/// The part of a specification that offers the values.
+std::string action_for_zsh(const CLI::Option& option) {
+  const Completion offered = completion_of(option);
+  if (offered.words.empty()) return "_files";
+  if (!offered.files) return "(" + joined(offered.words, " ") + ")";
+  for (const OpenChoices& open : open_choices())
+    if (open.words == offered.words) return "_claystack_" + std::string(open.option);
+  return "_files";
 }
 
 }  // namespace
@@ -194,51 +249,49 @@ std::string manual_page(const CLI::App& app, const CLI::App* command) {
 
 std::string bash_completions(const CLI::App& app) {
   std::ostringstream script;
-  std::vector<std::string> names;
-  for (const CLI::App* command : commands_of(app)) names.push_back(command->get_name());
+  const std::string names = joined(command_names(app), " ");
   script << "# bash completion for claystack\n_claystack() {\n"
             "  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}\n"
-            "  local words=\n"
+            "  local words= files=\n"
             "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    words="
-         << shell_word(joined(names, " ") + " help --help --version")
-         << "\n  else\n    case ${COMP_WORDS[1]}:$before in\n";
-  for (const CLI::App* command : commands_of(app))
-    for (const CLI::Option* option : options_of(*command, false))
-      if (const auto choices = choices_of(*option); !choices.empty())
-        for (const std::string& name : names_of(*option))
-          script << "    " << command->get_name() << ':' << name
-                 << ") words=" << shell_word(joined(choices, " ")) << " ;;\n";
+         << shell_word(names + " help --help --version")
+         << "\n  else\n    case ${COMP_WORDS[1]}:$before in\n    help:help) words="
+         << shell_word(names) << " ;;\n";
+  for (const CLI::App* command : commands_of(app)) add_values_for_bash(script, *command);
   script << "    esac\n    if [ -z \"$words\" ] && [[ $current == -* ]]; then\n"
             "      case ${COMP_WORDS[1]} in\n";
   for (const CLI::App* command : commands_of(app))
     script << "      " << command->get_name() << ") words=" << shell_word(words_for_bash(*command))
            << " ;;\n";
   script << "      esac\n    fi\n  fi\n"
-            "  if [ -n \"$words\" ]; then\n"
-            "    COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
-            "  else\n    compopt -o filenames\n"
-            "    COMPREPLY=($(compgen -f -- \"$current\"))\n  fi\n}\n"
+            "  COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
+            "  if [ -z \"$words\" ] || [ -n \"$files\" ]; then\n    compopt -o filenames\n"
+            "    COMPREPLY+=($(compgen -f -- \"$current\"))\n  fi\n}\n"
             "complete -F _claystack claystack\n";
   return script.str();
 }
 
 std::string zsh_completions(const CLI::App& app) {
   std::ostringstream script;
-  script << "#compdef claystack\n_claystack() {\n  local -a commands\n  commands=(\n";
+  script << "#compdef claystack\n";
+  for (const OpenChoices& open : open_choices())
+    script << "_claystack_" << open.option << "() {\n  _alternative 'words:word:("
+           << joined(open.words, " ") << ")' 'files:file:_files'\n}\n";
+  script << "_claystack() {\n  local -a commands\n  commands=(\n";
   for (const CLI::App* command : commands_of(app))
     script << "    " << shell_word(command->get_name() + ":" + for_zsh(command->get_description()))
            << '\n';
-  script << "  )\n  if (( CURRENT == 2 )); then\n    _describe command commands\n    return\n  fi\n"
+  script << "  )\n  if (( CURRENT == 2 )) || [[ $CURRENT == 3 && $words[2] == help ]]; then\n"
+            "    (( CURRENT == 2 )) && commands+=('help:Print the help of a command')\n"
+            "    _describe command commands\n    return\n  fi\n"
             "  shift words\n  (( CURRENT-- ))\n  case $words[1] in\n";
   for (const CLI::App* command : commands_of(app)) {
     script << "  " << command->get_name() << ")\n    _arguments";
     for (const CLI::Option* option : options_of(*command, false))
       for (const std::string& name : names_of(*option)) {
-        const auto choices = choices_of(*option);
         std::string spec = name + "[" + for_zsh(option->get_description()) + "]";
         if (!is_flag(*option))
-          spec += ":" + for_zsh(value_name(*option)) + ":" +
-                  (choices.empty() ? "_files" : "(" + joined(choices, " ") + ")");
+          spec += ":" + for_zsh(value_name(*option)) + ":" + action_for_zsh(*option);
         script << " \\\n      " << shell_word(spec);
       }
     script << " \\\n      '*:file:_files'\n    ;;\n";
@@ -252,14 +305,18 @@ std::string fish_completions(const CLI::App& app) {
   for (const CLI::App* command : commands_of(app))
     script << "complete -c claystack -f -n __fish_use_subcommand -a " << command->get_name()
            << " -d " << shell_word(command->get_description()) << '\n';
+  script << "complete -c claystack -f -n __fish_use_subcommand -a help -d "
+            "'Print the help of a command'\n"
+            "complete -c claystack -f -n '__fish_seen_subcommand_from help' -a "
+         << shell_word(joined(command_names(app), " ")) << '\n';
   for (const CLI::App* command : commands_of(app))
     for (const CLI::Option* option : options_of(*command, false)) {
       script << "complete -c claystack -n '__fish_seen_subcommand_from " << command->get_name()
              << "'";
       for (const std::string& name : option->get_snames()) script << " -s " << name;
       for (const std::string& name : option->get_lnames()) script << " -l " << name;
-      if (const auto choices = choices_of(*option); !choices.empty())
-        script << " -x -a " << shell_word(joined(choices, " "));
+      if (const Completion offered = completion_of(*option); !offered.words.empty())
+        script << (offered.files ? " -r -a " : " -x -a ") << shell_word(joined(offered.words, " "));
       else if (!is_flag(*option))
         script << " -r";
       script << " -d " << shell_word(option->get_description()) << '\n';

@@ -56,6 +56,24 @@ TEST(Doctor, NamesWhatIsMissingAndTheFix) {
 #endif
 }
 
+/// An installed program finds its rule beside itself, wherever the folder was moved to. A machine
+/// that has the rule, and a program without devices, need no fix.
+TEST(Doctor, NamesTheRuleBesideTheProgram) {
+  const ScratchFolder folder;
+  namespace fs = std::filesystem;
+  fs::create_directories(folder.path() / "bin");
+  fs::create_directories(folder.path() / "lib/udev/rules.d");
+  fs::copy_file(CLAYSTACK_PROGRAM, folder.path() / "bin/claystack");
+  const std::string rule = folder.file("lib/udev/rules.d/60-claystack.rules");
+  write_text(rule, "#\n");
+  const nlohmann::json report = shell(folder.file("bin/claystack") + " doctor --json").json();
+  for (const nlohmann::json& one : report.at("findings"))
+    if (one.at("name") == "udev rule" && one.contains("fix")) {
+      EXPECT_NE(one.at("fix").get<std::string>().find("sudo cp " + rule + " "), std::string::npos)
+          << one;
+    }
+}
+
 TEST(Manual, ShowsEveryOptionThatHelpLists) {
   for (const std::string command : {"export", "check", "throw", "batch"}) {
     const Ran page = claystack("manual " + command);
@@ -88,6 +106,30 @@ TEST(Manual, CompletesInBash) {
   EXPECT_EQ(complete("claystack exp"), "export\n");
   EXPECT_EQ(complete("claystack export a --smo"), "--smooth --smooth-length\n");
   EXPECT_EQ(complete("claystack export a --smooth \"\""), "fair exact none\n");
+  const std::string commands = complete("claystack help \"\"");
+  EXPECT_NE(commands.find("export"), std::string::npos) << commands;
+  EXPECT_EQ(complete("claystack help exp"), "export\n");
+  // Words, and names of files beside them.
+  EXPECT_EQ(complete("claystack export a --process po"), "porcelain\n");
+  EXPECT_EQ(complete("claystack export a --process " + folder.file("")), folder.file("c") + "\n");
+  const bool devices = claystack("throw --help").out.find("--device") != std::string::npos;
+  EXPECT_EQ(complete("claystack throw a --device sim"), devices ? "simulated\n" : "\n");
+}
+
+/// The words that shells offer are those of the help.
+TEST(Manual, CompletesTheProcessesInEveryShell) {
+  const std::string help = claystack("export --help").out;
+  const std::string words = "fdm sla earthenware stoneware porcelain";
+  EXPECT_NE(help.find("fdm, sla, earthenware, stoneware, porcelain, or a .json"), help.npos);
+  for (const auto& [shell, line] :
+       {std::pair("bash", "export:--process) words='" + words + "' files=1"),
+        std::pair("zsh", "_alternative 'words:word:(" + words + ")' 'files:file:_files'"),
+        std::pair("zsh", std::string(":TEXT:_claystack_process'")),
+        std::pair("fish", " -l process -r -a '" + words + "'"),
+        std::pair("fish", std::string("'__fish_seen_subcommand_from help' -a"))}) {
+    const std::string script = claystack("manual " + std::string(shell)).out;
+    EXPECT_NE(script.find(line), std::string::npos) << shell << ": " << line;
+  }
 }
 
 }  // namespace
