@@ -23,14 +23,13 @@ std::optional<render::Viewport> size_of(std::string_view text) {
 
 void add_size(CLI::App& sub, RenderCommand& command) {
   sub.add_option_function<std::string>(
-         "--size", [&command](const std::string& text) { command.choices.size = *size_of(text); },
-         "Width x height of the picture [px]")
+         "--size", [&command](const std::string& text) { command.size_asked = size_of(text); },
+         "Width x height [px] (default: 1280x720 of a picture, 640x360 of a turntable)")
       ->check([](const std::string& text) {
         return size_of(text) ? std::string()
                              : fmt::format("expected WIDTHxHEIGHT, 1x1 to {0}x{0}, found {1}",
                                            render::kMaxSidePx, text);
-      })
-      ->default_str("1280x720");
+      });
 }
 
 void add_material(CLI::App& sub, render::PictureChoices& choices) {
@@ -72,9 +71,12 @@ void add_camera(CLI::App& sub, render::PictureChoices& choices) {
       ->check(in_range(-89.0, 89.0));
 }
 
+std::string text_of(render::Viewport size) {
+  return fmt::format("{} x {} px", size.width_px, size.height_px);
+}
+
 void print_picture(const Console& console, const RenderCommand& command, const Rendered& done) {
-  const std::string size =
-      fmt::format("{} x {} px", command.choices.size.width_px, command.choices.size.height_px);
+  const std::string size = text_of(command.choices.size);
   if (!command.out.empty() && command.out != "-")
     console.print(fmt::format("{}: {}, {} bytes{}", command.out, size, done.png_bytes,
                               command.choices.style == render::Style::clay
@@ -82,7 +84,8 @@ void print_picture(const Console& console, const RenderCommand& command, const R
                                   : ""));
   if (!command.turntable.empty() && command.turntable != "-")
     console.print(fmt::format("{}: {} frames of {}, {} bytes", command.turntable,
-                              command.choices.frames, size, done.gif_bytes));
+                              command.choices.frames, text_of(command.turntable_size),
+                              done.gif_bytes));
   if (done.map)
     console.print(fmt::format(
         "walls: dark blue 0 mm to yellow {:g} mm{}; thinnest {:.3f} mm", done.map->top_mm,
@@ -107,8 +110,11 @@ Json rendered_json(const RenderCommand& command, const Rendered& done) {
                {"renderer", done.renderer}};
   if (!command.out.empty()) json["png"] = {{"path", command.out}, {"bytes", done.png_bytes}};
   if (!command.turntable.empty())
-    json["gif"] = {
-        {"path", command.turntable}, {"bytes", done.gif_bytes}, {"frames", command.choices.frames}};
+    json["gif"] = {{"path", command.turntable},
+                   {"bytes", done.gif_bytes},
+                   {"frames", command.choices.frames},
+                   {"width_px", command.turntable_size.width_px},
+                   {"height_px", command.turntable_size.height_px}};
   if (done.map)
     json["wall_map"] = {{"limit_mm", done.map->limit_mm},
                         {"top_mm", done.map->top_mm},
@@ -124,6 +130,8 @@ int run(RenderCommand& command, Console console) {
   if (command.walls.asked()) command.wall_map = true;
 #endif
   if (command.frames_asked) command.choices.frames = *command.frames_asked;
+  if (command.size_asked) command.choices.size = command.turntable_size = *command.size_asked;
+  if (command.out.empty() && !command.time) command.choices.size = command.turntable_size;
   const auto done = render(command, console);
   if (!done) return report(done.error());
   if (console.json) print_json(rendered_json(command, *done));

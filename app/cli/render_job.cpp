@@ -77,8 +77,10 @@ Result<render::Picture> picture_of(const RenderCommand& command, const Console& 
 Result<std::uint64_t> turn(render::Offscreen& screen, const render::Picture& picture,
                            const RenderCommand& command, const Console& console, AtomicFile& file) {
   Progress progress(console, "turning", 2 * static_cast<std::size_t>(command.choices.frames));
+  render::PictureChoices choices = command.choices;
+  choices.size = command.turntable_size;
   return render::write_turntable(
-      screen, picture, command.choices,
+      screen, picture, choices,
       [&](std::size_t done, std::size_t) -> Result<void> {
         progress.update(done);
         return {};

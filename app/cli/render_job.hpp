@@ -20,7 +20,9 @@ struct RenderCommand {
   std::string out;        ///< .png; empty: none
   std::string turntable;  ///< .gif; empty: none
   render::PictureChoices choices;
-  std::optional<int> frames_asked;  ///< of the turntable; overrides those of `choices`
+  std::optional<render::Viewport> size_asked;  ///< of picture and turntable
+  render::Viewport turntable_size{640, 360};   ///< if no size is asked for
+  std::optional<int> frames_asked;             ///< of the turntable; overrides those of `choices`
   bool wall_map = false, time = false;
 #ifdef CLAYSTACK_EXPORT
   WallOptions walls;

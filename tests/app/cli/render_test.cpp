@@ -41,6 +41,21 @@ TEST(Render, TurntableHasTheRequestedFrames) {
   EXPECT_EQ(shell("identify -format \"%m \" " + folder.file("v.gif")).out, "GIF GIF GIF GIF GIF ");
 }
 
+/// Its frames are many, and a graphics card may be missing.
+TEST(Render, TurntableIsSmallerThanAPictureByDefault) {
+  const ScratchFolder folder;
+  const std::string png = folder.file("v.png"), gif = folder.file("v.gif");
+  const Ran run =
+      claystack("render --json " + vase() + " --frames 2 --turntable " + gif + " -o " + png);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json().at("width_px"), 1280);
+  EXPECT_EQ(run.json().at("gif").at("width_px"), 640);
+  EXPECT_EQ(shell("identify -format \"%w %h\" " + png).out, "1280 720");
+  EXPECT_EQ(shell("identify -format \"%w %h \" " + gif).out, "640 360 640 360 ");
+  const Ran alone = claystack("render --json " + vase() + " --frames 1 --turntable " + gif);
+  EXPECT_EQ(alone.json().at("width_px"), 640);
+}
+
 /// The peak memory of a turntable [KiB].
 long peak_kib_of(int frames) {
   const ScratchFolder folder;
