@@ -18,8 +18,8 @@ namespace clay::solid::inline formats {
 
 // ---- mesh formats --------------------------------------------------------------------
 // The only readers and writers of mesh files. Encoders write to memory; the caller publishes.
-// Decoders treat input as untrusted: own decoders for STL, OBJ, PLY and OFF, Draco's decoder behind
-// checks.
+// Decoders treat input as untrusted: own decoders for STL, OBJ, PLY and OFF; Draco's decoder behind
+// checks; 3MF by libzip and libxml2; GLB by nlohmann-json and meshoptimizer.
 
 struct DracoClaims;  // drc_claims.hpp
 
@@ -36,7 +36,7 @@ struct FormatFacts {
   bool decimal;   ///< coordinates are decimal digits
 };
 
-/// The formats: every list of them in messages, help, schemas and tests is made from this one.
+/// The formats, in the order in which messages and help list them.
 inline constexpr std::array kFormatFacts{
     FormatFacts{MeshFormat::stl_binary, "stl_binary", "STL", ".stl", true, true, false},
     FormatFacts{MeshFormat::stl_ascii, "stl_ascii", "STL", ".stl", true, true, true},
@@ -187,8 +187,8 @@ struct ByteSource {
 inline constexpr std::uint64_t kMaxTextBytes = std::uint64_t{8} << 30;
 
 /// Read an STL or OBJ file like `decode_stl` and `decode_obj`, but hold only one or two megabytes
-/// of it in memory, or its longest line; text may have up to kMaxTextBytes. Errors of the source are passed on.
-/// `read_mesh` takes either format.
+/// of it in memory, or its longest line; text may have up to kMaxTextBytes. Errors of the source
+/// are passed on. `read_mesh` takes either format.
 Result<TriangleMesh> read_mesh(const ByteSource& source, MeshFormat streamed, std::string_view name,
                                const ReadOptions& options = {});
 Result<TriangleMesh> read_stl(const ByteSource& source, std::string_view name,
