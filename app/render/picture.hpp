@@ -75,7 +75,8 @@ enum class Style { clay, geometry };
 enum class Cut { none, half, quarter };
 
 /// Colours for the wall thickness: from 0 to `top_mm`, the same for every pot. Walls below
-/// `limit_mm` are hatched in a separate colour. Drawn if the pot's `wall_mm` is known.
+/// `limit_mm`, the thinnest that passes, are hatched in a separate colour. Drawn if the pot's
+/// `wall_mm` is known.
 struct WallMap {
   double limit_mm = 0.0;
   double top_mm = 10.0;
