@@ -128,6 +128,7 @@ ExportFigures figures_of(const solid::ExportReport& report, const solid::ExportO
       .thinnest_at_mm = thinnest.from.y,
       .thinnest_in_floor =
           in_floor(form_of(thrown), place_of(thinnest.from), place_of(thinnest.to)),
+      .closed_cavity = false,
       .faired_mm = report.section.smoothed.fairing.length_mm,
       .moved_mm = report.section.smoothed.fairing.moved_mm,
       .moved_at_mm = report.section.smoothed.fairing.moved_at_mm,
@@ -141,6 +142,7 @@ ExportFigures figures_of(const solid::ExportReport& report, const solid::ExportO
   figures.failed = static_cast<std::size_t>(warnings.begin() - problems.begin());
   for (const solid::Problem& problem : problems) {
     figures.problems.push_back(problem.text);
+    figures.closed_cavity |= problem.kind == solid::ProblemKind::cavity;
     if (problem.at) figures.marks.push_back({place_of(*problem.at), problem.text});
   }
   return figures;

@@ -75,6 +75,7 @@ struct ExportFigures {
   bool fallen = false;       ///< walls are not measured
   double thinnest_mm = 0.0, thinnest_at_mm = 0.0;
   bool thinnest_in_floor = false;  ///< then the height is that of no wall
+  bool closed_cavity = false;      ///< one that no drain opens
   double faired_mm = 0.0, moved_mm = 0.0, moved_at_mm = 0.0;  ///< of the fairing, if there is one
   std::vector<std::string> problems;
   std::size_t failed = 0;   ///< problems that fail a limit; they come first

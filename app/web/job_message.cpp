@@ -130,11 +130,11 @@ auto members(Like<studio::ExportFigures::Mesh> auto& of) {
 }
 auto members(Like<studio::ExportFigures> auto& of) {
   auto& [has_solid, triangles, meshes, diameter_mm, height_mm, shrinkage, capacity_ml, weight_g,
-         fallen, thinnest_mm, thinnest_at_mm, thinnest_in_floor, faired_mm, moved_mm, moved_at_mm,
-         problems, failed, marks] = of;
+         fallen, thinnest_mm, thinnest_at_mm, thinnest_in_floor, closed_cavity, faired_mm, moved_mm,
+         moved_at_mm, problems, failed, marks] = of;
   return std::tie(has_solid, triangles, meshes, diameter_mm, height_mm, shrinkage, capacity_ml,
-                  weight_g, fallen, thinnest_mm, thinnest_at_mm, thinnest_in_floor, faired_mm,
-                  moved_mm, moved_at_mm, problems, failed, marks);
+                  weight_g, fallen, thinnest_mm, thinnest_at_mm, thinnest_in_floor, closed_cavity,
+                  faired_mm, moved_mm, moved_at_mm, problems, failed, marks);
 }
 
 auto members(Like<strokes::Stroke> auto& of) {

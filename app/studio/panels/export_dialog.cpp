@@ -109,8 +109,10 @@ void draw_finish(const ViewModel& model, ExportChoices& choices) {
                 choices.process.empty() ? "none" : "by the process");
   choose_tenths("Glaze allowance", choices.glaze_mm, 0.0, kThickestGlazeMm, unit, "none");
   tip("The thickness of the glaze. The pot is thinner by this thickness, except at the foot.");
+  const auto& preview = model.ui.exporting.preview;
+  if (!(choices.drain_mm > 0.0) && !(preview && preview->closed_cavity)) return;
   choose_tenths("Drain hole", choices.drain_mm, 0.0, kWidestDrainMm, unit, "none");
-  tip("The diameter of a hole through the foot that opens a closed cavity.");
+  tip("The diameter of a hole through the foot that opens the closed cavity.");
 }
 
 /// Begins with the goal of the panel, or with the size of the pot.

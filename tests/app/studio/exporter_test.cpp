@@ -152,12 +152,14 @@ TEST_F(Exporting, OpensAClosedCavity) {
   exporter.preview(closed, choices);
   const auto before = outcome();
   ASSERT_TRUE(before.done);
-  EXPECT_EQ(before.done->problems.size(), 1u) << "the cavity";
+  EXPECT_EQ(before.done->problems.size(), 1u);
+  EXPECT_TRUE(before.done->closed_cavity);
   choices.drain_mm = 5.0;
   exporter.preview(closed, choices);
   const auto after = outcome();
   ASSERT_TRUE(after.done) << after.done.error().message;
   EXPECT_TRUE(after.done->problems.empty()) << after.done->problems[0];
+  EXPECT_FALSE(after.done->closed_cavity);
   // The hole of 5 mm through the floor of 10 mm.
   EXPECT_NEAR(before.done->weight_g - after.done->weight_g,
               1e-3 * closed->density_g_cm3 * std::numbers::pi * 2.5 * 2.5 * 10.0, 2e-3);

@@ -161,6 +161,7 @@ TEST(JobMessage, CarriesFiguresFilesAndErrors) {
                                             .thinnest_mm = 0.4,
                                             .thinnest_at_mm = 0.5,
                                             .thinnest_in_floor = true,
+                                            .closed_cavity = true,
                                             .problems = {"thin"},
                                             .failed = 1,
                                             .marks = {{{0.6, 0.7}, "here"}}},
@@ -169,7 +170,8 @@ TEST(JobMessage, CarriesFiguresFilesAndErrors) {
   ASSERT_TRUE(found && found->done);
   EXPECT_EQ(found->files, answer.files);
   const studio::ExportFigures& figures = *found->done;
-  EXPECT_TRUE(figures.has_solid && figures.fallen && figures.thinnest_in_floor);
+  EXPECT_TRUE(figures.has_solid && figures.fallen && figures.thinnest_in_floor &&
+              figures.closed_cavity);
   EXPECT_EQ(figures.failed, 1u);
   EXPECT_EQ(figures.triangles, 7u);
   ASSERT_EQ(figures.meshes.size(), 1u);
