@@ -7,6 +7,7 @@
 #include "claystack/falcon/usb.hpp"
 #endif
 
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <utility>
@@ -26,12 +27,11 @@ Result<DevicePointer> open_simulated(const falcon::SimulatedSettings& settings) 
 }  // namespace
 
 std::string check_device_name(const std::string& which) {
-  for (const char* name : {"auto", "falcon", "bridge", "spacemouse", "simulated"})
+  for (const char* name : kDeviceNames)
     if (which == name) return {};
   if (which.starts_with("usb:") || which.starts_with("/dev/")) return {};
-  return "expected auto, falcon, bridge, spacemouse, simulated, usb:BUS-PORT or /dev/hidrawN, "
-         "found " +
-         which;
+  return fmt::format("expected {}, usb:BUS-PORT or /dev/hidrawN, found {}",
+                     fmt::join(kDeviceNames, ", "), which);
 }
 
 void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings) {

@@ -5,6 +5,7 @@
 #include "claystack/falcon/device.hpp"
 #include "claystack/falcon/sim.hpp"
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -14,8 +15,10 @@ class App;
 
 namespace clay::cli {
 
-/// For CLI options: accepts auto, falcon, bridge, spacemouse, simulated or a place; otherwise
-/// returns the expected values.
+/// The names of devices that options accept, beside places.
+inline constexpr std::array kDeviceNames = {"auto", "falcon", "bridge", "spacemouse", "simulated"};
+
+/// For CLI options: accepts one of kDeviceNames or a place; otherwise returns the expected values.
 [[nodiscard]] std::string check_device_name(const std::string& which);
 
 /// For a Falcon, also behind a bridge: --firmware, or CLAYSTACK_FALCON_FIRMWARE; --geometry and

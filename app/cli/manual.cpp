@@ -2,6 +2,13 @@
 
 #include "claystack/version.hpp"
 
+#ifdef CLAYSTACK_EXPORT
+#include "claystack/export/walls.hpp"
+#endif
+#ifdef CLAYSTACK_FALCON
+#include "app/cli/device_choice.hpp"
+#endif
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -61,8 +68,13 @@ struct OpenChoices {
 
 const std::vector<OpenChoices>& open_choices() {
   static const std::vector<OpenChoices> all = {
-      {"process", {"fdm", "sla", "earthenware", "stoneware", "porcelain"}},
-      {"device", {"auto", "falcon", "bridge", "spacemouse", "simulated"}}};
+#ifdef CLAYSTACK_EXPORT
+      {"process", {solid::kProcessNames.begin(), solid::kProcessNames.end()}},
+#endif
+#ifdef CLAYSTACK_FALCON
+      {"device", {kDeviceNames.begin(), kDeviceNames.end()}},
+#endif
+  };
   return all;
 }
 

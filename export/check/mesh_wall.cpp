@@ -139,8 +139,8 @@ constexpr double kWedge = 0.79;
 /// at 22.5 degrees.
 constexpr double kSpan = 3.06, kLeastEnd = 0.6, kMostEnd = 1.63;
 
-/// The clay ends on one side of a line if the other side is so many times longer: at a third of the
-/// width of a bar both sides are ends.
+/// A line across the ray ends on one side only if its other side is at least this many times as
+/// long. In the middle third of the width of a bar it ends on both sides.
 constexpr double kOneSided = 2.0;
 constexpr double kLeansMore = 0.1;  ///< of the sines of two faces
 
