@@ -2,6 +2,7 @@
 
 #include "core/parallel_parts.hpp"
 #include "export/check/wall_ray.hpp"
+#include "export/solid/area_shares.hpp"
 #include "export/solid/box_tree.hpp"
 #include "export/solid/mesh_topology.hpp"
 
@@ -21,12 +22,6 @@
 namespace clay::solid::inline check {
 namespace {
 
-/// Twice the area, as a vector along the outward normal.
-glm::dvec3 doubled_area(const TriangleMesh& mesh, std::uint32_t triangle) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  return glm::cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
-}
-
 /// The n-th van der Corput number: its digits mirrored at the point.
 double radical_inverse(std::size_t n, std::size_t base) {
   double value = 0.0, digit = 1.0;
@@ -41,21 +36,14 @@ double radical_inverse(std::size_t n, std::size_t base) {
 class SurfaceSampling {
  public:
   SurfaceSampling(const TriangleMesh& mesh, std::size_t samples) : mesh_(mesh), samples_(samples) {
-    double area = 0.0;
-    area_up_to_.reserve(mesh.triangles.size());
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-      area_up_to_.push_back(area += glm::length(doubled_area(mesh, t)));
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) shares_.add(doubled_area(mesh, t));
   }
 
-  [[nodiscard]] double area() const { return area_up_to_.empty() ? 0.0 : area_up_to_.back(); }
+  [[nodiscard]] double area() const { return shares_.area(); }
 
   /// The triangle at the middle of the sample's share of the area.
   [[nodiscard]] std::uint32_t triangle(std::size_t sample) const {
-    const double share = (static_cast<double>(sample) + 0.5) / static_cast<double>(samples_);
-    const auto found = std::upper_bound(area_up_to_.begin(), area_up_to_.end(), share * area());
-    const auto number = std::min<std::ptrdiff_t>(
-        found - area_up_to_.begin(), static_cast<std::ptrdiff_t>(area_up_to_.size()) - 1);
-    return static_cast<std::uint32_t>(number);
+    return static_cast<std::uint32_t>(shares_.triangle(sample, samples_));
   }
 
   [[nodiscard]] glm::dvec3 place(std::size_t sample) const {
@@ -72,7 +60,7 @@ class SurfaceSampling {
  private:
   const TriangleMesh& mesh_;
   std::size_t samples_;
-  std::vector<double> area_up_to_;
+  AreaShares shares_;
 };
 
 struct Shortest {

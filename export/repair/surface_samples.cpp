@@ -1,9 +1,6 @@
 #include "export/repair/surface_samples.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -24,20 +21,11 @@ SurfaceSamples::SurfaceSamples(const TriangleMesh& mesh, std::size_t count)
 SurfaceSamples::SurfaceSamples(const TriangleMesh& mesh, std::vector<std::uint32_t> triangles,
                                std::size_t count)
     : mesh_(mesh), count_(count), triangles_(std::move(triangles)) {
-  double area = 0.0;
-  for (const std::uint32_t t : triangles_) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    area +=
-        glm::length(glm::cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]));
-    area_to_.push_back(area);
-  }
+  for (const std::uint32_t t : triangles_) shares_.add(doubled_area(mesh, t));
 }
 
 std::uint32_t SurfaceSamples::triangle(std::size_t sample) const {
-  const double share = (static_cast<double>(sample) + 0.5) / static_cast<double>(count_);
-  const auto at =
-      std::upper_bound(area_to_.begin(), std::prev(area_to_.end()), share * area_to_.back());
-  return triangles_[static_cast<std::size_t>(at - area_to_.begin())];
+  return triangles_[shares_.triangle(sample, count_)];
 }
 
 glm::dvec2 SurfaceSamples::weights(std::size_t sample) {

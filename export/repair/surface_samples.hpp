@@ -1,5 +1,6 @@
 #pragma once
 #include "claystack/export/solid.hpp"
+#include "export/solid/area_shares.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,7 +29,7 @@ class SurfaceSamples {
   const TriangleMesh& mesh_;
   std::size_t count_;
   std::vector<std::uint32_t> triangles_;
-  std::vector<double> area_to_;  ///< twice the area of the triangles up to each
+  AreaShares shares_;
 };
 
 }  // namespace clay::solid::inline repair

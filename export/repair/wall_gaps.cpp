@@ -16,9 +16,7 @@ double share_filled(const TriangleMesh& surface, const TriangleMesh& wall, doubl
   std::size_t inside = 0;
   for (std::size_t i = 0; i < kSamples; ++i) {
     stop_if_cancelled();
-    const auto& [a, b, c] = surface.triangles[samples.triangle(i)];
-    const glm::dvec3 normal = glm::normalize(
-        glm::cross(surface.points[b] - surface.points[a], surface.points[c] - surface.points[a]));
+    const glm::dvec3 normal = glm::normalize(doubled_area(surface, samples.triangle(i)));
     const glm::dvec3 place = samples.place(i);
     for (const double side : {1.0, -1.0}) {
       const glm::dvec3 beside = place + side * kBeyond * offset_mm * normal;
