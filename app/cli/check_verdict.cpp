@@ -42,9 +42,10 @@ std::string in_cm3(double mm3) {
 }
 
 std::string volume_text(const solid::MeshReport& mesh) {
-  const bool counted_twice = mesh.components > 1 && mesh.self_intersections > 0;
+  const bool several_shells = mesh.components > 1 || mesh.self_intersections > 0;
+  const bool counted_twice = several_shells && !mesh.bounds_volume;
   if (mesh.has_volume)
-    return in_cm3(mesh.volume_mm3) + (counted_twice ? " (twice where bodies overlap)" : "");
+    return in_cm3(mesh.volume_mm3) + (counted_twice ? " (counted twice where shells overlap)" : "");
   return mesh.closed ? "no volume: neighbours face opposite ways" : "no volume: the mesh is open";
 }
 

@@ -190,12 +190,11 @@ Result<Slab> slab_between(double from, double to, std::vector<const Edge*>& edge
   std::sort(edges.begin(), edges.end(), [&](const Edge* a, const Edge* b) {
     return a->radius_at(middle) > b->radius_at(middle);
   });
-  const auto refuse = [&](const char* expected, std::size_t found) {
+  if (edges.empty())
     return failure(ErrorKind::bad_input,
-                   fmt::format("{}: {:.3f} mm above the foot: expected {}, found {} bounds", name,
-                               middle, expected, found));
-  };
-  if (edges.empty()) return refuse("clay at every height from foot to rim", 0);
+                   fmt::format("{}: expected clay around the axis at every height, found none from "
+                               "{:.3f} to {:.3f} mm above the foot",
+                               name, from, to));
   if (edges.size() > 2) return side_by_side(middle, edges, name);
   Slab slab{from, to, edges[0]->radius_at(from), edges[0]->radius_at(to), 0.0, 0.0};
   if (edges.size() == 1) return slab;

@@ -28,7 +28,8 @@ TEST(HalfSection, ErrorsNameThePlace) {
   // A wall that folds over: between 10 and 20 mm there are two walls.
   EXPECT_THAT(refused("0,0\n40,0\n40,20\n30,10\n20,10\n20,30\n0,30\n"), HasSubstr("in one place"));
   EXPECT_THAT(refused("0,0\n10,0\n10,5\n0,5\n0,0\n\n0,8\n10,8\n10,9\n0,9\n0,8\n"),
-              HasSubstr("6.500 mm above the foot: expected clay at every height"));
+              HasSubstr("expected clay around the axis at every height, found none from 5.000 to "
+                        "8.000 mm above the foot"));
   EXPECT_THAT(refused("10,0\n10,5\n\n20,7\n20,9\n"), HasSubstr("a single open one"));
   EXPECT_THAT(refused("10,5\n20,5\n"), HasSubstr("expected an outline right of the axis"));
 }
