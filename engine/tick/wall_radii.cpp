@@ -79,7 +79,8 @@ CLAYSTACK_INLINE inline bool measure_rows(const Ring* rings, std::size_t first, 
 
 void WallRadii::reserve(const Tool& tool, const ClayStack& stack) {
   const double h = stack.ring_height_mm(), most = static_cast<double>(stack.max_rings());
-  const double reach = tool.high() - tool.low() + 2.0 * kLongestShellMm;
+  // A shell goes half a contact farther than its peak, which may be at the contact's end.
+  const double reach = 1.5 * (tool.high() - tool.low()) + 2.0 * kLongestShellMm;
   apart_ = static_cast<std::size_t>(std::clamp(kSlopeWayMm / h, 1.0, kMostApart));
   before_ = apart_ + kSpare;
   half_ = static_cast<std::size_t>(std::min(reach / h, most)) + apart_ + kSpare;
@@ -95,6 +96,8 @@ void WallRadii::cover(const ClayStack& stack, std::size_t first, std::size_t end
   // Slopes need the walls beside them, and packs are whole.
   first -= std::min(first - origin_, apart_);
   end = std::min(end + apart_ + kWidestFloats, stack.size());
+  assert(first >= origin_ && end <= origin_ + 2 * half_);
+  end = std::min(end, origin_ + 2 * half_);
   if (from_ == to_) from_ = to_ = first;
   if (first < from_) measure(stack, first, from_);
   if (end > to_) measure(stack, to_, end);
@@ -105,7 +108,6 @@ void WallRadii::cover(const ClayStack& stack, std::size_t first, std::size_t end
 }
 
 void WallRadii::measure(const ClayStack& stack, std::size_t first, std::size_t end) noexcept {
-  assert(first >= origin_ && row(end) + apart_ + kSpare <= outer_.size());
   const std::size_t last = stack.size() - 1;
   // The end ring represents those beyond it, as many as packs of any width measure.
   const std::size_t count = in_packs_of(end + (end > last ? apart_ + kWidestFloats : 0) - first);
