@@ -169,11 +169,11 @@ void grow(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim, StackWriter& w
 Ring copied_rim(const ClayStack& stack) noexcept {
   const auto rings = stack.rings();
   const Ring& top = rings.back();
-  if (top.inner2 == 0) return top;
+  if (rings.size() < 2 || top.inner2 == 0) return top;
   const double h = stack.ring_height_mm(), outer = top.outer_mm(), inner = top.inner_mm();
   const double wall = outer - inner;
   const double below = std::clamp(wall / h + 0.5, 1.0, static_cast<double>(rings.size()) - 1.0);
-  const Ring& old = rings[rings.size() - 1 - static_cast<std::size_t>(std::max(below, 0.0))];
+  const Ring& old = rings[rings.size() - 1 - static_cast<std::size_t>(below)];
   if (old.inner2 == 0) return top;
   const double thinner = wall - (old.outer_mm() - old.inner_mm());
   if (!(thinner > 0.0)) return top;

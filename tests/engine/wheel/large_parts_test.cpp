@@ -45,5 +45,23 @@ TEST(LargeParts, ATallRibMovesTheWallAroundItAlone) {
   }
 }
 
+/// No wall below shows the thickness to which a rim tapers.
+TEST(LargeParts, ASingleRingGrowsByACopyOfItself) {
+  SceneSpec scene;
+  scene.lump = {.rings = 1,
+                .ring_height_mm = 50.0,
+                .outer_radius_mm = 45.0,
+                .inner_radius_mm = 30.0,
+                .max_rings = 8};
+  scene.tool = {RibSpec{60.0, 5.0}, ToolMode::pinch, 5.0};
+  scene.clay = ClaySpec{};
+  Wheel wheel = Wheel::build(scene).value();
+  for (int k = 1; k < 4000 && wheel.stack().size() == 1; ++k)
+    wheel.step({k * 1000, {37.5, 25.0, 0.0}});
+  ASSERT_EQ(wheel.stack().size(), 2u);
+  EXPECT_EQ(wheel.stack().rings()[1], wheel.stack().rings()[0]);
+  expect_balanced(wheel);
+}
+
 }  // namespace
 }  // namespace clay
