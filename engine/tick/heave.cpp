@@ -313,7 +313,7 @@ double heave_reach(const Tool& tool, const ClayStack& stack, const Band& band) n
   const Ring& ring = stack.rings()[std::min(band.ring, stack.size() - 1)];
   const double wall = ring.outer_mm() - ring.inner_mm(), width = 2.0 * tool.widest();
   const double reach = 0.8 * (band.height_mm() + std::min(wall, width));
-  return std::clamp(reach, stack.ring_height_mm(), kLongestShellMm);
+  return std::min(std::max(reach, stack.ring_height_mm()), kLongestShellMm);
 }
 
 Quanta heave(const Tool& tool, const ClayStack& stack, WallRadii& walls, double hip_y,

@@ -21,7 +21,8 @@ struct Heap {
   const Finger* finger = nullptr;  ///< in the bore above the tool; nothing is laid into it
 };
 
-/// How far from the band clay is heaved: 0.8 (c + min(w, width of the tool)) [mm].
+/// How far from the band clay is heaved: 0.8 (c + min(w, width of the tool)), at least a ring, at
+/// most `kLongestShellMm` [mm].
 [[nodiscard]] double heave_reach(const Tool& tool, const ClayStack& stack,
                                  const Band& band) noexcept;
 

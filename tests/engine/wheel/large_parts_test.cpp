@@ -1,6 +1,7 @@
 // Tools and rings that are far larger than those of a usual scene.
 
 #include "claystack/engine/wheel.hpp"
+#include "engine/tick/heave.hpp"
 #include "engine/tick/shell.hpp"
 #include "tests/engine/wheel/rule_hand.hpp"
 #include "tests/engine/wheel/rule_samples.hpp"
@@ -61,6 +62,22 @@ TEST(LargeParts, ASingleRingGrowsByACopyOfItself) {
   ASSERT_EQ(wheel.stack().size(), 2u);
   EXPECT_EQ(wheel.stack().rings()[1], wheel.stack().rings()[0]);
   expect_balanced(wheel);
+}
+
+/// The rules reach no farther than `kLongestShellMm`, even if that is less than a ring.
+TEST(LargeParts, ClayHeavesUpByLessThanATallRing) {
+  SceneSpec scene;
+  scene.lump = {
+      .rings = 4, .ring_height_mm = 50.0, .outer_radius_mm = 45.0, .inner_radius_mm = 0.0};
+  scene.clay = ClaySpec{};
+  Wheel wheel = Wheel::build(scene).value();
+  Hand hand(wheel);
+  hand.place_at(55.0, 75.0);
+  hand.move_to(51.0, 75.0, 20.0);
+  expect_balanced(wheel);
+  const Tool tool = Tool::build(SphereSpec{10.0}).value();
+  const Band band{.low_mm = 65.0, .high_mm = 85.0, .peak_mm = 75.0, .ring = 1};
+  EXPECT_EQ(heave_reach(tool, wheel.stack(), band), kLongestShellMm);
 }
 
 }  // namespace
