@@ -1,5 +1,7 @@
 #include "claystack/falcon/device.hpp"
 
+#include "core/text.hpp"
+
 #include <cstdio>
 
 namespace clay::falcon::inline device {
@@ -56,9 +58,10 @@ DeviceError::DeviceError(DeviceFault device_fault, std::string found, std::strin
       remedy(std::move(help)) {}
 
 Error error_of(const OutOfRange& out) {
+  // Limits may be computed (0.009000000000000001), and a value may be just beyond one.
   char text[160];
-  std::snprintf(text, sizeof text, "%s: expected a value from %g to %g, found %g", out.setting,
-                out.low, out.high, out.found);
+  std::snprintf(text, sizeof text, "%s: expected a value from %.9g to %.9g, found %s", out.setting,
+                out.low, out.high, number_text(out.found).c_str());
   return {ErrorKind::bad_input, text};
 }
 

@@ -1,7 +1,9 @@
 #include "claystack/falcon/falcon_device.hpp"
 
 #include "core/limit_norm.hpp"
+#include "core/text.hpp"
 #include "falcon/device/firmware.hpp"
+#include "falcon/device/setting_ranges.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -18,8 +20,6 @@ constexpr std::uint8_t kZeroFrame[] = {'<', 'A', 'A', 'A', 'A', 'A', 'A', 'A',
 constexpr std::size_t kMostInPiece = 64;
 constexpr int kQuestions = 10;
 constexpr std::int64_t kAnswerUs = 20'000;  // ten times the duration of a frame and its answer
-
-bool within(double value, double low, double high) { return value >= low && value <= high; }
 
 DeviceInfo info_of(const Transport& line, const FalconSettings& settings) {
   return {"Novint Falcon",        line.describe(),          true,
@@ -41,16 +41,20 @@ FalconDevice::~FalconDevice() {
 }
 
 DeviceResult<void> FalconDevice::check_settings() const {
-  const auto refuse = [](const char* setting) {
-    return device_failure(DeviceFault::bad_setting, std::string("falcon: expected ") + setting);
+  const OutOfRange settings[] = {
+      {"motor_counts_per_nmm", 1e-3, 1e3, settings_.motor_counts_per_nmm},
+      {"force_limit_n", 0.0, kStatedForceN, settings_.force_limit_n},
+      {"silence_us", 1e4, 6e7, static_cast<double>(settings_.silence_us)},
   };
-  if (!within(settings_.motor_counts_per_nmm, 1e-3, 1e3))
-    return refuse("motor_counts_per_nmm from 0.001 to 1000");
-  if (!within(settings_.force_limit_n, 0.0, kStatedForceN))
-    return refuse("force_limit_n from 0 to 8.9");
-  if (settings_.silence_us < 10'000) return refuse("silence_us of at least 10000");
-  if (!kinematics_.jacobian(settings_.centre_mm))
-    return refuse("centre_mm that the arms of this geometry reach");
+  if (const auto checked = check_ranges(settings); !checked)
+    return bad_setting("falcon", checked.error());
+  const glm::dvec3& centre = settings_.centre_mm;
+  if (!kinematics_.jacobian(centre))
+    return device_failure(DeviceFault::bad_setting,
+                          "falcon: centre_mm: expected a point that the arms of this geometry "
+                          "reach, found (" +
+                              number_text(centre.x) + ", " + number_text(centre.y) + ", " +
+                              number_text(centre.z) + ")");
   return {};
 }
 

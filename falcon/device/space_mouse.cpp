@@ -1,4 +1,5 @@
 #include "claystack/falcon/usb.hpp"
+#include "falcon/device/setting_ranges.hpp"
 
 #include <algorithm>
 #include <glm/common.hpp>
@@ -47,18 +48,14 @@ double axis(std::span<const std::uint8_t> report, std::size_t index) {
 std::span<const SpaceMouseModel> space_mouse_models() noexcept { return kModels; }
 
 DeviceResult<void> check(const SpaceMouseSettings& settings) {
-  const auto within = [](double value, double low, double high) {
-    return value >= low && value <= high;
+  const OutOfRange ranges[] = {
+      {"speed_mm_s", 1.0, 500.0, settings.speed_mm_s},
+      {"dead_zone", 0.0, 0.5, settings.dead_zone},
+      {"half_workspace_mm", 10.0, 1000.0, settings.half_workspace_mm},
+      {"silence_us", 2e4, 1e6, static_cast<double>(settings.silence_us)},
   };
-  const auto refuse = [](const char* setting) {
-    return device_failure(DeviceFault::bad_setting, std::string("spacemouse: expected ") + setting);
-  };
-  if (!within(settings.speed_mm_s, 1.0, 500.0)) return refuse("speed_mm_s from 1 to 500");
-  if (!within(settings.dead_zone, 0.0, 0.5)) return refuse("dead_zone from 0 to 0.5");
-  if (!within(settings.half_workspace_mm, 10.0, 1000.0))
-    return refuse("half_workspace_mm from 10 to 1000");
-  if (settings.silence_us < 20'000 || settings.silence_us > 1'000'000)
-    return refuse("silence_us from 20000 to 1000000");
+  if (const auto checked = check_ranges(ranges); !checked)
+    return bad_setting("spacemouse", checked.error());
   return {};
 }
 

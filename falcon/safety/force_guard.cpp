@@ -1,4 +1,5 @@
 #include "falcon/safety/force_guard.hpp"
+#include "falcon/device/setting_ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,9 +30,7 @@ tl::expected<void, OutOfRange> check(const GuardSettings& s) noexcept {
       {"not_finite_ticks", 1, 10, static_cast<double>(s.not_finite_ticks)},
       {"safe_rest_s", 0.01, 10.0, s.safe_rest_s},
   };
-  for (const OutOfRange& range : ranges)
-    if (!(range.low <= range.found && range.found <= range.high)) return tl::make_unexpected(range);
-  return {};
+  return check_ranges(ranges);
 }
 
 double elapsed_s(std::int64_t from_us, std::int64_t to_us) noexcept {

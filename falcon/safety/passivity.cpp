@@ -1,6 +1,7 @@
 #include "claystack/falcon/passivity.hpp"
 
 #include "core/limit_norm.hpp"
+#include "falcon/device/setting_ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,9 +57,7 @@ tl::expected<PassivityController, OutOfRange> PassivityController::build(
       {"reversal_window_s", 1e-3, 10.0, spec.reversal_window_s},
       {"reversal_force_n", 1e-9, 1e3, spec.reversal_force_n},
   };
-  for (const OutOfRange& s : settings)
-    if (!(s.found >= s.low && s.found <= s.high)) return tl::make_unexpected(s);
-  return PassivityController(spec);
+  return check_ranges(settings).map([&] { return PassivityController(spec); });
 }
 
 PassivityController::PassivityController(const PassivitySpec& spec) noexcept

@@ -1,5 +1,6 @@
 #include "claystack/falcon/passivity.hpp"
 
+#include "falcon/device/setting_ranges.hpp"
 #include "falcon/safety/arm_response.hpp"
 
 #include <algorithm>
@@ -91,9 +92,7 @@ tl::expected<void, OutOfRange> check(const SampledLoop& loop) noexcept {
       {"damping_ns_per_mm", 0.0, 1.0, loop.damping_ns_per_mm},
       {"delay_ticks", 0.0, kMostDelay, static_cast<double>(loop.delay_ticks)},
   };
-  for (const OutOfRange& s : settings)
-    if (!(s.found >= s.low && s.found <= s.high)) return tl::make_unexpected(s);
-  return {};
+  return check_ranges(settings);
 }
 
 double passive_damping_at(const SampledLoop& loop, const VirtualWall& wall,

@@ -1,4 +1,5 @@
 #include "claystack/falcon/sim.hpp"
+#include "falcon/device/setting_ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -87,8 +88,7 @@ DeviceResult<SimulatedFalcon> make_simulated_falcon(const SimulatedSettings& set
     return device_failure(DeviceFault::bad_setting, "simulated: expected a path, found none");
   const glm::dvec3& centre = settings.falcon.centre_mm;
   auto arm = SimulatedArm::build(settings.arm, settings.hand, centre + settings.path(0.0));
-  if (!arm)
-    return device_failure(DeviceFault::bad_setting, "simulated: " + error_of(arm.error()).message);
+  if (!arm) return bad_setting("simulated", arm.error());
   const auto held = std::make_shared<HeldArm>(std::move(*arm), settings);
   SimulatedFalcon simulated;
   simulated.model = std::make_shared<FalconModel>(

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
 
 namespace clay::falcon {
 namespace {
@@ -69,21 +68,30 @@ TEST(FalconOpening, RefusesABadFileBeforeSendingIt) {
 
 TEST(FalconOpening, RefusesInvalidSettings) {
   const double nan = std::nan("");
-  std::vector<FalconSettings> invalid(7);
-  invalid[0].force_limit_n = 9.0;
-  invalid[1].force_limit_n = nan;
-  invalid[2].motor_counts_per_nmm = 0.0;
-  invalid[3].motor_counts_per_nmm = nan;
-  invalid[4].silence_us = 0;
-  invalid[5].centre_mm = {0, 0, 500.0};
-  invalid[6].centre_mm = {nan, 0, 0};
-  for (const FalconSettings& settings : invalid) {
+  const auto refusal = [](auto change) {
+    FalconSettings settings;
+    change(settings);
     FalconBench bench(ready_model(), settings);
     const auto opened = bench.device->open();
-    ASSERT_FALSE(opened);
+    if (opened) return std::string("opened");
     EXPECT_EQ(opened.error().fault, DeviceFault::bad_setting);
     EXPECT_EQ(bench.model->frames(), 0u);
-  }
+    return opened.error().message;
+  };
+  const std::string force = "falcon: force_limit_n: expected a value from 0 to 8.9, found ";
+  EXPECT_EQ(refusal([](auto& s) { s.force_limit_n = 9.0; }), force + "9");
+  EXPECT_EQ(refusal([&](auto& s) { s.force_limit_n = nan; }), force + "nan");
+  const std::string counts =
+      "falcon: motor_counts_per_nmm: expected a value from 0.001 to 1000, found ";
+  EXPECT_EQ(refusal([](auto& s) { s.motor_counts_per_nmm = 0.0; }), counts + "0");
+  EXPECT_EQ(refusal([&](auto& s) { s.motor_counts_per_nmm = nan; }), counts + "nan");
+  const std::string silence = "falcon: silence_us: expected a value from 10000 to 60000000, found ";
+  EXPECT_EQ(refusal([](auto& s) { s.silence_us = 9'999; }), silence + "9999");
+  EXPECT_EQ(refusal([](auto& s) { s.silence_us = 60'000'001; }), silence + "60000001");
+  const std::string centre =
+      "falcon: centre_mm: expected a point that the arms of this geometry reach, found ";
+  EXPECT_EQ(refusal([](auto& s) { s.centre_mm = {0, 0, 500.0}; }), centre + "(0, 0, 500)");
+  EXPECT_EQ(refusal([&](auto& s) { s.centre_mm = {nan, 0, 0}; }), centre + "(nan, 0, 0)");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace clay::falcon {
@@ -125,12 +126,20 @@ RC_GTEST_PROP(RateControl, StaysInItsWorkspaceAndMovesNoFasterThanSet, ()) {
 
 TEST(SpaceMouseSettings, AreRefusedOutsideTheirRanges) {
   EXPECT_TRUE(check(SpaceMouseSettings{}));
-  std::vector<SpaceMouseSettings> invalid(4);
-  invalid[0].speed_mm_s = 0.0;
-  invalid[1].dead_zone = std::nan("");
-  invalid[2].half_workspace_mm = 1e6;
-  invalid[3].silence_us = 0;
-  for (const auto& settings : invalid) EXPECT_FALSE(check(settings));
+  const auto refusal = [](auto change) {
+    SpaceMouseSettings settings;
+    change(settings);
+    const auto checked = check(settings);
+    return checked ? std::string("accepted") : checked.error().message;
+  };
+  EXPECT_EQ(refusal([](auto& s) { s.speed_mm_s = 0.0; }),
+            "spacemouse: speed_mm_s: expected a value from 1 to 500, found 0");
+  EXPECT_EQ(refusal([](auto& s) { s.dead_zone = std::nan(""); }),
+            "spacemouse: dead_zone: expected a value from 0 to 0.5, found nan");
+  EXPECT_EQ(refusal([](auto& s) { s.half_workspace_mm = 1e6; }),
+            "spacemouse: half_workspace_mm: expected a value from 10 to 1000, found 1e+06");
+  EXPECT_EQ(refusal([](auto& s) { s.silence_us = 0; }),
+            "spacemouse: silence_us: expected a value from 20000 to 1000000, found 0");
 }
 
 }  // namespace

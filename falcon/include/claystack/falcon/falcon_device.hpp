@@ -360,7 +360,7 @@ struct FalconSettings {
   glm::dvec3 centre_mm =
       Kinematics::kCentreMm;          ///< the origin of samples, in the frame of Kinematics
   double force_limit_n = 8.0;         ///< 0 to 8.9, the limit that Novint states
-  std::int64_t silence_us = 500'000;  ///< without a frame for this time: fault
+  std::int64_t silence_us = 500'000;  ///< without a frame for this time: fault; 10 ms to 60 s
   std::string firmware_path;          ///< empty: the firmware must be loaded already
 };
 
