@@ -16,8 +16,10 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <new>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -103,22 +105,34 @@ class FilesExport {
   };
 
   Result<void> check() const {
+    std::set<std::filesystem::path> places;
     for (const FileRequest& asked : request_.files) {
-      if (asked.kind != FileKind::section && asked.kind != FileKind::wall_table) continue;
-      const SectionFile* known = section_file(asked.path);
-      if (known == nullptr || known->kind != asked.kind)
-        return failure(ErrorKind::bad_input,
-                       asked.path + ": expected a name that ends in " + section_endings());
+      if (auto possible = check(asked); !possible) return possible;
+      std::error_code ignored;
+      if (!places.insert(std::filesystem::weakly_canonical(asked.path, ignored)).second)
+        return wrong(asked.path, "expected one request for each file, found two");
     }
-    if (!pot_.collapse) return {};
-    const bool step = asks(FileKind::step);
-    if (!request_.certificates && !step) return {};
-    return named(
-        Result<void>(failure(ErrorKind::bad_input,
-                             std::string(step ? "STEP" : "--certificate")
-                                 .append(": expected a standing pot, found a collapsed one"))),
-        options_.source);
+    if (!request_.report_path.empty() && !request_.report_text)
+      return wrong(request_.report_path, "expected a function for the text, found none");
+    if (pot_.collapse && request_.certificates)
+      return named(wrong("certificate", kStanding), options_.source);
+    return {};
   }
+
+  /// The ending of a file that is made from the section is right, and the pot can have it.
+  [[nodiscard]] Result<void> check(const FileRequest& asked) const {
+    if (asked.kind == FileKind::mesh || asked.kind == FileKind::given) return {};
+    const SectionFile* known = section_file(asked.path);
+    if (known == nullptr || known->kind != asked.kind)
+      return wrong(asked.path, "expected a name that ends in " + section_endings());
+    if (!pot_.collapse || known->name == "svg") return {};
+    return wrong(asked.path, std::string(kStanding) + ", of which a drawing is possible as .svg");
+  }
+
+  static Result<void> wrong(const std::string& place, const std::string& text) {
+    return failure(ErrorKind::bad_input, place + ": " + text);
+  }
+  static constexpr const char* kStanding = "expected a standing pot, found a collapsed one";
 
   [[nodiscard]] bool asks(FileKind kind) const {
     return std::ranges::any_of(request_.files,
@@ -211,13 +225,7 @@ class FilesExport {
 
   Result<std::string> drawing(const OpenFile& open, const PreparedPot& pot) const {
     const std::string_view format = section_file(open.asked->path)->name;
-    if (pot.pot.collapse) {
-      if (format == "svg") return section_svg(pot.pot);
-      return failure(ErrorKind::bad_input,
-                     open.asked->path +
-                         ": expected a standing pot, found a collapsed one, which "
-                         "is drawn as .svg only");
-    }
+    if (pot.pot.collapse) return section_svg(pot.pot);
     const Sheet sheet = section_sheet(report_, options_);
     if (format == "svg") return svg_of(sheet);
     return format == "dxf" ? dxf_of(sheet) : pdf_of(sheet);

@@ -59,8 +59,8 @@ Result<void> check_aims(const std::vector<Aim>& aims, const Goal& goal,
       return wrong(aim.name + ": expected more than 0, found " + in_mm(aim.target));
   if (aims.size() > 2 || (aims.size() == 2 && aims[0].power_of_radius == 2.0))
     return wrong(
-        "goal: expected one figure, or a height or diameter with one other (--holds, --weighs, "
-        "--height, --diameter)");
+        "goal: expected one figure, or a height or diameter with one other: capacity, weight, "
+        "height or diameter");
   if (goal.fired && options.shrinkage == 0.0)
     return wrong("goal of the fired pot: expected a shrinkage, found none");
   return {};
@@ -71,10 +71,17 @@ struct Scale {
   double radius = 1.0, height = 1.0;
 };
 
+/// Without what costs time and changes no figure of the pot.
+ExportOptions to_measure(ExportOptions options) {
+  options.wall_spacing_mm.reset();
+  options.measure_left_out = options.full_verification = false;
+  return options;
+}
+
 class GoalSearch {
  public:
   GoalSearch(const Pot& pot, const Goal& goal, const ExportOptions& options)
-      : pot_(pot), goal_(goal), options_(options), aims_(aims_of(goal)) {}
+      : pot_(pot), goal_(goal), options_(to_measure(options)), aims_(aims_of(goal)) {}
 
   Result<GoalReport> run() {
     if (pot_.collapse)
@@ -169,7 +176,7 @@ class GoalSearch {
 
   const Pot& pot_;
   const Goal& goal_;
-  const ExportOptions& options_;
+  const ExportOptions options_;
   std::vector<Aim> aims_;
   Scale scale_;
   Pot scaled_pot_;

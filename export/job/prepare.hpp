@@ -33,10 +33,10 @@ struct PreparedPot {
 /// collapsed pot cannot be drained.
 Result<PreparedPot> prepare(const Pot& pot, const ExportOptions& options);
 
-/// Puts `name` in front of the error unless the error begins with it.
+/// Puts `name` in front of the error unless it is there already.
 template <class T>
 Result<T> named(Result<T> result, const std::string& name) {
-  if (result || name.empty() || result.error().message.starts_with(name)) return result;
+  if (result || name.empty() || result.error().message.starts_with(name + ": ")) return result;
   return failure(result.error().kind, name + ": " + result.error().message);
 }
 

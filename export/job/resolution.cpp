@@ -68,7 +68,7 @@ Result<void> check_pieces(const std::vector<PieceShape>& shapes, bool allow_piec
                  "expected a pot in one piece, found " + std::to_string(shapes.size()) +
                      " that do not touch: rings " + std::to_string(shapes[0].last_ring) + " and " +
                      std::to_string(shapes[1].first_ring) +
-                     " are the first that do not touch; use --pieces to export several pieces");
+                     " are the first that do not touch; permit several pieces to export them");
 }
 
 }  // namespace clay::solid::inline job

@@ -38,7 +38,7 @@ class FullStore final : public FileStore {
 
 /// The ending selects the kind of drawing: standard output has none.
 TEST(ExportErrors, ADrawingWithoutItsEndingIsRefused) {
-  for (const FileKind kind : {FileKind::section, FileKind::wall_table})
+  for (const FileKind kind : {FileKind::section, FileKind::wall_table, FileKind::step})
     for (const char* path : {"-", "pot", "pot.stl"}) {
       ExportRequest request;
       request.files.push_back({path, kind});
@@ -148,11 +148,42 @@ TEST_F(ExportFiles, AFallenPotHasNoCertificateAndNoDrain) {
   ExportRequest request;
   request.files.push_back(file_request(path("a.stl")).value());
   request.certificates = true;
-  EXPECT_TRUE(refused(export_files(pot, request), ErrorKind::bad_input, "--certificate"));
+  EXPECT_TRUE(refused(export_files(pot, request), ErrorKind::bad_input, "certificate: "));
   request.certificates = false;
   request.options.drain_mm = 5.0;
   EXPECT_TRUE(refused(export_files(pot, request), ErrorKind::bad_input, "drain"));
   EXPECT_FALSE(std::filesystem::exists(path("a.stl")));
+}
+
+/// Before any work: its cancel function, called in each stage, would end the job with another
+/// error.
+TEST_F(ExportFiles, AFallenPotHasNoSheetAndNoWalls) {
+  Pot pot = pot_of(shapes::vase(60));
+  pot.collapse = Collapse{20, {50, 70, 0}, {0, 0, 1}, 1.0, 12.0};
+  for (const char* name : {"a.pdf", "a.dxf", "a.csv", "a.step"}) {
+    ExportRequest request;
+    request.files.push_back(file_request(path("a.stl")).value());
+    request.files.push_back(file_request(path(name)).value());
+    request.options.cancelled = [] { return true; };
+    EXPECT_TRUE(refused(export_files(pot, request), ErrorKind::bad_input,
+                        path(name) + ": expected a standing pot"));
+  }
+}
+
+TEST_F(ExportFiles, RefusesTwoRequestsForOneFile) {
+  ExportRequest request;
+  request.files.push_back(file_request(path("a.stl")).value());
+  request.files.push_back({path("./a.stl"), FileKind::mesh, MeshFormat::obj});
+  EXPECT_TRUE(refused(export_files(pot_of(shapes::vase(20)), request), ErrorKind::bad_input,
+                      "expected one request for each file, found two"));
+  EXPECT_FALSE(std::filesystem::exists(path("a.stl")));
+}
+
+TEST_F(ExportFiles, RefusesAReportWithoutItsText) {
+  ExportRequest request;
+  request.report_path = path("a.html");
+  EXPECT_TRUE(refused(export_files(pot_of(shapes::vase(20)), request), ErrorKind::bad_input,
+                      "expected a function for the text, found none"));
 }
 
 TEST(FileRequests, FollowTheExtension) {

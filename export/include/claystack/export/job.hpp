@@ -189,8 +189,8 @@ struct ExportRequest {
   /// Writes PATH.certificate.json beside each mesh of a standing pot.
   bool certificates = false;
   std::string report_path = {};  ///< file for `report_text`; empty: none
-  std::function<std::string(const ExportReport&)> report_text =
-      {};  ///< called after all other files
+  /// Called after all other files; required with a `report_path`.
+  std::function<std::string(const ExportReport&)> report_text = {};
 };
 
 // ---- report --------------------------------------------------------------------------
@@ -245,7 +245,8 @@ struct WallReport {
 /// The limits of the requested process apart from walls.
 struct ProcessReport {
   std::optional<ProcessLimits> limits;
-  std::optional<Overhang> overhang;  ///< the steepest; empty for a collapsed pot
+  /// Of a collapsed pot as of a mesh: `at` is the distance from the axis and the height.
+  std::optional<Overhang> overhang;
 };
 
 struct VolumeReport {
@@ -353,17 +354,21 @@ struct Output {
 ///
 /// The two parts of a collapsed pot are united (see `collapsed_solid`); the proof is the exact test
 /// of the triangles, and a triangle budget is met by decimation. Errors name the file that cannot
-/// be written, otherwise `options.source`.
+/// be written, otherwise `options.source`. `bad_input`: options out of range, or that this pot
+/// cannot have. `unsound`: the pot fails a check (pieces, section, walls after a finish). `io`:
+/// reading, writing, memory, cancelled, or a library failed.
 Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outputs,
                                 const ExportOptions& options,
                                 const std::function<void(std::string_view)>& progress = {});
 
 /// Publishes all files together, after all are complete and verified; a failed or cancelled job
-/// leaves none. A drawing shows the section as proved; a collapsed pot is only drawn, as .svg.
+/// leaves none. A drawing shows the section as proved; a collapsed pot is only drawn, as .svg. Two
+/// requests for one file are refused (bad_input).
 Result<ExportReport> export_files(const Pot& pot, const ExportRequest& request,
                                   const std::function<void(std::string_view)>& progress = {});
 
-/// The same job with the meshes in memory, for a preview; no file is opened.
+/// The meshes of the same job, in memory, for a preview: no file is opened, and other files are not
+/// made, nor listed in the report.
 Result<ExportReport> preview_export(const Pot& pot, const ExportRequest& request,
                                     const std::function<void(std::string_view)>& progress = {});
 
