@@ -1,11 +1,17 @@
 #include "export/formats/polygon_split.hpp"
 
+#include "core/cancel.hpp"
+
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -29,6 +35,9 @@ using FaceBase =
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
     CGAL::No_constraint_intersection_requiring_constructions_tag>;
+
+using NearFirst =
+    CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::Pointer_property_map<FlatPoint>::const_type>;
 
 /// Counterclockwise, without the axis that the normal is nearest to. Coordinates are kept, so that
 /// predicates on them are exact.
@@ -79,16 +88,25 @@ class PolygonTriangulation {
   }
 
  private:
-  /// Returns false if two points of the mesh are at one place.
+  /// Returns false if two points of the mesh are at one place. Each corner is searched for from the
+  /// one before: in the order of the file, a zigzag of n corners would take n^2 steps.
   bool insert_corners() {
-    for (std::size_t i = 0; i < flat_.size(); ++i) {
+    std::vector<std::size_t> near_one_another(flat_.size());
+    std::iota(near_one_another.begin(), near_one_another.end(), 0);
+    CGAL::spatial_sort(near_one_another.begin(), near_one_another.end(),
+                       NearFirst(CGAL::make_property_map(flat_)));
+    vertices_.resize(flat_.size());
+    Triangulation::Face_handle hint;
+    for (const std::size_t i : near_one_another) {
+      step_of_loop();
       const std::size_t before = made_.number_of_vertices();
-      const auto vertex = made_.insert(flat_[i]);
+      const auto vertex = made_.insert(flat_[i], hint);
       if (made_.number_of_vertices() > before)
         vertex->info() = corners_[i];
       else if (vertex->info() != corners_[i])
         return false;
-      vertices_.push_back(vertex);
+      vertices_[i] = vertex;
+      hint = vertex->face();
     }
     return true;
   }
@@ -96,6 +114,7 @@ class PolygonTriangulation {
   /// Returns false if edges cross, or pass through corners.
   bool insert_edges() try {
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      step_of_loop();
       const auto from = vertices_[i], to = vertices_[(i + 1) % vertices_.size()];
       if (from == to) return false;
       made_.insert_constraint(from, to);
