@@ -110,14 +110,15 @@ class Field {
   void add_samples(const Face& face, const AxisClay& axis, const Names& names) {
     const Vec2 along = face.edge.to - face.edge.from;
     const std::size_t count = parts(face.edge);
-    for (std::size_t k = 0; k < count; ++k) {
-      if (met_++ % stride_ != 0) continue;
+    const std::size_t past = met_ % stride_;  // samples since the last that was kept
+    for (std::size_t k = past == 0 ? 0 : stride_ - past; k < count; k += stride_) {
       const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
       add_sample(face, t, axis, names.part);
       samples_.back().arc_mm = arc_mm_ + t * glm::length(along);
       samples_.back().face =
           names.face.of(face.edge, face.edge.index - tree_.first_edge(face.piece));
     }
+    met_ += count;
     arc_mm_ += glm::length(along);
   }
 

@@ -38,6 +38,10 @@ TEST(WallField, RespectsSpacingAndLimit) {
   const auto many = wall_field({{cup(5, 8)}}, 1e-4);
   EXPECT_LE(many.size(), kMaxWallSamples);
   EXPECT_GT(many.size(), kMaxWallSamples / 2);
+  // Finer than any face can be divided.
+  const auto most = wall_field({{cup(5, 8)}}, 1e-12);
+  EXPECT_LE(most.size(), kMaxWallSamples);
+  EXPECT_GT(most.size(), kMaxWallSamples / 2);
 }
 
 TEST(WallField, ContinuesAWallToItsLip) {
