@@ -17,7 +17,8 @@ using Thumbnail = std::shared_future<std::string>;
 
 /// If a 3MF is among the files, sets the pot file, exact, and begins to draw the thumbnail, which a
 /// build without the window lacks: the export waits for it where it packs the 3MF. `thumbnail`
-/// keeps the picture of this pot for the next call; it and the pot outlive the request.
+/// keeps the picture of this pot for the next call. It outlives the request, and the pot outlives
+/// it.
 void pack_pot(const Pot& pot, solid::ExportRequest& request, Thumbnail& thumbnail);
 
 }  // namespace clay::cli

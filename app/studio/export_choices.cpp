@@ -166,9 +166,14 @@ std::vector<std::string> paths_of(const ExportChoices& choices) {
   return paths;
 }
 
-Result<ExportJob> job_of(const ExportChoices& choices, const Pot& pot) {
+Result<ExportJob> job_of(const ExportChoices& choices, const Pot& pot,
+                         const std::function<bool()>& cancelled) {
   auto options = options_of(choices, pot);
   if (!options) return tl::make_unexpected(options.error());
+  options->cancelled = cancelled;
+  options->expect_memory = [](std::uint64_t bytes) {
+    return cli::expect_room("writing meshes", bytes);
+  };
   ExportJob job{pot, {}};
   job.request.options = std::move(*options);
   if (choices.size != ExportSize::as_thrown && !pot.collapse) {
@@ -194,13 +199,14 @@ std::string failed_text(std::size_t count) { return counted(count, "limit") + " 
 Result<ExportFigures> run_export(const Pot& pot, const ExportChoices& choices, ExportKind kind,
                                  cli::Thumbnail& thumbnail, const std::function<bool()>& cancelled,
                                  const std::function<void(std::string_view)>& show_stage) {
-  return job_of(choices, pot).and_then([&](ExportJob job) {
-    job.request.options.cancelled = cancelled;
-    job.request.options.expect_memory = [](std::uint64_t bytes) {
-      return cli::expect_room("writing meshes", bytes);
-    };
+  return job_of(choices, pot, cancelled).and_then([&](ExportJob job) {
     cli::Thumbnail of_scaled;
-    cli::pack_pot(job.pot, job.request, job.request.options.met_goal ? of_scaled : thumbnail);
+    // Another thread may draw the thumbnail after this job has ended, so it is given the caller's
+    // pot.
+    if (job.request.options.met_goal)
+      cli::pack_pot(job.pot, job.request, of_scaled);
+    else
+      cli::pack_pot(pot, job.request, thumbnail);
     if (kind == ExportKind::files)
       cli::set_report(job.pot, job.request, copies_in(job.request, job.pot));
     const auto report = kind == ExportKind::files

@@ -90,8 +90,9 @@ struct ExportJob {
   solid::ExportRequest request;
 };
 /// The pot at the chosen size, and the request for it. Errors: an unknown or unreadable process; a
-/// size that the pot cannot have.
-[[nodiscard]] Result<ExportJob> job_of(const ExportChoices& choices, const Pot& pot);
+/// size that the pot cannot have; cancelled.
+[[nodiscard]] Result<ExportJob> job_of(const ExportChoices& choices, const Pot& pot,
+                                       const std::function<bool()>& cancelled = {});
 /// Paths of the output files, in the order of the request.
 [[nodiscard]] std::vector<std::string> paths_of(const ExportChoices& choices);
 /// Those of the output files that exist already.
@@ -101,7 +102,8 @@ enum class ExportKind {
   preview,  ///< computes the figures without writing
   files
 };
-/// Runs the export. `thumbnail`: picture of the pot for a 3MF, drawn if it is empty and necessary.
+/// Runs the export. `thumbnail`: picture of the pot for a 3MF, drawn if it is empty and necessary;
+/// the pot outlives it.
 Result<ExportFigures> run_export(const Pot& pot, const ExportChoices& choices, ExportKind kind,
                                  cli::Thumbnail& thumbnail, const std::function<bool()>& cancelled,
                                  const std::function<void(std::string_view)>& show_stage);

@@ -301,6 +301,16 @@ TEST_F(Exporting, LeavesAllFilesOrNoneAtEveryCancellationPoint) {
   EXPECT_GT(all, 10u);
 }
 
+TEST_F(Exporting, ScalingToASizeCanBeCancelled) {
+  choices.size = ExportSize::height;
+  choices.height_mm = 80.0;
+  ASSERT_TRUE(job_of(choices, *pot));
+  const auto cancelled = job_of(choices, *pot, [] { return true; });
+  ASSERT_FALSE(cancelled);
+  EXPECT_NE(cancelled.error().message.find("cancelled"), std::string::npos)
+      << cancelled.error().message;
+}
+
 TEST_F(Exporting, ReportsAnUnwritableFile) {
   choices.folder = folder.file("nowhere");
   exporter.write(pot, choices);
