@@ -126,8 +126,8 @@ Result<CsvColumns> csv_columns(const std::vector<std::string>& names) {
   };
   if (wall_table(names))
     return refused(
-        ": the walls of a pot, as export writes them, which are not an outline; import "
-        "reads the drawing that export writes, .svg or .dxf, with --layer section");
+        ": the walls of a pot, as export writes them, which are not an outline; the layer "
+        "\"section\" of the .svg or .dxf that export writes is one");
   for (std::size_t i = 0; i < names.size(); ++i) {
     const NamedColumn named = column_of(names[i], i);
     if (named.kind == Kind::other) continue;

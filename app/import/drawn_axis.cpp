@@ -61,7 +61,7 @@ Result<std::optional<double>> take_axis_lines(Drawing& drawing, std::optional<do
     return failure(
         ErrorKind::bad_input,
         fmt::format("{}: expected one axis line, found unconnected vertical lines at x = "
-                    "{:g} and {:g} mm; --axis chooses the axis, --layer one layer of a drawing",
+                    "{:g} and {:g} mm; choose an axis, or one layer of the drawing",
                     name, found.front() / drawing.scale, found.back() / drawing.scale));
   const double axis = asked.value_or(found.front());
   std::erase_if(lines, [&](const Line& line) {
@@ -134,8 +134,8 @@ Result<void> place_axis(HalfSection& section, Drawing& drawing, const HalfSectio
       only_a_corner_at(drawing.lines, section.axis_mm))
     section.notes.push_back(fmt::format(
         "{}: expected a straight edge of the outline along the axis, or a vertical line beside it, "
-        "found only a corner at the left end, x = {:g} mm, which is used as the axis; --axis "
-        "places it",
+        "found only a corner at the left end, x = {:g} mm, which is used as the axis; choose "
+        "another if it is wrong",
         name, section.axis_mm / drawing.scale));
   return {};
 }
@@ -153,7 +153,9 @@ std::string hint_about(const Drawing& drawing, const HalfSection& section, bool 
   if (chosen || section.axis != AxisRule::left || !nearly_mirrored(drawing.lines, middle))
     return {};
   return fmt::format(
-      "; the drawing is nearly symmetric about x = {:g} mm: --axis middle uses its right half",
+      "; the drawing is nearly symmetric about x = {:g} mm: with the axis in its middle, its right "
+      "half is "
+      "used",
       middle / drawing.scale);
 }
 

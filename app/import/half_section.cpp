@@ -104,7 +104,7 @@ void note_left_side(const std::vector<Line>& lines, const std::string& name,
   if (left < 1e-3 * right || std::abs(left - right) <= kSame * right) return;
   notes.push_back(fmt::format(
       "{}: the drawing left of the axis ({:.1f} cm3 as clay) differs from that right of it ({:.1f} "
-      "cm3) and is not used; --axis places the axis",
+      "cm3) and is not used; choose another axis if that is wrong",
       name, 1e-3 * left, 1e-3 * right));
 }
 
@@ -172,8 +172,7 @@ tl::unexpected<Error> side_by_side(double y, const std::vector<const Edge*>& edg
     return edge->line == edges.front()->line;
   });
   const char* cause =
-      !one_line ? "hide a frame or background, choose a layer with --layer, or unite shapes that "
-                  "overlap"
+      !one_line ? "hide a frame or background, choose one layer, or unite shapes that overlap"
       : edges.size() % 2 == 1 ? "the floor rises towards the axis, beside a wall that begins lower"
                               : "the wall or the rim overhangs, or a groove is undercut";
   return failure(

@@ -118,11 +118,10 @@ Result<std::vector<BorePiece>> open_bore(const std::vector<BorePiece>& pieces, d
   std::vector<BorePiece> open;
   double ends_mm = rim_mm;  // of the bore below
   const auto closed_at = [&](double height_mm) {
-    return failure(
-        ErrorKind::bad_input,
-        fmt::format("{}: --wall: expected a wall that leaves a bore up to the rim, found "
-                    "{:g} mm; the bore would close {:.3g} mm above the foot",
-                    name, wall_mm, height_mm));
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: wall: expected a wall that leaves a bore up to the rim, found "
+                               "{:g} mm; the bore would close {:.3g} mm above the foot",
+                               name, wall_mm, height_mm));
   };
   for (BorePiece piece : pieces) {
     if (!(std::max(piece.radius_from_mm, piece.radius_to_mm) > 0.0)) continue;
@@ -188,14 +187,12 @@ Slab part_of(const Slab& slab, double from, double to) {
 Result<HalfSection> hollowed(const HalfSection& solid, double wall_mm, const std::string& name) {
   for (const Slab& slab : solid.slabs)
     if (slab.inner_from_mm > 0.0 || slab.inner_to_mm > 0.0)
-      return failure(
-          ErrorKind::bad_input,
-          name + ": --wall: expected a drawing of the outside alone, found a bore in it");
+      return failure(ErrorKind::bad_input,
+                     name + ": wall: expected a drawing of the outside alone, found a bore in it");
   if (!(wall_mm < solid.height_mm))
-    return failure(
-        ErrorKind::bad_input,
-        fmt::format("{}: --wall: expected less than the height of {:g} mm, found {:g} mm", name,
-                    solid.height_mm, wall_mm));
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: wall: expected less than the height of {:g} mm, found {:g} mm",
+                               name, solid.height_mm, wall_mm));
   const auto bore = open_bore(bore_pieces(solid, wall_mm), solid.height_mm, wall_mm, name);
   if (!bore) return tl::make_unexpected(bore.error());
   HalfSection section = solid;

@@ -94,7 +94,7 @@ Wall largest_wall(std::vector<double>& radii) {
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 /// The edges of an odd number of triangles.
-std::vector<Edge> open_edges(const solid::TriangleMesh& mesh) {
+std::vector<Edge> odd_edges(const solid::TriangleMesh& mesh) {
   std::vector<Edge> all;
   all.reserve(3 * mesh.triangles.size());
   for (const auto& t : mesh.triangles)
@@ -154,7 +154,7 @@ std::vector<std::vector<Segment>> mesh_cuts(const solid::TriangleMesh& mesh,
 std::vector<bool> complete_cuts(const solid::TriangleMesh& mesh,
                                 std::span<const glm::dvec3> points) {
   std::vector<std::vector<glm::dvec2>> ends(kMeshCuts);
-  for (const auto& [a, b] : open_edges(mesh)) {
+  for (const auto& [a, b] : odd_edges(mesh)) {
     const std::array<glm::dvec3, 2> edge{points[a], points[b]};
     const CutRange range = cuts_at(edge);
     for (long i = range.first; i <= range.last; ++i) {

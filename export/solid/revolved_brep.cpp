@@ -205,7 +205,7 @@ Result<std::pair<BrepBody, double>> body_of(const Polygon& polygon, StepWalls wa
   }
   return failure(ErrorKind::bad_input, "expected a tolerance that curves can keep, found " +
                                            in_mm(tolerance_mm) +
-                                           " mm; lines are exact (--step lines)");
+                                           " mm; straight lines instead of curves are exact");
 }
 
 }  // namespace

@@ -90,13 +90,13 @@ TEST(DrawnPot, WallOptionHollowsTheOutline) {
               HasSubstr("found a bore in it"));
   EXPECT_THAT(
       refusal_of(pot_of("30,0\n25,60\n", {2.0, 40.0, 1.9})),
-      HasSubstr("--wall: expected a wall that leaves a bore up to the rim, found 40 mm; the bore "
+      HasSubstr(": wall: expected a wall that leaves a bore up to the rim, found 40 mm; the bore "
                 "would close 60 mm above the foot"));
   // The neck is 3 mm wide from 40 to 60 mm. The disc of 4 mm touches its edge at 37.35 mm.
   EXPECT_THAT(refusal_of(pot_of("30,0\n30,40\n3,40\n3,60\n30,60\n30,90\n", {2.0, 4.0, 1.9})),
               HasSubstr("the bore would close 37.4 mm above the foot"));
   EXPECT_THAT(refusal_of(pot_of("90,0\n90,40\n", {2.0, 40.0, 1.9})),
-              HasSubstr("--wall: expected less than the height of 40 mm"));
+              HasSubstr(": wall: expected less than the height of 40 mm"));
 }
 
 TEST(DrawnPot, AHollowedWallIsEvenHoweverItLeans) {

@@ -132,8 +132,9 @@ TEST(HalfSection, NamesWhyThereAreTwoWalls) {
               HasSubstr("hide a frame or background"));
   // Both halves, by a hand that is 0.2 mm off.
   Line both{{{0, 0}, {60, 0}, {62, 60}, {59, 60}, {57, 5}, {3, 5}, {1, 60}, {-2.2, 60}}, true};
-  EXPECT_THAT(refusal_of(half_section({{both}, false}, {}, "pot")),
-              HasSubstr("the drawing is nearly symmetric about x = 29.9 mm: --axis middle"));
+  EXPECT_THAT(
+      refusal_of(half_section({{both}, false}, {}, "pot")),
+      HasSubstr("the drawing is nearly symmetric about x = 29.9 mm: with the axis in its middle"));
   EXPECT_TRUE(half_section({{both}, false}, {AxisRule::middle, 0.0, {}}, "pot"));
 }
 
