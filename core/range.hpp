@@ -1,7 +1,9 @@
 #pragma once
+// Intervals of settings, for readers and for messages.
+
 #include <string>
 
-namespace clay::inline json {
+namespace clay {
 
 /// An interval with readable bounds: `from(0).to(5)`, `above(0).to(5000)`, `from(0).below(1)`.
 struct Range {
@@ -22,4 +24,4 @@ struct Range {
 constexpr Range from(double start) { return {start, start, false, false}; }
 constexpr Range above(double start) { return {start, start, true, false}; }
 
-}  // namespace clay::inline json
+}  // namespace clay

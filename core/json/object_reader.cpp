@@ -43,11 +43,6 @@ std::string found_text(const Json& value) {
 
 }  // namespace
 
-std::string Range::text() const {
-  return std::string(low_open ? "above " : "from ") + number_text(low) +
-         (high_open ? " to below " : " to ") + number_text(high);
-}
-
 std::string listed(Names names) {
   std::string list;
   for (const auto name : names) list += (list.empty() ? "" : ", ") + std::string(name);

@@ -1,7 +1,7 @@
 #pragma once
 #include "claystack/core/result.hpp"
 #include "core/json/located_json.hpp"
-#include "core/json/range.hpp"
+#include "core/range.hpp"
 
 #include <concepts>
 #include <cstdint>

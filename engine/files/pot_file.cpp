@@ -93,8 +93,8 @@ void describe(auto& io, Is<PotRecord> auto& pot) {
   io.constant("schema", "claystack-pot-1");
   io.written_by();
   io.choice("model", pot.model, kModelNames);
-  io.number("density_g_cm3", pot.density_g_cm3, kDensity);
-  io.number("ring_height_mm", pot.ring_height_mm, kRingHeightMm);
+  io.number("density_g_cm3", pot.density_g_cm3, ranges::kDensity);
+  io.number("ring_height_mm", pot.ring_height_mm, ranges::kRingHeightMm);
   io.integer("max_rings", pot.max_rings, 1, kMaxRings);
   io.constant("quantum_mm2", "2^-36");
   io.part("rings", pot.rings);

@@ -24,11 +24,11 @@ constexpr std::size_t kMaxValues = 100'000;
 
 static void describe(auto& io, Is<LumpSpec> auto& lump) {
   io.integer("rings", lump.rings, 1, kMaxRings);
-  io.number("ring_height_mm", lump.ring_height_mm, kRingHeightMm);
+  io.number("ring_height_mm", lump.ring_height_mm, ranges::kRingHeightMm);
   io.number("outer_radius_mm", lump.outer_radius_mm, from(kMinRadiusMm).to(kMaxRadiusMm));
   io.number("inner_radius_mm", lump.inner_radius_mm, from(0).below(kMaxRadiusMm));
   io.integer("max_rings", lump.max_rings, 0, kMaxRings);
-  io.number("density_g_cm3", lump.density_g_cm3, kDensity);
+  io.number("density_g_cm3", lump.density_g_cm3, ranges::kDensity);
   io.check([&](ObjectReader& reader) {
     reader.expect(lump.inner_radius_mm < lump.outer_radius_mm, "inner_radius_mm",
                   "less than outer_radius_mm, " + number_text(lump.outer_radius_mm));

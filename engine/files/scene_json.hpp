@@ -2,7 +2,6 @@
 #include "claystack/engine/scene.hpp"
 #include "core/json/json_builder.hpp"
 #include "core/json/located_json.hpp"
-#include "core/json/range.hpp"
 
 #include <array>
 #include <string_view>
@@ -15,7 +14,5 @@ Result<SceneSpec> scene_of(const LocatedJson& document);
 
 // Also used by the pot file, which repeats some fields of its scene.
 inline constexpr std::array<std::string_view, 2> kModelNames = {"conserving", "paper"};
-inline constexpr Range kRingHeightMm = from(kMinRingHeightMm).to(kMaxRingHeightMm);
-inline constexpr Range kDensity = from(0.1).to(25);
 
 }  // namespace clay::files

@@ -5,8 +5,8 @@
 #include "claystack/engine/scene.hpp"
 #include "core/json/object_reader.hpp"
 #include "core/json/object_writer.hpp"
-#include "core/json/range.hpp"
 #include "core/text.hpp"
+#include "engine/clay/scene_ranges.hpp"
 
 #include <array>
 #include <string>
@@ -60,35 +60,35 @@ void describe(auto& io, Is<SampledSpec> auto& sampled) {
 void describe(auto& io, Is<ToolSpec> auto& tool) {
   io.one_of("shape", tool.shape, files::kShapeNames);
   io.choice("mode", tool.mode, files::kToolModeNames);
-  io.number("gap_mm", tool.gap_mm, from(1e-3).to(1e3));
+  io.number("gap_mm", tool.gap_mm, ranges::kGapMm);
   io.check([&](ObjectReader& reader) {
     if (tool.mode == ToolMode::pinch) reader.require({"gap_mm"});
   });
 }
 
 void describe(auto& io, Is<RemovalSpec> auto& removal) {
-  io.number("rate_per_s", removal.rate_per_s, from(0).to(1e6));
-  io.number("yield_depth_mm", removal.yield_depth_mm, from(1e-3).to(1e3));
-  io.number("min_wall_mm", removal.min_wall_mm, from(1e-3).to(1e3));
-  io.number("paper_fraction", removal.paper_fraction, from(0).below(1));
+  io.number("rate_per_s", removal.rate_per_s, ranges::kRatePerS);
+  io.number("yield_depth_mm", removal.yield_depth_mm, ranges::kYieldDepthMm);
+  io.number("min_wall_mm", removal.min_wall_mm, ranges::kMinWallMm);
+  io.number("paper_fraction", removal.paper_fraction, ranges::kPaperFraction);
 }
 
 void describe(auto& io, Is<FlowSpec> auto& flow) {
-  io.number("sigma_mm", flow.sigma_mm, from(0).to(1e9));
-  io.number("reach_mm", flow.reach_mm, from(0).to(1e9));
-  io.number("inside_share", flow.inside_share, from(0).to(1));
+  io.number("sigma_mm", flow.sigma_mm, ranges::kSigmaMm);
+  io.number("reach_mm", flow.reach_mm, ranges::kReachMm);
+  io.number("inside_share", flow.inside_share, ranges::kInsideShare);
 }
 
 void describe(auto& io, Is<ForceSpec> auto& force) {
-  io.number("stiffness_n_per_mm2", force.stiffness_n_per_mm2, from(0).to(1e6));
-  io.number("limit_n", force.limit_n, from(0).to(10));
-  io.number("friction", force.friction, from(0).to(2));
+  io.number("stiffness_n_per_mm2", force.stiffness_n_per_mm2, ranges::kStiffness);
+  io.number("limit_n", force.limit_n, ranges::kForceLimitN);
+  io.number("friction", force.friction, ranges::kFriction);
   io.choice("wheel", force.counterclockwise, files::kWheelTurnNames);
-  io.number("paper_stiffness_n_per_mm", force.paper_stiffness_n_per_mm, from(0).to(1e6));
+  io.number("paper_stiffness_n_per_mm", force.paper_stiffness_n_per_mm, ranges::kPaperStiffness);
 }
 
 void describe(auto& io, Is<StabilitySpec> auto& stability) {
-  io.number("max_stress_kpa", stability.max_stress_kpa, above(0).to(1e6));
+  io.number("max_stress_kpa", stability.max_stress_kpa, ranges::kMaxStressKpa);
 }
 
 void describe(auto& io, Is<ClaySpec> auto& clay) {
@@ -98,9 +98,9 @@ void describe(auto& io, Is<ClaySpec> auto& clay) {
   io.choice("hoop", clay.hoop, files::kSwitchNames);
   io.choice("heave", clay.heave, files::kSwitchNames);
   io.choice("smear", clay.smear, files::kSwitchNames);
-  io.number("wheel_rpm", clay.wheel_rpm, from(0).to(1e3));
-  io.number("floor_mm", clay.floor_mm, from(0).to(1e6));
-  io.number("finger_mm", clay.finger_mm, from(0).to(200));
+  io.number("wheel_rpm", clay.wheel_rpm, ranges::kWheelRpm);
+  io.number("floor_mm", clay.floor_mm, ranges::kFloorMm);
+  io.number("finger_mm", clay.finger_mm, ranges::kFingerMm);
   io.choice_unless(false, "thin_wall", clay.thin_wall_yields, files::kThinWallNames);
 }
 

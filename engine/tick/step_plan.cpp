@@ -2,59 +2,58 @@
 
 #include "claystack/engine/clay.hpp"
 #include "core/text.hpp"
+#include "engine/clay/scene_ranges.hpp"
 #include "engine/tick/stability.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <initializer_list>
 #include <numbers>
 
 namespace clay {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct Range {
-  const char* setting;
-  double value, low, high;
+struct Setting {
+  const char* name;
+  double value;
+  Range range;
 };
 
-Result<void> check_ranges(std::initializer_list<Range> ranges) {
-  for (const Range& r : ranges)
-    if (!(r.value >= r.low && r.value <= r.high))
-      return failure(ErrorKind::bad_input, std::string(r.setting) + ": expected a value from " +
-                                               number_text(r.low) + " to " + number_text(r.high) +
-                                               ", found " + number_text(r.value));
+Result<void> check_ranges(std::initializer_list<Setting> settings) {
+  for (const Setting& setting : settings)
+    if (!setting.range.holds(setting.value))
+      return failure(ErrorKind::bad_input, std::string(setting.name) + ": expected a value " +
+                                               setting.range.text() + ", found " +
+                                               number_text(setting.value));
   return {};
 }
 
 Result<void> check(const SceneSpec& s) {
   const ForceSpec force = s.force.value_or(ForceSpec{});
   const StabilitySpec stability = s.stability.value_or(StabilitySpec{});
-  constexpr auto kMostRings = static_cast<double>(kMaxRings);
+  const ClaySpec clay = s.clay.value_or(ClaySpec{});
   return check_ranges({
-      {"lump.rings", static_cast<double>(s.lump.rings), 1.0, kMostRings},
-      {"lump.max_rings", static_cast<double>(s.lump.max_rings), 0.0, kMostRings},
-      {"lump.ring_height_mm", s.lump.ring_height_mm, kMinRingHeightMm, kMaxRingHeightMm},
-      {"lump.density_g_cm3", s.lump.density_g_cm3, 0.1, 25.0},
-      {"tool.gap_mm", s.tool.gap_mm.value_or(kMinRadiusMm), kMinRadiusMm, 1000.0},
-      {"removal.rate_per_s", s.removal.rate_per_s, 0.0, 1e6},
-      {"removal.yield_depth_mm", s.removal.yield_depth_mm, 1e-3, 1e3},
-      {"removal.min_wall_mm", s.removal.min_wall_mm, kMinRadiusMm, 1000.0},
-      // k = 1 removes the whole wall, k > 1 turns it inside out.
-      {"removal.paper_fraction", s.removal.paper_fraction.value_or(0.0), 0.0, 1.0 - 1e-9},
-      {"flow.sigma_mm", s.flow.sigma_mm, 0.0, kInfinity},
-      {"flow.reach_mm", s.flow.reach_mm, 0.0, kInfinity},
-      {"flow.inside_share", s.flow.inside_share, 0.0, 1.0},
-      {"force.stiffness_n_per_mm2", force.stiffness_n_per_mm2, 0.0, 1e6},
-      {"force.paper_stiffness_n_per_mm", force.paper_stiffness_n_per_mm.value_or(0.0), 0.0, 1e6},
-      {"force.limit_n", force.limit_n, 0.0, 10.0},
-      {"force.friction", force.friction, 0.0, 2.0},
-      {"clay.wheel_rpm", s.clay.value_or(ClaySpec{}).wheel_rpm, 0.0, 1e3},
-      {"clay.floor_mm", s.clay.value_or(ClaySpec{}).floor_mm, 0.0, 1e6},
-      {"clay.finger_mm", s.clay.value_or(ClaySpec{}).finger_mm.value_or(0.0), 0.0, 200.0},
-      {"stability.max_stress_kpa", stability.max_stress_kpa, std::numeric_limits<double>::min(),
-       1e6},
+      {"lump.rings", static_cast<double>(s.lump.rings), ranges::kRings},
+      {"lump.max_rings", static_cast<double>(s.lump.max_rings), ranges::kRingLimit},
+      {"lump.ring_height_mm", s.lump.ring_height_mm, ranges::kRingHeightMm},
+      {"lump.density_g_cm3", s.lump.density_g_cm3, ranges::kDensity},
+      {"tool.gap_mm", s.tool.gap_mm.value_or(ranges::kGapMm.low), ranges::kGapMm},
+      {"removal.rate_per_s", s.removal.rate_per_s, ranges::kRatePerS},
+      {"removal.yield_depth_mm", s.removal.yield_depth_mm, ranges::kYieldDepthMm},
+      {"removal.min_wall_mm", s.removal.min_wall_mm, ranges::kMinWallMm},
+      {"removal.paper_fraction", s.removal.paper_fraction.value_or(0.0), ranges::kPaperFraction},
+      {"flow.sigma_mm", s.flow.sigma_mm, ranges::kSigmaMm},
+      {"flow.reach_mm", s.flow.reach_mm, ranges::kReachMm},
+      {"flow.inside_share", s.flow.inside_share, ranges::kInsideShare},
+      {"force.stiffness_n_per_mm2", force.stiffness_n_per_mm2, ranges::kStiffness},
+      {"force.paper_stiffness_n_per_mm", force.paper_stiffness_n_per_mm.value_or(0.0),
+       ranges::kPaperStiffness},
+      {"force.limit_n", force.limit_n, ranges::kForceLimitN},
+      {"force.friction", force.friction, ranges::kFriction},
+      {"clay.wheel_rpm", clay.wheel_rpm, ranges::kWheelRpm},
+      {"clay.floor_mm", clay.floor_mm, ranges::kFloorMm},
+      {"clay.finger_mm", clay.finger_mm.value_or(0.0), ranges::kFingerMm},
+      {"stability.max_stress_kpa", stability.max_stress_kpa, ranges::kMaxStressKpa},
   });
 }
 

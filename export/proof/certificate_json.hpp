@@ -4,7 +4,7 @@
 
 #include "claystack/core/result.hpp"
 
-#include "core/json/range.hpp"
+#include "core/range.hpp"
 #include "core/text.hpp"
 
 #include <algorithm>

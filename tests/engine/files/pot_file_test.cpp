@@ -1,4 +1,5 @@
 #include "claystack/engine/files.hpp"
+#include "claystack/engine/wheel.hpp"
 
 #include "tests/engine/files/arbitrary.hpp"
 #include "tests/engine/files/full_scene.hpp"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <vector>
 
 namespace clay {
 namespace {
@@ -264,6 +266,46 @@ bool is_rule_between_fields(const std::string& edit) {
       "/sampled/"};
   return std::ranges::any_of(
       kRules, [&](const char* rule) { return edit.find(rule) != std::string::npos; });
+}
+
+/// One setting at a time at its limits and beyond: a thrown pot is never lost.
+TEST(PotFile, HoldsTheSettingsOfEveryWheelThatCanBeBuilt) {
+  using Field = double& (*)(SceneSpec&);
+  const std::vector<Field> fields = {
+      [](SceneSpec& s) -> double& { return s.lump.ring_height_mm; },
+      [](SceneSpec& s) -> double& { return s.lump.density_g_cm3; },
+      [](SceneSpec& s) -> double& { return s.tool.gap_mm.emplace(); },
+      [](SceneSpec& s) -> double& { return s.removal.rate_per_s; },
+      [](SceneSpec& s) -> double& { return s.removal.yield_depth_mm; },
+      [](SceneSpec& s) -> double& { return s.removal.min_wall_mm; },
+      [](SceneSpec& s) -> double& { return s.removal.paper_fraction.emplace(); },
+      [](SceneSpec& s) -> double& { return s.flow.sigma_mm; },
+      [](SceneSpec& s) -> double& { return s.flow.reach_mm; },
+      [](SceneSpec& s) -> double& { return s.flow.inside_share; },
+      [](SceneSpec& s) -> double& { return s.force->stiffness_n_per_mm2; },
+      [](SceneSpec& s) -> double& { return s.force->paper_stiffness_n_per_mm.emplace(); },
+      [](SceneSpec& s) -> double& { return s.force->limit_n; },
+      [](SceneSpec& s) -> double& { return s.force->friction; },
+      [](SceneSpec& s) -> double& { return s.stability.emplace().max_stress_kpa; },
+      [](SceneSpec& s) -> double& { return s.clay.emplace().wheel_rpm; },
+      [](SceneSpec& s) -> double& { return s.clay.emplace().floor_mm; },
+      [](SceneSpec& s) -> double& { return s.clay.emplace().finger_mm.emplace(); }};
+  int built = 0;
+  for (std::size_t field = 0; field < fields.size(); ++field)
+    for (const double value : {-1.0, 0.0, 1e-9, 1e-3, 0.5, 1.0 - 1e-9, 1.0, 2.0, 10.0, 25.0, 200.0,
+                               1e3, 1e6, 1e9, 2e9, 1e300, HUGE_VAL}) {
+      SceneSpec scene;
+      fields[field](scene) = value;
+      auto wheel = Wheel::build(scene);
+      if (!wheel) continue;
+      wheel->step({0, {60.0, 40.0, 0.0}});
+      const Pot pot = wheel->pot();
+      const auto read = parse_pot(write_pot(pot, PotEncoding::json), "thrown");
+      ASSERT_TRUE(read) << "field " << field << ", " << value << ": " << read.error().message;
+      EXPECT_EQ(*read, pot);
+      ++built;
+    }
+  EXPECT_GT(built, 100);
 }
 
 TEST(PotSchema, AgreesWithTheReader) {

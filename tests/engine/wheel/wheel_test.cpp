@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace clay {
@@ -294,6 +295,9 @@ TEST(Wheel, RefusesSettingsOutOfRange) {
   };
   names("flow.inside_share", [](SceneSpec& s) { s.flow.inside_share = 1.1; });
   names("flow.sigma_mm", [](SceneSpec& s) { s.flow.sigma_mm = std::nan(""); });
+  names("flow.sigma_mm: expected a value from 0 to 1e+09, found inf",
+        [](SceneSpec& s) { s.flow.sigma_mm = std::numeric_limits<double>::infinity(); });
+  names("flow.reach_mm", [](SceneSpec& s) { s.flow.reach_mm = 2e9; });
   names("removal.paper_fraction", [](SceneSpec& s) { s.removal.paper_fraction = 1.5; });
   names("removal.min_wall_mm", [](SceneSpec& s) { s.removal.min_wall_mm = 0.0; });
   names("force.limit_n", [](SceneSpec& s) { s.force->limit_n = 50.0; });
@@ -309,7 +313,7 @@ TEST(Wheel, RefusesSettingsOutOfRange) {
   names("tool: ", [](SceneSpec& s) { s.tool.shape = SphereSpec{0.0}; });
   names("stability.max_stress_kpa", [](SceneSpec& s) { s.stability = StabilitySpec{0.01}; });
   // With enough digits to distinguish the number from the limit.
-  names("to 0.999999999, found 1", [](SceneSpec& s) { s.removal.paper_fraction = 1.0; });
+  names("to below 1, found 1", [](SceneSpec& s) { s.removal.paper_fraction = 1.0; });
   names("found 1e-09", [](SceneSpec& s) { s.lump.ring_height_mm = 1e-9; });
   names("found 1e+300", [](SceneSpec& s) { s.lump.outer_radius_mm = 1e300; });
 }
