@@ -8,20 +8,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <glm/common.hpp>
 
 namespace clay::bench {
-namespace {
-
-/// The same number of parts as in the engine.
-int parts_of(const ToolState& tool) noexcept {
-  const glm::dvec3 motion = glm::abs(tool.moved_mm);
-  const double parts = std::max({motion.x, motion.y, motion.z}) / 0.05;
-  return parts < 32 ? static_cast<int>(parts) + 1 : 32;
-}
-
-}  // namespace
-
 BareWheel::BareWheel(const SceneSpec& scene) : plan_(StepPlan::build(scene).value()), removals_(1) {
   const LumpSpec& lump = scene.lump;
   stack_ = ClayStack::cylinder(lump.rings, lump.ring_height_mm, lump.outer_radius_mm,

@@ -25,15 +25,13 @@ Result<void> check_shape(std::size_t count, double ring_height_mm, std::size_t m
 }
 
 Result<void> check_ring(const Ring& ring, std::size_t index) {
-  static const Quanta smallest = quanta_from_radius(kMinRadiusMm);
-  static const Quanta largest = quanta_from_radius(kMaxRadiusMm);
   const auto wrong = [&](const std::string& expected) {
     return failure(ErrorKind::bad_input, "ring " + std::to_string(index) + ": expected " +
                                              expected + ", found outer " +
                                              std::to_string(ring.outer2) + " and inner " +
                                              std::to_string(ring.inner2) + " quanta of 2^-36 mm^2");
   };
-  if (ring.outer2 < smallest || ring.outer2 > largest)
+  if (ring.outer2 < kSmallestOuter2 || ring.outer2 > kLargestOuter2)
     return wrong("an outer radius from 0.001 to 5000 mm");
   if (ring.inner2 < 0) return wrong("an inner radius of 0 or more");
   if (ring.inner2 >= ring.outer2) return wrong("an inner radius below the outer one");

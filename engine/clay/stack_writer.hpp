@@ -144,7 +144,6 @@ class StackWriter {
   void reserve() { stack_.rings_.reserve(stack_.max_rings_); }
 
  private:
-  static inline const Quanta kLargestOuter2 = quanta_from_radius(kMaxRadiusMm);
   ClayStack& stack_;
   WideQuanta gained_ = 0;   ///< by rings, not yet added to the stack's sum
   std::size_t opened_ = 0;  ///< bores opened minus bores closed, modulo 2^64

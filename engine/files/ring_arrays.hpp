@@ -51,11 +51,9 @@ void describe_radii_for_people(auto& io, auto& rings) {
 }
 
 void describe(auto& io, Is<RingArrays> auto& rings) {
-  const Quanta smallest = quanta_from_radius(kMinRadiusMm);
-  const Quanta largest = quanta_from_radius(kMaxRadiusMm);
   io.require({"outer2", "inner2"});
-  io.integers("outer2", rings.outer2, smallest, largest);
-  io.integers("inner2", rings.inner2, 0, largest);
+  io.integers("outer2", rings.outer2, kSmallestOuter2, kLargestOuter2);
+  io.integers("inner2", rings.inner2, 0, kLargestOuter2);
   describe_radii_for_people(io, rings);
   io.check([&](ObjectReader& reader) {
     expect_rings(reader, rings, {"outer2", "inner2", "less than the outer count of the ring"});

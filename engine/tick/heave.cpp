@@ -280,7 +280,7 @@ class Heaving {
     };
     const double out_part = presses_outside ? std::min(part, clear / out) : part;
     const double in_part = presses_outside ? part : std::min(part, clear / in);
-    static const Quanta least = quanta_from_radius(kLeastBoreMm);
+    constexpr Quanta least = quanta_from_radius(kLeastBoreMm);
     const Quanta room_inside = std::max<Quanta>(ring.inner2 - least, 0) / 2;
     const Quanta inside =
         writer_.put_inside(i, std::min(part_of(in_part, carry_.inside), room_inside));

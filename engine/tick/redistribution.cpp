@@ -113,15 +113,13 @@ void level(Rim* rim, std::span<const ToolRemoval> removals, std::size_t count) n
 /// A copy of the top ring, plus the excess of the rim. A quarter of the ring at most, so that it
 /// stays a ring.
 Ring next_ring(const Ring& top, const Rim* rim) noexcept {
-  static const Quanta smallest = quanta_from_radius(kMinRadiusMm);
-  static const Quanta largest = quanta_from_radius(kMaxRadiusMm);
   if (rim == nullptr) return top;
   const WideQuanta most = top.volume() / 4;
   const auto more = [&](WideQuanta q) {
     return static_cast<Quanta>(std::clamp<WideQuanta>(q, -most, most));
   };
   Ring ring = top;
-  ring.outer2 = std::clamp(top.outer2 + more(rim->outside), smallest, largest);
+  ring.outer2 = std::clamp(top.outer2 + more(rim->outside), kSmallestOuter2, kLargestOuter2);
   if (top.inner2 > 0) ring.inner2 = std::max<Quanta>(top.inner2 - more(rim->inside), 0);
   return ring;
 }

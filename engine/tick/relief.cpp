@@ -45,14 +45,10 @@ double excess(const Cone& cone, const Ring& ring, double middle_mm) noexcept {
 /// the surface moves.
 Quanta yielded(const RemovalPlan& plan, double dt_s, const Ring& ring, bool outside,
                double& out) noexcept {
-  static const Quanta smallest = quanta_from_radius(kMinRadiusMm);
   const double outer = ring.outer_mm(), inner = ring.inner_mm(), wall = outer - inner;
   const double z = plan.rate_per_s * wall * dt_s / std::max(plan.yield_depth_mm, out);
   out = std::min(out * z / (1.0 + z), std::max(wall - plan.min_wall_mm, 0.0));
-  const double mm2 = outside ? out * (2.0 * outer - out) : out * (2.0 * inner + out);
-  const Quanta spare =
-      outside ? ring.outer2 - std::max(ring.inner2 + 1, smallest) : ring.volume() - 1;
-  return std::clamp<Quanta>(quanta_from_mm2(mm2), 0, std::max<Quanta>(spare, 0));
+  return outside ? take_outside(ring, outer, out) : take_inside(ring, inner, out);
 }
 
 double end_of(const Tool& tool, bool up) {

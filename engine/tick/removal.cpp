@@ -13,23 +13,11 @@
 namespace clay {
 namespace {
 
-const Quanta kSmallestOuter2 = quanta_from_radius(kMinRadiusMm);
-
 /// A ring keeps a quantum of clay and the smallest radius, whatever rounding does.
 Quanta spare_outside(const Ring& ring) noexcept {
   return ring.outer2 - std::max(ring.inner2 + 1, kSmallestOuter2);
 }
 Quanta spare_inside(const Ring& ring) noexcept { return ring.volume() - 1; }
-
-/// Delta v of a surface that moves by eps, limited by the clay that the ring can lose.
-Quanta take_outside(const Ring& ring, double outer_mm, double eps) noexcept {
-  const Quanta asked = quanta_from_mm2(eps * (2.0 * outer_mm - eps));
-  return std::clamp<Quanta>(asked, 0, std::max<Quanta>(spare_outside(ring), 0));
-}
-Quanta take_inside(const Ring& ring, double inner_mm, double eps) noexcept {
-  const Quanta asked = quanta_from_mm2(eps * (2.0 * inner_mm + eps));
-  return std::clamp<Quanta>(asked, 0, std::max<Quanta>(spare_inside(ring), 0));
-}
 
 /// How far the surfaces of a pinched wall move in a tick: both for some of it, then one alone.
 struct Pinched {
@@ -219,6 +207,15 @@ void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
 }
 
 }  // namespace
+
+Quanta take_outside(const Ring& ring, double outer_mm, double eps) noexcept {
+  const Quanta asked = quanta_from_mm2(eps * (2.0 * outer_mm - eps));
+  return std::clamp<Quanta>(asked, 0, std::max<Quanta>(spare_outside(ring), 0));
+}
+Quanta take_inside(const Ring& ring, double inner_mm, double eps) noexcept {
+  const Quanta asked = quanta_from_mm2(eps * (2.0 * inner_mm + eps));
+  return std::clamp<Quanta>(asked, 0, std::max<Quanta>(spare_inside(ring), 0));
+}
 
 template <Model model>
 void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,

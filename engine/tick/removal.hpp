@@ -17,6 +17,10 @@ struct ToolRemoval {
   std::vector<Quanta> removed;
 };
 
+/// Delta v of a surface that moves by eps [mm], limited by the clay that the ring can lose.
+[[nodiscard]] Quanta take_outside(const Ring& ring, double outer_mm, double eps) noexcept;
+[[nodiscard]] Quanta take_inside(const Ring& ring, double inner_mm, double eps) noexcept;
+
 /// The clay that leaves each touched ring this tick, in quanta, parallel to `contact.rings`;
 /// equations (3) and (4) with Delta v = eps (2R - eps) outside, eps (2r + eps) inside. Writes
 /// nothing else.

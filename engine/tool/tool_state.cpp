@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 namespace clay {
 namespace {
 
+constexpr double kLongestWayMm = 0.05;
+constexpr int kMostParts = 32;
 constexpr std::int64_t kLongestStepUs = 50'000;
 constexpr std::int64_t kSlowUs = kClockPeriodUs / 3;
 
@@ -18,6 +21,12 @@ std::int64_t thirds_by(std::int64_t time_us) noexcept {
 bool within(double mm) noexcept { return std::abs(mm) <= kFarthestMm; }
 
 }  // namespace
+
+int parts_of(const ToolState& tool) noexcept {
+  const glm::dvec3 way = glm::abs(tool.moved_mm);
+  const double parts = std::max({way.x, way.y, way.z}) / kLongestWayMm;
+  return parts < kMostParts ? static_cast<int>(parts) + 1 : kMostParts;
+}
 
 ToolState ToolTracker::advance(const Pose& pose, double widest_gap_mm) noexcept {
   ToolState state;

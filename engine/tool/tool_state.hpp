@@ -27,6 +27,11 @@ struct ToolState {
   bool dt_clamped = false;
 };
 
+/// The number of parts in which the clay follows a tick, so that a fast hand gives the same pot as
+/// a slow one. Over 0.05 mm the clay changes little; at most 32 keep a tick short when a pose
+/// jumps.
+[[nodiscard]] int parts_of(const ToolState& tool) noexcept;
+
 /// Section 5.1, "inertia of motion": a hand is slow compared with 1 kHz, so most vertical
 /// velocities are measured as zero; the last nonzero one remains valid. Before any, clay flows up.
 class ToolTracker {

@@ -50,10 +50,6 @@ struct Wheel::State {
 
 namespace {
 
-// Over such a distance the clay changes little; the bound keeps a tick short when a pose jumps.
-constexpr double kLongestWayMm = 0.05;
-constexpr int kMostParts = 32;
-
 template <unsigned stages>
 constexpr Model kModel = (stages & kPaperModel) ? Model::paper : Model::conserving;
 
@@ -78,13 +74,10 @@ std::uint32_t rings_of(std::span<const ToolRemoval> removals) noexcept {
   return static_cast<std::uint32_t>(rings);
 }
 
-/// The number of parts of a tick, so that a fast hand gives the same pot as a slow one.
+/// The paper's tick has one part.
 template <Model model>
 int parts_of(const ToolState& tool) noexcept {
-  if constexpr (model == Model::paper) return 1;
-  const glm::dvec3 way = glm::abs(tool.moved_mm);
-  const double parts = std::max({way.x, way.y, way.z}) / kLongestWayMm;
-  return parts < kMostParts ? static_cast<int>(parts) + 1 : kMostParts;
+  return model == Model::paper ? 1 : clay::parts_of(tool);
 }
 
 template <unsigned stages, class State>

@@ -33,12 +33,16 @@ inline constexpr double kMinRingHeightMm = 1e-3, kMaxRingHeightMm = 1e3;
 inline constexpr std::size_t kMaxRings = std::size_t{1} << 24;
 
 /// The squared radius nearest to `mm2` [mm^2], halves up. Needs 0 <= mm2 < 1.3e8.
-[[nodiscard]] inline Quanta quanta_from_mm2(double mm2) noexcept {
+[[nodiscard]] constexpr Quanta quanta_from_mm2(double mm2) noexcept {
   return static_cast<Quanta>(mm2 * kQuantaPerMm2 + 0.5);  // NOLINT(bugprone-incorrect-roundings)
 }
-[[nodiscard]] inline Quanta quanta_from_radius(double mm) noexcept {
+[[nodiscard]] constexpr Quanta quanta_from_radius(double mm) noexcept {
   return quanta_from_mm2(mm * mm);
 }
+/// R^2 of the thinnest and of the thickest ring.
+inline constexpr Quanta kSmallestOuter2 = quanta_from_radius(kMinRadiusMm);
+inline constexpr Quanta kLargestOuter2 = quanta_from_radius(kMaxRadiusMm);
+
 [[nodiscard]] inline double mm2_from_quanta(Quanta q) noexcept {
   return static_cast<double>(q) * kMm2PerQuantum;
 }
@@ -74,7 +78,7 @@ struct Ring {
 /// ring of fractional height with the radii of ring N-1: clay too little for a
 /// whole ring, counted in normalised quanta like a ring's volume.
 ///
-/// Reading is public; only redistribution writes (StackWriter, private to the engine).
+/// Reading is public; only StackWriter, private to the engine, writes.
 class ClayStack {
  public:
   ClayStack() = default;
