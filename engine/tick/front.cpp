@@ -1,6 +1,6 @@
 #include "engine/tick/front.hpp"
 
-#include "engine/tick/yielding.hpp"
+#include "engine/clay/portable_math.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 #include "engine/tick/yielding.hpp"
 
 #include "engine/clay/packs.hpp"
+#include "engine/clay/portable_math.hpp"
 
 #include <array>
 #include <cstdint>

@@ -9,19 +9,6 @@
 
 namespace clay {
 
-/// exp(x) for x >= 0, 1 / exp(x) to 1e-11, and the same bits everywhere: the series of exp(x / 128)
-/// to the fifth power, squared seven times. No branch, no division; +inf where x is large.
-[[nodiscard]] inline double exp_of(double x) noexcept {
-  const double z = x * (1.0 / 128.0);
-  const double e =
-      1.0 + z * (1.0 + z * (1.0 / 2 + z * (1.0 / 6 + z * (1.0 / 24 + z * (1.0 / 120)))));
-  const double e2 = e * e, e4 = e2 * e2, e8 = e4 * e4, e16 = e8 * e8, e32 = e16 * e16;
-  const double e64 = e32 * e32;
-  return e64 * e64;
-}
-
-[[nodiscard]] inline double exp_neg(double x) noexcept { return 1.0 / exp_of(x); }
-
 /// Rings that one tool is in. [mm]
 struct Yielding {
   static constexpr std::size_t kMost = 32;

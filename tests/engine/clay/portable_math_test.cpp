@@ -24,5 +24,11 @@ TEST(PortableMath, DefinesTheLimits) {
   EXPECT_EQ(one_minus_exp_neg(std::numeric_limits<double>::infinity()), 1.0);
 }
 
+TEST(PortableMath, ExpNegMatchesTheExponential) {
+  for (double x = 0.0; x < 60.0; x += 0.0137) EXPECT_NEAR(exp_neg(x), std::exp(-x), 1e-11) << x;
+  EXPECT_EQ(exp_neg(0.0), 1.0);
+  EXPECT_EQ(exp_neg(1e12), 0.0);
+}
+
 }  // namespace
 }  // namespace clay

@@ -49,12 +49,6 @@ Press integrated(Press at, double advance, double dt_s) {
   return at;
 }
 
-TEST(ExpNeg, MatchesTheExponential) {
-  for (double x = 0.0; x < 60.0; x += 0.0137) EXPECT_NEAR(exp_neg(x), std::exp(-x), 1e-11) << x;
-  EXPECT_EQ(exp_neg(0.0), 1.0);
-  EXPECT_EQ(exp_neg(1e12), 0.0);
-}
-
 /// At every depth and rate, on the exponential, on the logistic curve and in the transition.
 RC_GTEST_PROP(Yielding, SolvesTheEquationOfAToolAtRest, ()) {
   auto random = *samples::random_engine();
