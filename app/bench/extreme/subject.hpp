@@ -64,8 +64,8 @@ class Subject {
 };
 
 /// Both read the same scene; K of the paper is force.paper_stiffness_n_per_mm or 0.05 N/mm, its k
-/// is removal.paper_fraction or rate / 1000, its L_1 is reach / h, rounded. The literal paper
-/// refuses nothing.
+/// is removal.paper_fraction or rate / 1000 (in the engine at most 0.5), its L_1 is reach / h,
+/// rounded. The literal paper refuses nothing.
 Result<std::unique_ptr<Subject>> make_subject(Model model, const SceneSpec& scene);
 
 /// Clay in the rings, the crown and the other columns of the ledger, summed with Boost.

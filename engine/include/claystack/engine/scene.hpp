@@ -86,7 +86,7 @@ struct RemovalSpec {
   double rate_per_s = 20.0;
   double yield_depth_mm = 0.25;  ///< conserving: depth of the tool in the clay for the full rate
   double min_wall_mm = 1.0;      ///< conserving: no tool thins a wall below this
-  std::optional<double> paper_fraction;  ///< k; rate / 1000 when absent
+  std::optional<double> paper_fraction;  ///< k; rate / 1000, at most 0.5, when absent
   friend bool operator==(const RemovalSpec&, const RemovalSpec&) = default;
 };
 

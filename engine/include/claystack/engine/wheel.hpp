@@ -17,7 +17,8 @@ namespace clay {
 enum StepFlag : std::uint32_t {
   kContact = 1u << 0,
   kRefused = 1u << 1,    ///< pose not finite or beyond 1e6 mm, time not advancing, or a gap that
-                         ///< tool.gap_mm or tool.mode does not allow: the tick did nothing
+                         ///< tool.gap_mm or tool.mode does not allow: the tick did nothing.
+                         ///< With a needle or a wire a pose may have any gap
   kLongStep = 1u << 2,   ///< more than 50 ms since the last pose: treated as 50 ms
   kGrew = 1u << 3,       ///< rings were added on top
   kRingLimit = 1u << 4,  ///< clay waits above the top ring: raise lump.max_rings
@@ -51,8 +52,8 @@ class Wheel {
   ~Wheel();
 
   /// One tick: pose -> tool state -> contact -> removal -> redistribution -> stability -> force.
-  /// No allocation and no lock; no work that grows with the number of rings, except in the one tick
-  /// in which a needle or a wire cuts.
+  /// No allocation and no lock; no work that grows with the number of rings, but for three cases
+  /// (docs/model.md, Stability without O(N)).
   StepReport step(const Pose& pose) noexcept;
 
   /// Contact and force at this pose on the clay as it is; changes neither clay nor state. Does not
