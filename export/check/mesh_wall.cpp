@@ -118,8 +118,8 @@ constexpr double kGrazing = std::numbers::sqrt2 / 2.0;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// The cosine of the bluntest wedge that `min_wall` counts as thin, 4 atan(1/6).
-constexpr double kWedge = 0.79;
+/// The cosine between faces that do not noticeably approach each other.
+constexpr double kParallel = 0.985;
 
 /// As for `min_wall`, a wall has three thicknesses of boundary, either way round; 2 % more, because
 /// the plane of a ray does not quite pass through the axis. Closer to the end than `kLeastEnd`, in
@@ -150,10 +150,12 @@ class WallProbe {
     one.wall.oblique = hit && hit->facing < kGrazing ? 1 : 0;
     if (hit && one.wall.oblique == 0 && hit->mm) {
       const Shortest ray{*hit->mm, begin, triangle, sample};
-      const Middle middle{begin + 0.5 * ray.mm * inward, inward, ray.mm, hit->facing};
+      const Middle middle{begin + 0.5 * ray.mm * inward, inward, ray.mm, hit->facing,
+                          glm::normalize(doubled_area(mesh_, hit->triangle))};
       // The sides are examined only where the wall would be the thinnest.
-      const Beside beside = ray.mm < found.least.mm ? look_beside(middle, steps) : Beside{};
-      if (is_end(middle, beside, steps)) {
+      const bool thinnest = ray.mm < found.least.mm;
+      const Beside beside = thinnest ? look_beside(middle, steps) : Beside{};
+      if (thinnest && is_end(middle, beside, steps)) {
         one.wall.oblique = 1;
         one.at_an_end = {std::min(ray.mm, 2.0 * beside.nearest_mm), begin, triangle, sample};
       } else {
@@ -168,6 +170,7 @@ class WallProbe {
   struct Middle {
     glm::dvec3 place, inward;
     double thickness_mm = 0.0, facing = 0.0;
+    glm::dvec3 normal;  ///< of the face that it hits
   };
 
   /// The sides of a wall.
@@ -222,10 +225,14 @@ class WallProbe {
   }
 
   [[nodiscard]] bool is_end(const Middle& middle, const Beside& beside, std::size_t& steps) const {
-    if (beside.end >= kMostEnd) return false;
-    if (beside.end < kLeastEnd || middle.facing < kWedge) return true;
-    const glm::dvec3 towards = nearest_way(middle, beside.towards, steps);
-    return boundary_around(middle, towards, steps) < kSpan * middle.thickness_mm;
+    if (beside.end < kLeastEnd) return true;
+    if (beside.end < kMostEnd &&
+        ends_towards(nearest_way(middle, beside.towards, steps), middle, steps))
+      return true;
+    // The lines may miss the edge of a wedge. It lies where the faces approach each other.
+    if (middle.facing > kParallel) return false;
+    const glm::dvec3 closing = middle.normal - middle.facing * middle.inward;
+    return ends_towards(glm::normalize(closing), middle, steps);
   }
 
   /// The shortest way to the end, near one of the lines.
@@ -249,10 +256,11 @@ class WallProbe {
     glm::dvec3 at{0.0};
   };
 
-  /// The length of the boundary around the end, in the plane of the ray and the way to the end:
-  /// that of a line through points of it, as seen from the middle, and so a lower bound.
-  [[nodiscard]] double boundary_around(const Middle& middle, const glm::dvec3& towards,
-                                       std::size_t& steps) const {
+  /// Whether the boundary around the end is too short for a wall, in the plane of the ray and the
+  /// way to the end. Its length is that of a line through points of it, as seen from the middle,
+  /// and so a lower bound. The search stops once that is enough.
+  [[nodiscard]] bool ends_towards(const glm::dvec3& towards, const Middle& middle,
+                                  std::size_t& steps) const {
     constexpr int kParts = 8;
     const auto seen = [&](double angle) {
       const glm::dvec3 way = std::cos(angle) * towards + std::sin(angle) * middle.inward;
@@ -260,27 +268,32 @@ class WallProbe {
     };
     const glm::dvec3 half = 0.5 * middle.thickness_mm * middle.inward;
     Seen last{-0.5 * std::numbers::pi, -half};
-    double length = 0.0;
-    for (int k = 1; k <= kParts; ++k) {
+    double missing_mm = kSpan * middle.thickness_mm;
+    for (int k = 1; k <= kParts && missing_mm > 0.0; ++k) {
       Seen next{0.5 * std::numbers::pi, half};
       if (k < kParts) next = seen(std::numbers::pi * (static_cast<double>(k) / kParts - 0.5));
       if (!std::isfinite(next.at.x)) continue;  // along a triangle
-      length += length_between(last, next, seen, middle.thickness_mm / 8.0);
+      missing_mm -= length_between(last, next, seen, {middle.thickness_mm / 24.0, missing_mm});
       last = next;
     }
-    return length;
+    return missing_mm > 0.0;
   }
 
-  /// Through more points where two are farther apart than `fine_mm`.
+  struct Lengths {
+    double fine_mm = 0.0, enough_mm = 0.0;
+  };
+
+  /// Through more points where two are farther apart than `fine_mm`, and no more than `enough_mm`.
   template <class See>
   [[nodiscard]] static double length_between(const Seen& a, const Seen& b, const See& seen,
-                                             double fine_mm, int halvings = 6) {
+                                             const Lengths& lengths, int halvings = 6) {
     const double straight = glm::length(b.at - a.at);
-    if (straight <= fine_mm || halvings == 0) return straight;
+    if (straight <= lengths.fine_mm || straight >= lengths.enough_mm || halvings == 0)
+      return straight;
     const Seen middle = seen(0.5 * (a.angle + b.angle));
     if (!std::isfinite(middle.at.x)) return straight;
-    return length_between(a, middle, seen, fine_mm, halvings - 1) +
-           length_between(middle, b, seen, fine_mm, halvings - 1);
+    return length_between(a, middle, seen, lengths, halvings - 1) +
+           length_between(middle, b, seen, lengths, halvings - 1);
   }
 
   const TriangleMesh& mesh_;
