@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
@@ -155,19 +156,34 @@ class GlbReader {
   }
 
   [[nodiscard]] static glm::dmat4 matrix_of(const Json& node) {
+    if (node.contains("matrix")) return whole_matrix_of(node);
+    const auto t = numbers_in(node, "translation", {0, 0, 0});
+    const auto [x, y, z, w] = rotation_of(node);
+    const auto s = numbers_in(node, "scale", {1, 1, 1});
+    return {glm::dvec4(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0) * s[0],
+            glm::dvec4(2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0) * s[1],
+            glm::dvec4(2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0) * s[2],
+            glm::dvec4(t[0], t[1], t[2], 1)};
+  }
+
+  [[nodiscard]] static glm::dmat4 whole_matrix_of(const Json& node) {
+    for (const char* other : {"translation", "rotation", "scale"})
+      if (node.contains(other))
+        throw BadGlb("expected a node with a matrix or with a " + std::string(other) +
+                     ", found one with both");
     const auto m = numbers_in(node, "matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
     glm::dmat4 matrix(1.0);
     for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = m[static_cast<std::size_t>(i)];
-    const auto t = numbers_in(node, "translation", {0, 0, 0});
+    return matrix;
+  }
+
+  /// A unit quaternion: any other would scale the mesh too.
+  [[nodiscard]] static std::array<double, 4> rotation_of(const Json& node) {
     const auto q = numbers_in(node, "rotation", {0, 0, 0, 1});
-    const auto s = numbers_in(node, "scale", {1, 1, 1});
-    const double x = q[0], y = q[1], z = q[2], w = q[3];
-    const glm::dmat4 turned(
-        glm::dvec4(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0) * s[0],
-        glm::dvec4(2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0) * s[1],
-        glm::dvec4(2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0) * s[2],
-        glm::dvec4(t[0], t[1], t[2], 1));
-    return matrix * turned;
+    const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+    if (!(std::abs(length - 1.0) <= 1e-3))
+      throw BadGlb("rotation: expected a quaternion of length 1, found " + in_mm(length));
+    return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
   }
 
   /// Reads a mesh once, in metres and y up, without transforms.

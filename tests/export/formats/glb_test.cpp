@@ -150,6 +150,26 @@ TEST(Glb, ReadsPlainMeshesWithTransforms) {
   EXPECT_NEAR(signed_volume(decode_glb(moved.file(), "x").value()), 3.0 * volume, 100.0);
 }
 
+TEST(Glb, RefusesARotationThatScalesAndTwoTransformsOfANode) {
+  const auto read = [](const char* transform) {
+    Plain plain;
+    plain.json["nodes"][0].update(Json::parse(transform));
+    return decode_glb(plain.file(), "x");
+  };
+  EXPECT_TRUE(refused(read(R"({"rotation": [0, 0, 1, 1]})"), ErrorKind::bad_input,
+                      "rotation: expected a quaternion of length 1, found 1.4"));
+  EXPECT_TRUE(refused(read(R"({"rotation": [0, 0, 0, 0]})"), ErrorKind::bad_input, "found 0"));
+  // Rounded to three digits, it turns and does not scale.
+  EXPECT_NEAR(signed_volume(read(R"({"rotation": [0, 0, 0.707, 0.707]})").value()), 1e9 / 6.0, 1.0);
+  const std::string matrix = R"("matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])";
+  EXPECT_TRUE(read(("{" + matrix + "}").c_str()));
+  for (const char* other :
+       {"\"translation\": [1, 0, 0]", "\"rotation\": [0, 0, 0, 1]", "\"scale\": [1, 1, 1]"}) {
+    const std::string both = "{" + matrix + ", " + other + "}";
+    EXPECT_TRUE(refused(read(both.c_str()), ErrorKind::bad_input, "with both"));
+  }
+}
+
 TEST(Glb, ReadsStripsAndFans) {
   for (const int mode : {5, 6}) {
     Plain plain;
