@@ -187,6 +187,7 @@ class Inspection {
                 ? "closed shell inside another one that faces outward; a slicer fills it"
                 : "shell turned against its neighbours",
             geometry.misplaced_shells);
+    contradicting_ = geometry.misplaced_shells.found() && !geometry.only_filled;
     if (geometry.bounds_volume && geometry.outward && topology.components > 1)
       count_cavities(topology, geometry.enclosed);
     return geometry.outward;
@@ -194,7 +195,7 @@ class Inspection {
 
   /// Contradicting shells are a problem already; then the sign of the sum has no meaning.
   void check_outward(bool outward, const SignedVolume& volume) {
-    report_.oriented = outward;
+    report_.oriented = outward && !contradicting_;
     if (outward || (!report_.bounds_volume && !volume.sign_is_certain())) return;
     problem("inside out",
             "normals point into the clay, volume " + in_mm(report_.volume_mm3) + " mm^3");
@@ -222,6 +223,7 @@ class Inspection {
 
   const TriangleMesh& mesh_;
   MeshReport report_;
+  bool contradicting_ = false;  ///< some shells face outward and others inward
 };
 
 }  // namespace

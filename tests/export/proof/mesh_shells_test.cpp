@@ -71,6 +71,7 @@ TEST(MeshShells, ReportsAMeshWithoutVolumeNotAsInsideOut) {
   const MeshReport opposed = check_mesh(together(cube(2), moved(inverted(cube(2)), {5, 0, 0})));
   ASSERT_EQ(opposed.problems.size(), 1u) << names(opposed);
   EXPECT_EQ(opposed.problems[0].what, "shell turned against its neighbours");
+  EXPECT_FALSE(opposed.oriented);
   TriangleMesh flat = cube(2);
   for (glm::dvec3& p : flat.points) p.z = 0.0;
   const MeshReport pressed = check_mesh(flat);
@@ -99,9 +100,11 @@ TEST(MeshShells, ReportsOneInsideOutSolidOfTwo) {
   const TriangleMesh upper = moved(cube(3.0), {0, 0, 9});
   const MeshReport below = check_mesh(together(inverted(cube(2.0)), upper));
   EXPECT_FALSE(below.bounds_volume);
+  EXPECT_FALSE(below.oriented);
   EXPECT_TRUE(find(below, "shell turned against its neighbours")) << names(below);
   const MeshReport above = check_mesh(together(cube(4.0), inverted(upper)));
   EXPECT_FALSE(above.bounds_volume);
+  EXPECT_FALSE(above.oriented);
   EXPECT_FALSE(above.sound());
 }
 
