@@ -115,7 +115,8 @@ class Farthest {
   explicit Farthest(const TriangleMesh& to) : to_(to), tree_(to) {}
 
   double bound(const std::vector<Corners>& triangles, double tolerance_mm) {
-    constexpr std::size_t kMostPieces = 20'000;
+    const std::size_t most_pieces =
+        std::clamp<std::size_t>(8 * (triangles.size() + to_.triangles.size()), 20'000, 400'000);
     std::priority_queue<Piece> open;
     std::uint32_t hint = 0;
     for (const Corners& corners : triangles) {
@@ -128,7 +129,7 @@ class Farthest {
     while (!open.empty()) {
       step_of_loop();
       const Piece top = open.top();
-      if (top.most_mm <= 1.02 * least_mm_ + tolerance_mm || ++pieces > kMostPieces)
+      if (top.most_mm <= 1.02 * least_mm_ + tolerance_mm || ++pieces > most_pieces)
         return top.most_mm;
       open.pop();
       const auto& [a, b, c] = top.corners;
