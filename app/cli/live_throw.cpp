@@ -325,7 +325,8 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
                {"poses", status.poses},
                {"frames", frames_json(stage.device->counters())},
                {"recording", recording_json(options, stage)},
-               {"servo", servo_json(live.timing(), live.events(), live.realtime())}};
+               {"servo", servo_json(servo::LiveMeasures::timing(live),
+                                    servo::LiveMeasures::events(live), live.realtime())}};
   json.update(clay_json(*stage.wheel, pot));
   const Result<void> outcome = outcome_of(stage, ended, kept, console);
   if (!outcome) json.update(error_json(outcome.error()));

@@ -1,6 +1,7 @@
 #include "app/servo/recorder.hpp"
 #include "app/servo/servo.hpp"
 #include "app/servo/servo_check.hpp"
+#include "app/servo/tick_trace.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/servo/servo.hpp"
 
@@ -70,11 +71,11 @@ Result<double> soften(SceneSpec& scene, const LiveSettings& settings) {
 /// Declared so that the servo's thread ends before the loop that it runs, and the loop before the
 /// recorder that it feeds.
 struct LiveThrow::State {
-  explicit State(const ThrowParts& parts)
+  State(const ThrowParts& parts, TickTrace* ticks)
       : wheel(parts.wheel),
         device(parts.device),
         clock(parts.clock != nullptr ? *parts.clock : machine_clock),
-        trace(parts.trace) {}
+        trace(ticks) {}
   [[nodiscard]] Bench bench() noexcept { return {wheel, device, clock, recorder.get(), trace}; }
 
   Wheel& wheel;
@@ -88,11 +89,16 @@ struct LiveThrow::State {
 };
 
 Result<LiveThrow> LiveThrow::build(const ThrowParts& parts, const LiveSettings& settings) {
+  return LiveMeasures::build(parts, settings, nullptr);
+}
+
+Result<LiveThrow> LiveMeasures::build(const ThrowParts& parts, const LiveSettings& settings,
+                                      TickTrace* trace) {
   if (auto checked = check(settings); !checked) return tl::make_unexpected(checked.error());
   if (parts.device.info().can_push)
     if (auto fits = check_stiffness(parts.scene, settings); !fits)
       return tl::make_unexpected(fits.error());
-  auto state = std::make_unique<State>(parts);
+  auto state = std::make_unique<LiveThrow::State>(parts, trace);
   if (auto recorder = recorder_of(parts))
     state->recorder = std::move(*recorder);
   else
@@ -156,9 +162,13 @@ Recorded LiveThrow::recorded() const noexcept {
   return {state_->recorder->taken(), state_->recorder->lost()};
 }
 
-const ServoTiming& LiveThrow::timing() const noexcept { return state_->loop->timing(); }
+const ServoTiming& LiveMeasures::timing(const LiveThrow& live) noexcept {
+  return live.state_->loop->timing();
+}
 
-const GuardEvents& LiveThrow::events() const noexcept { return state_->loop->events(); }
+const GuardEvents& LiveMeasures::events(const LiveThrow& live) noexcept {
+  return live.state_->loop->events();
+}
 
 void LiveThrow::end_force() noexcept { emergency_stop().fire(); }
 

@@ -2,6 +2,7 @@
 // Timing of the servo: histograms of all ticks, and single ticks for a plot. Adding never waits;
 // samples that do not fit are counted.
 
+#include "claystack/servo/servo.hpp"
 #include "core/histogram.hpp"
 #include "core/spsc_queue.hpp"
 
@@ -71,6 +72,16 @@ class TickTrace {
   SpscQueue<TickSample, kRoom> queue_;
   std::atomic<bool> wanted_{false};
   std::atomic<std::uint64_t> dropped_{0};
+};
+
+/// The measurements of a live throw.
+struct LiveMeasures {
+  /// LiveThrow::build with a trace of the ticks, which must outlive it; null: none.
+  static Result<LiveThrow> build(const ThrowParts& parts, const LiveSettings& settings,
+                                 TickTrace* trace);
+  // After LiveThrow::join.
+  [[nodiscard]] static const ServoTiming& timing(const LiveThrow& live) noexcept;
+  [[nodiscard]] static const GuardEvents& events(const LiveThrow& live) noexcept;
 };
 
 }  // namespace clay::servo

@@ -67,13 +67,9 @@ Result<void> StrokeController::start_servo(const SceneSpec& scene, falcon::Hapti
   auto begun = document_.begin_stroke(scene);
   if (!begun) return tl::make_unexpected(begun.error());
   wheel_.emplace(std::move(begun->wheel));
-  auto live = servo::LiveThrow::build({.wheel = *wheel_,
-                                       .device = device,
-                                       .scene = scene,
-                                       .sink = begun->sink,
-                                       .clock = &clock_,
-                                       .trace = &trace_},
-                                      settings);
+  auto live = servo::LiveMeasures::build(
+      {.wheel = *wheel_, .device = device, .scene = scene, .sink = begun->sink, .clock = &clock_},
+      settings, &trace_);
   if (!live) {
     (void)document_.end_stroke(std::nullopt, history::Recording::one_stroke);  // adds none
     return tl::make_unexpected(live.error());
@@ -108,7 +104,8 @@ void StrokeController::release() {
   news_.poses = status_.poses;
   news_.ticks = status_.ticks;
   news_.ring_limit = status_.ring_limit;
-  servo_ = {live_->timing(), live_->events(), live_->realtime()};
+  servo_ = {servo::LiveMeasures::timing(*live_), servo::LiveMeasures::events(*live_),
+            live_->realtime()};
   // Where poses are missing, the pot is what the recorded ones replay to.
   std::optional<Pot> thrown;
   if (auto kept = live_->finish_recording(); !kept)

@@ -17,6 +17,8 @@ TEST(LiveSettings, ErrorsNameTheSetting) {
   };
   EXPECT_EQ(refused([](LiveSettings& s) { s.rate_hz = 100; }),
             "rate_hz: expected a value from 400 to 4000, found 100");
+  EXPECT_EQ(refused([](LiveSettings& s) { s.rate_hz = 4000.0004; }),
+            "rate_hz: expected a value from 400 to 4000, found 4000.0004");
   EXPECT_EQ(refused([](LiveSettings& s) { s.clay_rate_hz = 2000; }),
             "clay_rate_hz: expected a value from 20 to 1000, found 2000");
   EXPECT_NE(refused([](LiveSettings& s) { s.seconds = std::nan(""); }), "");

@@ -184,11 +184,6 @@ class Clock {
 
 // ---- live throw ----------------------------------------------------------------------
 
-// Measurements for the reports and plots of this project's own programs (app/servo/tick_trace.hpp).
-struct ServoTiming;
-struct GuardEvents;
-class TickTrace;
-
 /// The parts of a live throw. All must outlive it.
 struct ThrowParts {
   Wheel& wheel;
@@ -199,9 +194,8 @@ struct ThrowParts {
   /// hash_of() the scene as its file has it, for the session; 0: of `scene`. soften() changes the
   /// hash of a scene, but not what the session replays to.
   std::uint64_t scene_hash = 0;
-  PoseSink* sink = nullptr;    ///< receives the poses instead of a session file
-  Clock* clock = nullptr;      ///< null: CLOCK_MONOTONIC
-  TickTrace* trace = nullptr;  ///< null: the ticks are not plotted
+  PoseSink* sink = nullptr;  ///< receives the poses instead of a session file
+  Clock* clock = nullptr;    ///< null: CLOCK_MONOTONIC
 };
 
 /// The thread that ticks.
@@ -257,8 +251,6 @@ class LiveThrow {
   Ending stop();
   /// After join().
   [[nodiscard]] const Realtime& realtime() const noexcept;
-  [[nodiscard]] const ServoTiming& timing() const noexcept;
-  [[nodiscard]] const GuardEvents& events() const noexcept;
   /// After the last join(): completes the recorded session under its name; does nothing without a
   /// recording. Errors: the disk was full or removed, or those of the sink. See recorded().lost
   /// too.
@@ -271,6 +263,7 @@ class LiveThrow {
   static void end_force() noexcept;
 
  private:
+  friend struct LiveMeasures;  // for the reports and plots of the project's own programs
   struct State;
   explicit LiveThrow(std::unique_ptr<State> state) noexcept;
   std::unique_ptr<State> state_;
