@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <utility>
 
 namespace clay::servo {
 
@@ -50,8 +51,8 @@ class Mapping {
 class HandForce {
  public:
   /// `controller`: from PassivityController::build.
-  explicit HandForce(const falcon::PassivityController& controller) noexcept
-      : controller_(controller) {}
+  explicit HandForce(falcon::PassivityController controller) noexcept
+      : controller_(std::move(controller)) {}
 
   struct Wanted {
     glm::dvec3 force_n{0.0};  ///< in the device's frame

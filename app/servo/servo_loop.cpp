@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace clay::servo {
 namespace {
@@ -43,24 +44,24 @@ Result<ServoLoop> ServoLoop::build(const Bench& bench, const LiveSettings& setti
   if (!mapping) return tl::make_unexpected(mapping.error());
   falcon::GuardSettings guard_settings = settings.guard;
   guard_settings.period_s = 1.0 / settings.rate_hz;
-  const auto guard = falcon::ForceGuard::make(guard_settings);
+  auto guard = falcon::ForceGuard::build(guard_settings);
   if (!guard) return tl::make_unexpected(falcon::error_of(guard.error()));
-  falcon::PassivitySpec spec{.loop = settings.arm, .step_mm = settings.encoder_step_mm};
-  spec.loop.rate_hz = settings.rate_hz;
-  const auto controller = falcon::PassivityController::build(spec);
+  falcon::PassivitySettings passivity{.loop = settings.arm, .step_mm = settings.encoder_step_mm};
+  passivity.loop.rate_hz = settings.rate_hz;
+  auto controller = falcon::PassivityController::build(passivity);
   if (!controller) return tl::make_unexpected(falcon::error_of(controller.error()));
-  return ServoLoop(bench, settings, *mapping, *guard, *controller);
+  return ServoLoop(bench, settings, *mapping, std::move(*guard), std::move(*controller));
 }
 
 ServoLoop::ServoLoop(const Bench& bench, const LiveSettings& settings, const Mapping& mapping,
-                     const falcon::ForceGuard& guard, const falcon::PassivityController& controller)
+                     falcon::ForceGuard guard, falcon::PassivityController controller)
     : bench_(bench),
       seconds_(settings.seconds),
       patience_s_(std::max(settings.patience_s, settings.seconds)),
       mapping_(mapping),
       controls_(settings.buttons, (bench.wheel.plan().stages & kPinch) != 0, settings.gap_mm),
-      guard_(guard),
-      hand_(controller),
+      guard_(std::move(guard)),
+      hand_(std::move(controller)),
       clay_(bench.wheel, bench.recorder, clay_period_us(settings)),
       pacer_(period_ns(settings.rate_hz)) {}
 

@@ -77,7 +77,7 @@ class ServoLoop {
 
  private:
   ServoLoop(const Bench& bench, const LiveSettings& settings, const Mapping& mapping,
-            const falcon::ForceGuard& guard, const falcon::PassivityController& controller);
+            falcon::ForceGuard guard, falcon::PassivityController controller);
 
   void apply(const falcon::DeviceSample& sample, std::int64_t now_us, Commands& commands) noexcept;
   void follow(const falcon::DeviceSample& sample, std::int64_t now_us) noexcept;

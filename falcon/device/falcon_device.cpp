@@ -1,4 +1,4 @@
-#include "claystack/falcon/falcon_device.hpp"
+#include "falcon/device/falcon_device.hpp"
 
 #include "core/limit_norm.hpp"
 #include "core/text.hpp"
@@ -65,7 +65,6 @@ DeviceResult<void> FalconDevice::open() {
   position_mm_ = settings_.centre_mm;
   unanswered_since_us_ = 0;
   sample_ = {};
-  motors_ = {};
   auto opened = start();
   if (!opened) {
     line_->close();
@@ -184,16 +183,15 @@ LegCounts FalconDevice::motors_for(const glm::dvec3& force_n) const noexcept {
   if (sample_.state != DeviceState::ready) return {};
   const auto torques =
       kinematics_.torques(position_mm_, limit_norm(force_n, settings_.force_limit_n));
-  return torques ? motor_counts(*torques, settings_.motor_counts_per_nmm).counts : LegCounts{};
+  return torques ? motor_counts(*torques, settings_.motor_counts_per_nmm) : LegCounts{};
 }
 
 void FalconDevice::write(const glm::dvec3& force_n) noexcept {
   if (sample_.state < DeviceState::needs_homing || sample_.state == DeviceState::fault) return;
   if (stopped_.load()) return;
-  motors_ = motors_for(force_n);
   const bool homing = sample_.state == DeviceState::needs_homing;
   const WireStatus sent = line_->write(
-      encode({.motors = motors_, .homing = homing, .green = !homing, .red = homing}).bytes);
+      encode({.motors = motors_for(force_n), .homing = homing, .green = !homing, .red = homing}));
   // A concurrent stop must still send the last packet.
   if (stopped_.load()) line_->write_last(kZeroFrame);
   if (unanswered_since_us_ == 0) unanswered_since_us_ = line_->now_us();
@@ -227,6 +225,11 @@ DeviceCounters FalconDevice::counters() const noexcept {
   DeviceCounters counters = counters_;
   counters.bytes_discarded = reader_.discarded();
   return counters;
+}
+
+std::unique_ptr<HapticDevice> make_falcon(std::unique_ptr<Transport> line,
+                                          const FalconSettings& settings) {
+  return std::make_unique<FalconDevice>(std::move(line), settings);
 }
 
 }  // namespace clay::falcon::inline device

@@ -23,8 +23,6 @@ namespace clay::falcon::inline device {
 /// A complete boot stream.
 struct Firmware {
   std::vector<std::uint8_t> bytes;
-  std::uint32_t entry_point = 0;
-  std::size_t blocks = 0;
 };
 
 /// Reads the whole stream before any of it is sent; `bad_firmware` names the byte of the fault, and

@@ -88,13 +88,12 @@ std::string parse_block(WordReader& words, std::uint32_t size, Filled& filled, b
 }
 
 /// Empty if the stream is complete, otherwise "expected ...".
-std::string parse(WordReader& words, Firmware& firmware) {
+std::string parse(WordReader& words, std::size_t size_of_file) {
   if (words.word() != kKeyOfBytes) return "expected the key AA 08";
   for (int i = 0; i < kReservedWords; ++i)
     if (words.word() != 0u) return "expected eight reserved words of 0";
   const auto entry = words.address();
   if (!entry || *entry >= kAddresses) return "expected an entry point below 400000";
-  firmware.entry_point = *entry;
   bool holds_entry = false;
   Filled filled;
   while (true) {
@@ -103,10 +102,9 @@ std::string parse(WordReader& words, Firmware& firmware) {
     if (*size == 0) break;
     if (auto problem = parse_block(words, *size, filled, holds_entry, *entry); !problem.empty())
       return problem;
-    ++firmware.blocks;
   }
   if (!holds_entry) return "expected a block that holds the entry point " + hex(*entry);
-  if (words.at() != firmware.bytes.size()) return "expected the end of the file";
+  if (words.at() != size_of_file) return "expected the end of the file";
   return {};
 }
 
@@ -116,7 +114,7 @@ DeviceResult<Firmware> parse_firmware(std::vector<std::uint8_t> bytes, const std
   Firmware firmware;
   firmware.bytes = std::move(bytes);
   WordReader words(firmware.bytes);
-  const std::string problem = parse(words, firmware);
+  const std::string problem = parse(words, firmware.bytes.size());
   if (problem.empty()) return firmware;
   return device_failure(DeviceFault::bad_firmware,
                         name + ": expected a TI C28x boot stream; at byte " +

@@ -1,4 +1,4 @@
-#include "claystack/falcon/falcon_device.hpp"
+#include "falcon/device/frame.hpp"
 
 #include <algorithm>
 
@@ -45,7 +45,7 @@ constexpr bool fits(std::size_t position, std::uint8_t byte) {
   }
 }
 
-StateFrame decode(const std::array<std::uint8_t, kFrameBytes>& bytes) noexcept {
+StateFrame decode(const FrameBytes& bytes) noexcept {
   const auto value = [&bytes](std::size_t at) { return static_cast<unsigned>(bytes[at] - kZero); };
   StateFrame frame;
   for (std::size_t leg = 0; leg < frame.encoders.size(); ++leg) {
@@ -60,20 +60,19 @@ StateFrame decode(const std::array<std::uint8_t, kFrameBytes>& bytes) noexcept {
 
 }  // namespace
 
-EncodedFrame encode(const MotorFrame& frame) noexcept {
-  EncodedFrame encoded;
-  encoded.bytes.fill(kZero);
-  encoded.bytes[0] = kBegin;
-  encoded.bytes[kLast] = kEnd;
+FrameBytes encode(const MotorFrame& frame) noexcept {
+  FrameBytes bytes;
+  bytes.fill(kZero);
+  bytes[0] = kBegin;
+  bytes[kLast] = kEnd;
   for (std::size_t leg = 0; leg < frame.motors.size(); ++leg) {
     const int motor = std::clamp<int>(frame.motors[leg], -kMotorLimit, kMotorLimit);
-    encoded.saturated |= motor != frame.motors[leg];
     for (std::size_t n = 0; n < kNibblesPerLeg; ++n)
-      encoded.bytes[byte_of(leg, n)] = letter((static_cast<unsigned>(motor) >> (4 * n)) & kNibble);
+      bytes[byte_of(leg, n)] = letter((static_cast<unsigned>(motor) >> (4 * n)) & kNibble);
   }
-  encoded.bytes[kStatus] = letter((frame.homing ? kHoming : 0u) | (frame.green ? kGreen : 0u) |
-                                  (frame.blue ? kBlue : 0u) | (frame.red ? kRed : 0u));
-  return encoded;
+  bytes[kStatus] =
+      letter((frame.homing ? kHoming : 0u) | (frame.green ? kGreen : 0u) | (frame.red ? kRed : 0u));
+  return bytes;
 }
 
 void FrameReader::take(std::uint8_t byte) noexcept {

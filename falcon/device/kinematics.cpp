@@ -1,4 +1,4 @@
-#include "claystack/falcon/falcon_device.hpp"
+#include "falcon/device/kinematics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -166,13 +166,12 @@ Solved<LegCounts> Kinematics::counts_of(const glm::dvec3& angles_rad) const noex
   return to_counts(counts);
 }
 
-MotorCounts motor_counts(const glm::dvec3& torques_nmm, double counts_per_nmm) noexcept {
+LegCounts motor_counts(const glm::dvec3& torques_nmm, double counts_per_nmm) noexcept {
   const glm::dvec3 asked = -counts_per_nmm * torques_nmm, size = glm::abs(asked);
   if (!glm::all(glm::lessThan(size, glm::dvec3(std::numeric_limits<double>::infinity()))))
-    return {{}, 0.0};
+    return {};
   const double peak = std::max({size.x, size.y, size.z});
-  const double rendered = peak > kMotorLimit ? kMotorLimit / peak : 1.0;
-  return {to_counts(glm::round(rendered * asked)), rendered};
+  return to_counts(glm::round((peak > kMotorLimit ? kMotorLimit / peak : 1.0) * asked));
 }
 
 }  // namespace clay::falcon::inline device

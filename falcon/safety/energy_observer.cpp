@@ -1,4 +1,4 @@
-#include "claystack/falcon/passivity.hpp"
+#include "falcon/safety/energy_observer.hpp"
 
 #include <algorithm>
 #include <cmath>

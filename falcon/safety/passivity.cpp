@@ -1,168 +1,34 @@
 #include "claystack/falcon/passivity.hpp"
 
-#include "core/limit_norm.hpp"
-#include "falcon/device/setting_ranges.hpp"
+#include "falcon/safety/passivity_law.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <utility>
 
 namespace clay::falcon::inline safety {
-namespace {
-
-// A single debt may be accidental; several without a quiet interval between them are an
-// oscillation.
-constexpr int kMostDebts = 3;
-constexpr double kGoodWhileS = 2.0;
-constexpr double kYield = 0.5;
-constexpr double kPayWithinS = 0.5;  // or it counts again
-
-double most_damping(const PassivitySpec& spec, double stiffness) noexcept {
-  const double borne = 0.5 * stable_damping(spec.loop, stiffness);
-  if (!(spec.step_mm > 0.0)) return borne;
-  return std::min(borne, 0.25 * spec.reversal_force_n / (spec.step_mm * spec.loop.rate_hz));
-}
-
-}  // namespace
-
-SwingCounter::SwingCounter(int limit, double window_s, double least_n) noexcept
-    : limit_(static_cast<std::size_t>(limit)), window_s_(window_s), least_n_(least_n) {}
-
-bool SwingCounter::swings_too_often(double time_s, const glm::dvec3& force_n) noexcept {
-  const glm::dvec3 since = force_n - extreme_;
-  const double along = glm::dot(since, direction_);
-  if (along > 0.0) {
-    extreme_ = force_n;
-    return false;
-  }
-  const double size = glm::length(since);
-  if (!(size > least_n_) || (direction_ != glm::dvec3(0.0) && !(-along > least_n_))) return false;
-  extreme_ = force_n;
-  direction_ = since / size;
-  times_s_[count_ % limit_] = time_s;
-  ++count_;
-  const double first = times_s_[count_ % limit_];  // of the last `limit` swings
-  return count_ >= limit_ && time_s - first <= window_s_;
-}
 
 tl::expected<PassivityController, OutOfRange> PassivityController::build(
-    const PassivitySpec& spec) noexcept {
-  if (auto checked = check(spec.loop); !checked) return tl::make_unexpected(checked.error());
-  const OutOfRange settings[] = {
-      {"step_mm", 0.0, 10.0, spec.step_mm},
-      {"energy_limit_mj", 1e-6, 1e6, spec.energy_limit_mj},
-      {"energy_window_s", 1e-3, 10.0, spec.energy_window_s},
-      {"reversal_limit", 2.0, 16.0, static_cast<double>(spec.reversal_limit)},
-      {"reversal_window_s", 1e-3, 10.0, spec.reversal_window_s},
-      {"reversal_force_n", 1e-9, 1e3, spec.reversal_force_n},
-  };
-  return check_ranges(settings).map([&] { return PassivityController(spec); });
+    const PassivitySettings& settings) {
+  return check(settings).map(
+      [&] { return PassivityController(std::make_unique<PassivityLaw>(settings)); });
 }
 
-PassivityController::PassivityController(const PassivitySpec& spec) noexcept
-    : spec_(spec),
-      stiffness_(accepted_stiffness(spec.loop)),
-      most_damping_(most_damping(spec, stiffness_)),
-      observer_(spec.loop, spec.step_mm, spec.energy_window_s),
-      swings_(spec.reversal_limit, spec.reversal_window_s, spec.reversal_force_n) {}
+PassivityController::PassivityController(std::unique_ptr<PassivityLaw> law) noexcept
+    : law_(std::move(law)) {}
+PassivityController::PassivityController(PassivityController&&) noexcept = default;
+PassivityController& PassivityController::operator=(PassivityController&&) noexcept = default;
+PassivityController::~PassivityController() = default;
 
 PassiveForce PassivityController::tick(std::int64_t time_us, const glm::dvec3& reading_mm,
                                        const glm::dvec3& force_n) noexcept {
-  const bool advances = !last_ || time_us > last_->time_us;
-  if (!advances || !is_finite(reading_mm) || !is_finite(force_n)) {
-    send(glm::dvec3(0.0));
-    return {glm::dvec3(0.0), state_};
-  }
-  const Reading before = last_.value_or(Reading{time_us, reading_mm});
-  // Unsigned: the difference of two signed extremes must not overflow.
-  const double dt_s = 1e-6 * static_cast<double>(static_cast<std::uint64_t>(time_us) -
-                                                 static_cast<std::uint64_t>(before.time_us));
-  const glm::dvec3 way = reading_mm - before.at_mm;
-  last_ = Reading{time_us, reading_mm};
-  now_s_ += dt_s;
-
-  judge(observer_.observe(dt_s, sent_[oldest_], way, force_n), force_n);
-  const glm::dvec3 force = answer(dt_s, way, force_n);
-  send(force);
-  return {force, state_};
+  return law_->tick(time_us, reading_mm, force_n);
 }
 
 void PassivityController::displayed(const glm::dvec3& force_n) noexcept {
-  if (is_finite(force_n)) sent_[newest_] = force_n;
+  law_->displayed(force_n);
 }
 
-void PassivityController::judge(bool contact_ended, const glm::dvec3& asked_n) noexcept {
-  if (state_ == PassivityState::safe) return;
-  const bool yields = state_ == PassivityState::yielding;
-  const glm::dvec3& swinging = yields ? last_sent_ : asked_n;
-  const bool rattles = swings_.swings_too_often(now_s_, swinging);
-  if (rattles || observer_.recent_mj() > spec_.energy_limit_mj) return escalate();
-  if (yields) return;
+void PassivityController::reset() noexcept { law_->reset(); }
 
-  const bool owes = observer_.debt_mj() > observer_.tolerance_mj();
-  const bool again = state_ == PassivityState::watching || now_s_ - last_debt_s_ > kPayWithinS ||
-                     (contact_ended && observer_.last_contact_mj() > 0.0);
-  if (owes && again) count_debt();
-  if (debts_ >= kMostDebts) return escalate();
-  state_ = owes ? PassivityState::damping : PassivityState::watching;
-}
-
-void PassivityController::count_debt() noexcept {
-  if (now_s_ - last_debt_s_ > kGoodWhileS) debts_ = 0;
-  last_debt_s_ = now_s_;
-  ++debts_;
-}
-
-void PassivityController::escalate() noexcept {
-  state_ = state_ == PassivityState::yielding ? PassivityState::safe : PassivityState::yielding;
-  observer_.forgive();
-  earned_n_ *= kYield;
-  swings_ = SwingCounter(spec_.reversal_limit, spec_.reversal_window_s, spec_.reversal_force_n);
-}
-
-glm::dvec3 PassivityController::answer(double dt_s, const glm::dvec3& way_mm,
-                                       const glm::dvec3& asked_n) noexcept {
-  if (state_ == PassivityState::safe) return glm::dvec3(0.0);
-  const glm::dvec3 force = earned(way_mm, asked_n);
-  return state_ == PassivityState::damping ? force + damping(dt_s, way_mm) : force;
-}
-
-/// Equation (10) of the paper: the damping that removes the debt within a period.
-glm::dvec3 PassivityController::damping(double dt_s, const glm::dvec3& way_mm) const noexcept {
-  const double square = glm::dot(way_mm, way_mm);
-  if (!(square > 0.0)) return glm::dvec3(0.0);
-  const double debt = observer_.debt_mj() - observer_.tolerance_mj();
-  const double amount = std::min(debt * dt_s / square, most_damping_);
-  return -amount / dt_s * way_mm;
-}
-
-/// The smaller of two forces: the requested one, and that of a spring of the accepted stiffness
-/// from the start of the contact. A softer contact passes unchanged. Force that a yielding contact
-/// has lost must be built up again by moving inward.
-glm::dvec3 PassivityController::earned(const glm::dvec3& way_mm,
-                                       const glm::dvec3& asked_n) noexcept {
-  const double asked = glm::length(asked_n);
-  const double before = std::exchange(last_requested_n_, asked);
-  if (!(asked > 0.0)) {
-    earned_n_ = 0.0;
-    return glm::dvec3(0.0);
-  }
-  const double stiffness = (state_ == PassivityState::yielding ? kYield : 1.0) * stiffness_;
-  const glm::dvec3 direction = asked_n / asked;
-  const double out_mm = glm::dot(way_mm, direction);
-  // The force of a spring does not fall while it is pressed, so this part of it has yielded.
-  const double yielded = out_mm <= 0.0 ? std::max(0.0, before - asked) : 0.0;
-  earned_n_ = std::max(0.0, earned_n_ - stiffness * out_mm - yielded);
-  return earned_n_ < asked ? earned_n_ * direction : asked_n;
-}
-
-void PassivityController::send(const glm::dvec3& force_n) noexcept {
-  const auto length = static_cast<std::size_t>(spec_.loop.delay_ticks) + 1;
-  last_sent_ = force_n;
-  sent_[oldest_] = force_n;
-  newest_ = oldest_;
-  oldest_ = (oldest_ + 1) % length;
-}
+PassivityState PassivityController::state() const noexcept { return law_->state(); }
 
 }  // namespace clay::falcon::inline safety

@@ -12,12 +12,11 @@
 namespace clay::falcon::inline safety {
 namespace {
 
-constexpr int kMostDelay = 8;
 constexpr int kBisections = 60;
 
 /// Coefficients from the constant term up.
 struct Polynomial {
-  std::array<double, kMostDelay + 4> a{};
+  std::array<double, kMostDelayTicks + 4> a{};
   std::size_t degree = 0;
 };
 
@@ -90,7 +89,7 @@ tl::expected<void, OutOfRange> check(const SampledLoop& loop) noexcept {
       {"rate_hz", 10.0, 1e5, loop.rate_hz},
       {"mass_kg", 1e-3, 100.0, loop.mass_kg},
       {"damping_ns_per_mm", 0.0, 1.0, loop.damping_ns_per_mm},
-      {"delay_ticks", 0.0, kMostDelay, static_cast<double>(loop.delay_ticks)},
+      {"delay_ticks", 0.0, kMostDelayTicks, static_cast<double>(loop.delay_ticks)},
   };
   return check_ranges(settings);
 }

@@ -1,4 +1,4 @@
-#include "claystack/falcon/sim.hpp"
+#include "falcon/sim/loopback_transport.hpp"
 
 #include <time.h>
 
@@ -14,16 +14,16 @@ constexpr int kPatience = 1'000'000;  // polls: about ten milliseconds
 
 }  // namespace
 
-LoopbackTransport::LoopbackTransport(std::shared_ptr<FalconModel> model, Pace pace)
-    : model_(std::move(model)), pace_(pace) {}
+LoopbackTransport::LoopbackTransport(std::shared_ptr<FalconModel> model, SimClock clock)
+    : model_(std::move(model)), clock_(clock) {}
 
 std::int64_t LoopbackTransport::now_us() const noexcept {
-  return pace_ == Pace::real ? monotonic_us() : virtual_us_;
+  return clock_ == SimClock::real ? monotonic_us() : stepped_us_;
 }
 
 void LoopbackTransport::wait_until(std::int64_t time_us) noexcept {
-  if (pace_ == Pace::virtual_) {
-    virtual_us_ = std::max(virtual_us_, time_us);
+  if (clock_ == SimClock::stepped) {
+    stepped_us_ = std::max(stepped_us_, time_us);
     return;
   }
   const timespec until{time_us / 1'000'000, static_cast<long>(time_us % 1'000'000 * 1'000)};

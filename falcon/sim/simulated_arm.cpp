@@ -32,7 +32,8 @@ std::optional<OutOfRange> outside(const char* setting, double low, double high,
 
 }  // namespace
 
-tl::expected<SimulatedArm, OutOfRange> SimulatedArm::build(const ArmSpec& arm, const HandSpec& hand,
+tl::expected<SimulatedArm, OutOfRange> SimulatedArm::build(const ArmSettings& arm,
+                                                           const HandSettings& hand,
                                                            const glm::dvec3& start_mm) noexcept {
   if (auto checked = check(arm.loop); !checked) return tl::make_unexpected(checked.error());
   const std::optional<OutOfRange> faults[] = {
@@ -48,9 +49,9 @@ tl::expected<SimulatedArm, OutOfRange> SimulatedArm::build(const ArmSpec& arm, c
   return SimulatedArm(arm, hand, start_mm);
 }
 
-SimulatedArm::SimulatedArm(const ArmSpec& arm, const HandSpec& hand,
+SimulatedArm::SimulatedArm(const ArmSettings& arm, const HandSettings& hand,
                            const glm::dvec3& start_mm) noexcept
-    : spec_(arm), hand_(hand), position_(start_mm), intended_(start_mm) {
+    : settings_(arm), hand_(hand), position_(start_mm), intended_(start_mm) {
   Coefficients tick;
   for (int axis = 0; axis < 3; ++axis) {
     ArmAxis& a = tick.axes[static_cast<std::size_t>(axis)];
@@ -66,20 +67,21 @@ SimulatedArm::SimulatedArm(const ArmSpec& arm, const HandSpec& hand,
 }
 
 glm::dvec3 SimulatedArm::reading_mm() const noexcept {
-  return spec_.step_mm > 0.0 ? glm::round(position_ / spec_.step_mm) * spec_.step_mm : position_;
+  return settings_.step_mm > 0.0 ? glm::round(position_ / settings_.step_mm) * settings_.step_mm
+                                 : position_;
 }
 
 glm::dvec3 SimulatedArm::late(const glm::dvec3& force_n) noexcept {
   const glm::dvec3 sent = is_finite(force_n) ? force_n : glm::dvec3(0.0);
-  if (spec_.loop.delay_ticks == 0) return sent;
+  if (settings_.loop.delay_ticks == 0) return sent;
   const glm::dvec3 held = std::exchange(on_the_way_[next_], sent);
-  next_ = (next_ + 1) % spec_.loop.delay_ticks;
+  next_ = (next_ + 1) % settings_.loop.delay_ticks;
   return held;
 }
 
 void SimulatedArm::advance(const glm::dvec3& force_n, const glm::dvec3& intended_mm) noexcept {
   const glm::dvec3 held = late(force_n), from = position_;
-  const glm::dvec3 speed = (intended_mm - intended_) * spec_.loop.rate_hz;
+  const glm::dvec3 speed = (intended_mm - intended_) * settings_.loop.rate_hz;
   const double kinetic = kinetic_energy_mj();
   double damped = 0.0, rubbed = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -102,11 +104,12 @@ void SimulatedArm::advance(const glm::dvec3& force_n, const glm::dvec3& intended
 void SimulatedArm::carry(const glm::dvec3& force_n, const glm::dvec3& position_mm) noexcept {
   const glm::dvec3 held = late(force_n), way = position_mm - position_;
   const double kinetic = kinetic_energy_mj();
-  velocity_ = way * spec_.loop.rate_hz;
+  velocity_ = way * settings_.loop.rate_hz;
   position_ = intended_ = position_mm;
   const double displayed = glm::dot(held, way);
-  const double damped = spec_.loop.damping_ns_per_mm * glm::dot(velocity_, way);
-  const double rubbed = spec_.friction_n * (std::abs(way.x) + std::abs(way.y) + std::abs(way.z));
+  const double damped = settings_.loop.damping_ns_per_mm * glm::dot(velocity_, way);
+  const double rubbed =
+      settings_.friction_n * (std::abs(way.x) + std::abs(way.y) + std::abs(way.z));
   energy_.displayed += displayed;
   energy_.damped += damped;
   energy_.rubbed += rubbed;
@@ -114,7 +117,7 @@ void SimulatedArm::carry(const glm::dvec3& force_n, const glm::dvec3& position_m
 }
 
 double SimulatedArm::kinetic_energy_mj() const noexcept {
-  return 0.5 * spec_.loop.inertia_ns2_per_mm() * glm::dot(velocity_, velocity_);
+  return 0.5 * settings_.loop.inertia_ns2_per_mm() * glm::dot(velocity_, velocity_);
 }
 
 }  // namespace clay::falcon::inline sim

@@ -1,5 +1,8 @@
 #include "claystack/falcon/sim.hpp"
+#include "falcon/device/falcon_device.hpp"
 #include "falcon/device/setting_ranges.hpp"
+#include "falcon/sim/falcon_model.hpp"
+#include "falcon/sim/loopback_transport.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +24,7 @@ class HeldArm {
         centre_mm_(settings.falcon.centre_mm) {}
 
   glm::dvec3 move(const glm::dvec3& force_n, double dt_s) {
-    const double period_s = arm_.spec().loop.period_s();
+    const double period_s = arm_.settings().loop.period_s();
     due_s_ += std::min(dt_s, kMostPauseS);
     // Half a tick of tolerance, so that periodic frames do not beat against the ticks.
     for (; due_s_ > 0.5 * period_s; due_s_ -= period_s) {
@@ -90,13 +93,12 @@ DeviceResult<SimulatedFalcon> make_simulated_falcon(const SimulatedSettings& set
   auto arm = SimulatedArm::build(settings.arm, settings.hand, centre + settings.path(0.0));
   if (!arm) return bad_setting("simulated", arm.error());
   const auto held = std::make_shared<HeldArm>(std::move(*arm), settings);
-  SimulatedFalcon simulated;
-  simulated.model = std::make_shared<FalconModel>(
+  const auto model = std::make_shared<FalconModel>(
       settings.model,
       [held](const glm::dvec3& force_n, double dt_s) { return held->move(force_n, dt_s); });
-  if (settings.fingers)
-    simulated.model->hold([held]() noexcept { return held->fingers().buttons; });
-  auto line = std::make_unique<LoopbackTransport>(simulated.model, settings.pace);
+  if (settings.fingers) model->hold([held]() noexcept { return held->fingers().buttons; });
+  auto line = std::make_unique<LoopbackTransport>(model, settings.clock);
+  SimulatedFalcon simulated;
   simulated.line = line.get();
   simulated.device = std::make_unique<GrippedFalcon>(std::move(line), settings.falcon, held);
   return simulated;

@@ -21,7 +21,7 @@ namespace {
 using namespace clay::falcon;
 using test::claystack;
 
-glm::dvec3 at_centre(std::uint64_t) { return Kinematics::kCentreMm; }
+glm::dvec3 at_centre(std::uint64_t) { return kFalconCentreMm; }
 
 class DevicesRig : public testing::Test {
  protected:
@@ -97,7 +97,7 @@ TEST_F(DevicesRig, UsesTheGivenGeometryAndMapping) {
   model.loaded = model.homed = true;
   model.geometry = kMartinHillierGeometry;
   falcon_ = std::make_unique<FalconGadget>(
-      model, [](std::uint64_t) { return Kinematics::kCentreMm + glm::dvec3(10.0, -20.0, 0.0); });
+      model, [](std::uint64_t) { return kFalconCentreMm + glm::dvec3(10.0, -20.0, 0.0); });
   plug_ = std::make_unique<UsbPlug>(testbed_.get(), *falcon_);
   const auto last = [](const std::string& more) {
     const auto complete = [](const std::string& lines) { return lines.ends_with("}\n"); };

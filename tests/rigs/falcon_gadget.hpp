@@ -1,7 +1,7 @@
 #pragma once
 // A USB Falcon: an FTDI chip in front of a FalconModel.
 
-#include "claystack/falcon/falcon_device.hpp"
+#include "falcon/sim/falcon_model.hpp"
 #include "tests/rigs/usb_gadget.hpp"
 
 #include <deque>

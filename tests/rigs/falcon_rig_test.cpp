@@ -24,7 +24,7 @@ constexpr std::int64_t kPatienceUs = 20'000'000;  // for a loaded machine
 
 glm::dvec3 on_circle(std::uint64_t frame) {
   const double turn = 2e-3 * 3.14159265358979 * static_cast<double>(frame);
-  return Kinematics::kCentreMm + 20.0 * glm::dvec3(std::cos(turn), std::sin(turn), 0.0);
+  return kFalconCentreMm + 20.0 * glm::dvec3(std::cos(turn), std::sin(turn), 0.0);
 }
 
 glm::dvec3 force_at(std::uint64_t frame) {
@@ -32,7 +32,7 @@ glm::dvec3 force_at(std::uint64_t frame) {
   return 3.0 * glm::dvec3(std::cos(turn), std::sin(turn), std::cos(2 * turn));
 }
 
-glm::dvec3 mm_of(const glm::dvec3& position_mm) { return position_mm - Kinematics::kCentreMm; }
+glm::dvec3 mm_of(const glm::dvec3& position_mm) { return position_mm - kFalconCentreMm; }
 
 class FalconRig : public testing::Test {
  protected:

@@ -35,7 +35,7 @@ constexpr std::int64_t kPatienceUs = 20'000'000;
 
 glm::dvec3 on_circle(std::uint64_t frame) {
   const double turn = 2e-3 * 3.14159265358979 * static_cast<double>(frame);
-  return Kinematics::kCentreMm + 20.0 * glm::dvec3(std::cos(turn), std::sin(turn), 0.0);
+  return kFalconCentreMm + 20.0 * glm::dvec3(std::cos(turn), std::sin(turn), 0.0);
 }
 
 /// hidapi keeps its state until hid_exit(), but each test has another /dev.
@@ -91,7 +91,7 @@ TEST_F(BridgeRig, HomesAndRuns5000GoodFrames) {
   for (std::uint64_t frame = first; frame < first + 5000; ++frame) {
     const DeviceSample sample = tick(device, force);
     ASSERT_TRUE(sample.fresh) << frame;
-    const glm::dvec3 true_mm = on_circle(frame) - Kinematics::kCentreMm;
+    const glm::dvec3 true_mm = on_circle(frame) - kFalconCentreMm;
     ASSERT_LT(glm::distance(sample.position_mm, true_mm), kEncoderMm) << frame;
     ASSERT_LT(glm::distance(locked([](auto& d) { return d.log.back().force_n; }), force), 0.05);
   }
@@ -119,7 +119,7 @@ TEST_F(BridgeRig, LosesAtMostTwoFramesPerWireFault) {
       ASSERT_EQ(sample.state, DeviceState::ready);
       if (!sample.fresh) continue;
       const glm::dvec3 newest =
-          locked([](auto& d) { return d.log.back().position_mm; }) - Kinematics::kCentreMm;
+          locked([](auto& d) { return d.log.back().position_mm; }) - kFalconCentreMm;
       ASSERT_LT(glm::distance(sample.position_mm, newest), 0.126 + kEncoderMm);
     }
     EXPECT_GE(device.counters().frames - before, 8u - 2u) << static_cast<int>(fault);

@@ -41,7 +41,7 @@ class Hand {
   [[nodiscard]] bool at_goal() const { return x_mm_ == goal_mm_; }
   glm::dvec3 next() {
     x_mm_ += std::clamp(goal_mm_ - x_mm_, -step_mm_, step_mm_);
-    return Kinematics::kCentreMm + mapping_.to_device({x_mm_, kHeightMm, 0.0});
+    return kFalconCentreMm + mapping_.to_device({x_mm_, kHeightMm, 0.0});
   }
 
  private:
@@ -58,7 +58,7 @@ FalconModelSettings ready() {
 /// A frame with zero motor commands and any lights: '<' and four letters for each motor.
 bool is_no_force(const Bytes& frame) {
   constexpr std::size_t kMotorBytes = 13;
-  const auto zero = encode({}).bytes;
+  const auto zero = encode({});
   return frame.size() == kFrameBytes &&
          std::equal(zero.begin(), zero.begin() + kMotorBytes, frame.begin());
 }

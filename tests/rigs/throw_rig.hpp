@@ -41,7 +41,7 @@ inline Trajectory bowl_stroke() {
   const auto mapping = servo::Mapping::build({}).value();
   std::vector<glm::dvec3> positions;
   for (const Pose& pose : session.poses)
-    positions.push_back(Kinematics::kCentreMm + mapping.to_device(pose.position_mm));
+    positions.push_back(kFalconCentreMm + mapping.to_device(pose.position_mm));
   return [positions](std::uint64_t frame) {
     const std::uint64_t at = frame > kLeadFrames ? 2 * (frame - kLeadFrames) : 0;
     return positions[std::min<std::uint64_t>(at, positions.size() - 1)];
@@ -156,7 +156,7 @@ class ThrowRig : public testing::Test {
     ASSERT_GT(session.poses.size(), 100u);
     const auto mapping = servo::Mapping::build({}).value();
     for (const Pose& pose : session.poses) {
-      const glm::dvec3 position_mm = Kinematics::kCentreMm + mapping.to_device(pose.position_mm);
+      const glm::dvec3 position_mm = kFalconCentreMm + mapping.to_device(pose.position_mm);
       const auto at = std::ranges::min_element(log, {}, [&](const FrameLog& frame) {
         return glm::distance(frame.position_mm, position_mm);
       });
@@ -177,7 +177,7 @@ class ThrowRig : public testing::Test {
     const auto mapping = servo::Mapping::build({}).value();
     double farthest_mm = 0.0, along = 0.0, lengths = 0.0, displayed_ns = 0.0, clay_ns = 0.0;
     for (const Pose& pose : session.poses) {
-      const glm::dvec3 position_mm = Kinematics::kCentreMm + mapping.to_device(pose.position_mm);
+      const glm::dvec3 position_mm = kFalconCentreMm + mapping.to_device(pose.position_mm);
       const auto at = std::ranges::min_element(log, {}, [&](const FrameLog& frame) {
         return glm::distance(frame.position_mm, position_mm);
       });

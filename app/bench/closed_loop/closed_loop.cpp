@@ -28,7 +28,7 @@ class EnergyBalance {
         surface_(surface),
         initial_mj_(total_mj()),
         // A reading is off by up to half a step, the force by K times that.
-        force_error_n_(0.5 * surface.stiffness_n_per_mm() * arm.spec().step_mm),
+        force_error_n_(0.5 * surface.stiffness_n_per_mm() * arm.settings().step_mm),
         last_mm_(arm.position_mm()) {}
 
   void update() {
@@ -106,10 +106,10 @@ double swing_about_trend(const std::vector<double>& x) {
 
 std::optional<PassivityController> controller_of(const Experiment& e) {
   if (!e.controlled) return std::nullopt;
-  falcon::PassivitySpec spec;
-  spec.loop = e.arm.loop;
-  spec.step_mm = e.arm.step_mm;
-  return PassivityController::build(spec).value();
+  falcon::PassivitySettings settings;
+  settings.loop = e.arm.loop;
+  settings.step_mm = e.arm.step_mm;
+  return PassivityController::build(settings).value();
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace clay::closed_loop {
 
 struct Experiment {
-  falcon::ArmSpec arm;
-  falcon::HandSpec hand;
+  falcon::ArmSettings arm;
+  falcon::HandSettings hand;
   glm::dvec3 start_mm{0.0};
   double seconds = 2.0;
   double settled_s = 0.5;   ///< length of the last part of the run, which is searched for a cycle

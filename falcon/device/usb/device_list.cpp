@@ -99,9 +99,9 @@ std::unique_ptr<HapticDevice> make_device(const ListedDevice& listed,
                                           const DeviceSettings& settings) {
   switch (listed.kind) {
     case DeviceKind::falcon:
-      return std::make_unique<FalconDevice>(make_ftdi_transport(listed.place), settings.falcon);
+      return make_falcon(make_ftdi_transport(listed.place), settings.falcon);
     case DeviceKind::bridge:
-      return std::make_unique<FalconDevice>(make_bridge_transport(listed.place), settings.falcon);
+      return make_falcon(make_bridge_transport(listed.place), settings.falcon);
     case DeviceKind::space_mouse:
       return make_space_mouse(listed.name, listed.place, settings.space_mouse);
   }

@@ -101,19 +101,20 @@ TEST(LiveThrow, TicksOnAGivenClockAndRecordsContactFlags) {
   auto model = std::make_shared<falcon::FalconModel>(
       VirtualThrow::homed(), [&](const glm::dvec3&, double dt_s) {
         time_s += dt_s;
-        return falcon::Kinematics::kCentreMm + press_to(2.0)(time_s);
+        return falcon::kFalconCentreMm + press_to(2.0)(time_s);
       });
-  auto line = std::make_unique<falcon::LoopbackTransport>(model, falcon::Pace::virtual_);
+  auto line = std::make_unique<falcon::LoopbackTransport>(model, falcon::SimClock::stepped);
   LineClock clock(*line);
-  falcon::FalconDevice arm(std::move(line), {});
-  ASSERT_TRUE(arm.open());
+  const auto arm = falcon::make_falcon(std::move(line), {});
+  ASSERT_TRUE(arm->open());
   StoredPoses stored;
   const SceneSpec scene = rib_scene();
   Wheel wheel = Wheel::build(scene).value();
-  auto live = LiveThrow::build(
-                  {.wheel = wheel, .device = arm, .scene = scene, .sink = &stored, .clock = &clock},
-                  one_to_one())
-                  .value();
+  auto live =
+      LiveThrow::build(
+          {.wheel = wheel, .device = *arm, .scene = scene, .sink = &stored, .clock = &clock},
+          one_to_one())
+          .value();
   live.start(Pace::stepped);
   live.advance(clock.now_ns() + 4'000'000'000);
   EXPECT_TRUE(live.running());

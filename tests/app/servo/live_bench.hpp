@@ -6,7 +6,8 @@
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/falcon/falcon_device.hpp"
-#include "claystack/falcon/sim.hpp"
+#include "falcon/sim/falcon_model.hpp"
+#include "falcon/sim/loopback_transport.hpp"
 
 #include <gtest/gtest.h>
 
@@ -65,10 +66,10 @@ struct VirtualThrow {
         model(std::make_shared<falcon::FalconModel>(model_settings,
                                                     [this](const glm::dvec3&, double dt_s) {
                                                       time_s += dt_s;
-                                                      return falcon::Kinematics::kCentreMm +
-                                                             hand(time_s);
+                                                      return falcon::kFalconCentreMm + hand(time_s);
                                                     })),
-        device(make_line(), falcon::FalconSettings{}),
+        falcon_device(falcon::make_falcon(make_line(), {})),
+        device(*falcon_device),
         clock(*line) {
     EXPECT_TRUE(device.open());
     auto built = ServoLoop::build({wheel, device, clock, recorder, &trace}, settings);
@@ -96,7 +97,8 @@ struct VirtualThrow {
   Wheel wheel;
   std::shared_ptr<falcon::FalconModel> model;
   falcon::LoopbackTransport* line = nullptr;
-  falcon::FalconDevice device;
+  std::unique_ptr<falcon::HapticDevice> falcon_device;
+  falcon::HapticDevice& device;
   LineClock clock;
   std::unique_ptr<ServoLoop> loop;
   falcon::ForceGate gate;
@@ -107,7 +109,7 @@ struct VirtualThrow {
 
  private:
   std::unique_ptr<falcon::Transport> make_line() {
-    auto made = std::make_unique<falcon::LoopbackTransport>(model, falcon::Pace::virtual_);
+    auto made = std::make_unique<falcon::LoopbackTransport>(model, falcon::SimClock::stepped);
     line = made.get();
     return made;
   }

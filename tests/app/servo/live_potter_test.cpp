@@ -33,7 +33,7 @@ Wheel thrown(const std::string& name) {
   settings.mapping = fitted({}, stroke, kReachMm);
   settings.seconds = seconds_of(stroke);
   auto potter = simulated_potter(stroke, Mapping::build(settings.mapping).value());
-  potter.pace = falcon::Pace::virtual_;
+  potter.clock = falcon::SimClock::stepped;
   auto simulated = make_simulated_falcon(potter).value();
   EXPECT_TRUE(simulated.device->open());
   Wheel wheel = Wheel::build(scene).value();
@@ -111,7 +111,7 @@ TEST(SimulatedPotter, KeepsTheWholeStrokeWithinReach) {
     for (const Pose& pose : stroke) {
       const glm::dvec3 at_mm = mapping.to_device(pose.position_mm);
       ASSERT_LE(glm::length(at_mm), kReachMm + 1e-9) << name;
-      ASSERT_TRUE(arm.inverse(falcon::Kinematics::kCentreMm + at_mm)) << name;
+      ASSERT_TRUE(arm.inverse(falcon::kFalconCentreMm + at_mm)) << name;
     }
   }
   EXPECT_EQ(fitted({}, {}, kReachMm), MappingSettings{});

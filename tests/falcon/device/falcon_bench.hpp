@@ -1,8 +1,9 @@
 #pragma once
 // A FalconDevice connected to a model whose grip moves as the test requires.
 
-#include "claystack/falcon/falcon_device.hpp"
-#include "claystack/falcon/sim.hpp"
+#include "falcon/device/falcon_device.hpp"
+#include "falcon/sim/falcon_model.hpp"
+#include "falcon/sim/loopback_transport.hpp"
 #include "tests/falcon/device/dummy_firmware.hpp"
 
 #include <unistd.h>
@@ -26,7 +27,7 @@ inline constexpr double kEncoderMm = 0.07;
 /// The grip of the model at each frame [mm]: a circle of radius 20 mm about the centre, 1 turn/s.
 inline glm::dvec3 on_circle(std::uint64_t frame) {
   const double turn = 2e-3 * 3.14159265358979 * static_cast<double>(frame);
-  return Kinematics::kCentreMm + 20.0 * glm::dvec3(std::cos(turn), std::sin(turn), 0.0);
+  return kFalconCentreMm + 20.0 * glm::dvec3(std::cos(turn), std::sin(turn), 0.0);
 }
 
 /// A device with its model, on a simulated clock.
@@ -35,7 +36,7 @@ struct FalconBench {
       : model(std::make_shared<FalconModel>(
             std::move(model_settings),
             [this](const glm::dvec3&, double) { return grip(frame++); })) {
-    auto transport = std::make_unique<LoopbackTransport>(model, Pace::virtual_);
+    auto transport = std::make_unique<LoopbackTransport>(model, SimClock::stepped);
     line = transport.get();
     device = std::make_unique<FalconDevice>(std::move(transport), settings);
   }

@@ -24,7 +24,7 @@ TEST(FalconDevice, ReportsTheGripPosition) {
   for (int i = 0; i < 1000; ++i) {
     const DeviceSample sample = bench.tick();
     ASSERT_TRUE(sample.fresh);
-    const glm::dvec3 true_mm = on_circle(bench.frame - 1) - Kinematics::kCentreMm;
+    const glm::dvec3 true_mm = on_circle(bench.frame - 1) - kFalconCentreMm;
     ASSERT_LT(glm::distance(sample.position_mm, true_mm), kEncoderMm) << i;
     EXPECT_EQ(sample.buttons, unsigned{kButtonForward | kButtonMinus});
     EXPECT_GT(sample.time_us, last_us);
@@ -39,7 +39,7 @@ TEST(FalconDevice, RendersTheRequestedForce) {
   ASSERT_TRUE(bench.device->open());
   for (const glm::dvec3& force :
        {glm::dvec3(1, 0, 0), glm::dvec3(0, -2, 0), glm::dvec3(0, 0, 5), glm::dvec3(3, 3, -4)}) {
-    bench.grip = [](std::uint64_t) { return Kinematics::kCentreMm; };
+    bench.grip = [](std::uint64_t) { return kFalconCentreMm; };
     bench.tick();
     bench.tick(force);
     // One motor count is 1.5e-4 N m, or 2.5 mN at the shortest lever, 60 mm; three motors are each
@@ -50,7 +50,7 @@ TEST(FalconDevice, RendersTheRequestedForce) {
 
 TEST(FalconDevice, LimitsForcesAndSendsZeroForNan) {
   FalconBench bench(ready_model());
-  bench.grip = [](std::uint64_t) { return Kinematics::kCentreMm; };
+  bench.grip = [](std::uint64_t) { return kFalconCentreMm; };
   ASSERT_TRUE(bench.device->open());
   bench.tick();
   for (const double huge : {10.0, 1e6, 1e150, 1e200}) {
@@ -104,7 +104,7 @@ TEST(FalconDevice, ReadsTheNewestOfManyFrames) {
   bench.tick();
   for (int i = 0; i < 60; ++i) bench.device->write({});  // 960 bytes arrive at once
   const DeviceSample sample = bench.device->read(kTickUs);
-  const glm::dvec3 newest = on_circle(bench.frame - 1) - Kinematics::kCentreMm;
+  const glm::dvec3 newest = on_circle(bench.frame - 1) - kFalconCentreMm;
   EXPECT_LT(glm::distance(sample.position_mm, newest), kEncoderMm);
   EXPECT_FALSE(bench.device->read(0).fresh);
 }

@@ -31,8 +31,8 @@ TEST_P(FaultyWire, LosesAtMostTwoFramesAndAcceptsNoWrongFrame) {
       const DeviceSample sample = bench.tick({1, 0, 0});
       ASSERT_EQ(sample.state, DeviceState::ready);
       // The current frame, or after a fault the previous one: 1/8 mm apart.
-      const glm::dvec3 now = (on_circle(bench.frame - 1) - Kinematics::kCentreMm);
-      const glm::dvec3 before = (on_circle(bench.frame - 2) - Kinematics::kCentreMm);
+      const glm::dvec3 now = (on_circle(bench.frame - 1) - kFalconCentreMm);
+      const glm::dvec3 before = (on_circle(bench.frame - 2) - kFalconCentreMm);
       if (!sample.fresh) ++missing;
       ASSERT_LT(glm::distance(sample.position_mm,
                               sample.fresh && fault != WireFault::stale_frame ? now : before),

@@ -1,7 +1,7 @@
 #pragma once
 // Devices, positions and vectors for properties of the kinematics.
 
-#include "claystack/falcon/falcon_device.hpp"
+#include "falcon/device/kinematics.hpp"
 #include "tests/falcon/random_values.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ inline glm::dvec3 any_vector(double size) {
 
 inline glm::dvec3 anywhere_within(double radius) {
   const glm::dvec3 v = any_vector(radius);
-  return Kinematics::kCentreMm + v * std::min(1.0, radius / (glm::length(v) + 1e-9));
+  return kFalconCentreMm + v * std::min(1.0, radius / (glm::length(v) + 1e-9));
 }
 
 inline glm::dvec3 anywhere() { return anywhere_within(kWorkspaceRadiusMm); }

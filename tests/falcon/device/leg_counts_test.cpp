@@ -52,44 +52,39 @@ RC_GTEST_PROP(Encoder, CoversTheWorkspaceWithin1600Counts, ()) {
 }
 
 TEST(MotorCounts, AreTheNegatedTorques) {
-  const MotorCounts motors = motor_counts({100.0, -200.0, 0.26}, 10.0);
-  EXPECT_EQ(motors.counts, (LegCounts{-1000, 2000, -3}));
-  EXPECT_EQ(motors.rendered, 1.0);
-  EXPECT_EQ(motor_counts({0.019835 * 7.62 * 100, 0, 0}).counts, (LegCounts{-100, 0, 0}));
+  EXPECT_EQ(motor_counts({100.0, -200.0, 0.26}, 10.0), (LegCounts{-1000, 2000, -3}));
+  EXPECT_EQ(motor_counts({0.019835 * 7.62 * 100, 0, 0}), (LegCounts{-100, 0, 0}));
 }
 
 RC_GTEST_PROP(MotorCounts, KeepTheDirectionWhenAMotorSaturates, ()) {
   const glm::dvec3 torques = any_vector(5000.0);
   const double scale = 10.0;
-  const MotorCounts motors = motor_counts(torques, scale);
+  const LegCounts motors = motor_counts(torques, scale);
   const double peak = std::max({std::abs(torques.x), std::abs(torques.y), std::abs(torques.z)});
-  RC_ASSERT(std::abs(motors.rendered * std::max(1.0, peak * scale / 4095) - 1.0) < 1e-12);
+  const double rendered = 1.0 / std::max(1.0, peak * scale / 4095);
   for (int leg = 0; leg < 3; ++leg) {
-    const int count = motors.counts[static_cast<std::size_t>(leg)];
+    const int count = motors[static_cast<std::size_t>(leg)];
     RC_ASSERT(std::abs(count) <= kMotorLimit);
-    RC_ASSERT(std::abs(count + motors.rendered * scale * torques[leg]) <= 0.5 + 1e-9);
+    RC_ASSERT(std::abs(count + rendered * scale * torques[leg]) <= 0.5 + 1e-9);
   }
 }
 
 TEST(MotorCounts, AreZeroForTorquesThatAreNotFinite) {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e308}) {
     for (const glm::dvec3& axis : kAxes) {
-      const MotorCounts motors = motor_counts(glm::mix(glm::dvec3(0.1), glm::dvec3(bad), axis));
-      EXPECT_EQ(motors.counts, LegCounts{});
-      EXPECT_EQ(motors.rendered, 0.0);
+      EXPECT_EQ(motor_counts(glm::mix(glm::dvec3(0.1), glm::dvec3(bad), axis)), LegCounts{});
     }
   }
-  EXPECT_EQ(motor_counts({0, 0, 0}).counts, LegCounts{});
-  EXPECT_EQ(motor_counts({0, 0, 0}).rendered, 1.0);
+  EXPECT_EQ(motor_counts({0, 0, 0}), LegCounts{});
 }
 
 // The motor scale was chosen to agree with Novint's figure, more than 2 lbf.
 TEST(MotorCounts, GiveTheStatedForceInEveryDirection) {
   const Kinematics device(kLibnifalconGeometry);
   const auto max_newtons = [&](const glm::dvec3& direction) {
-    const double probe_n = 1000.0;
-    return probe_n *
-           motor_counts(device.torques({0, 0, 125.0}, probe_n * direction).value()).rendered;
+    const glm::dvec3 torques = device.torques({0, 0, 125.0}, direction).value();
+    const double peak = std::max({std::abs(torques.x), std::abs(torques.y), std::abs(torques.z)});
+    return kMotorLimit / (kMotorCountsPerNmm * peak);
   };
   double weakest = std::numeric_limits<double>::infinity();
   for (double polar = 0.0; polar <= kPi; polar += 0.05)

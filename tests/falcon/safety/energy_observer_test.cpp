@@ -1,3 +1,6 @@
+#include "falcon/safety/energy_observer.hpp"
+
+#include "falcon/safety/swing_counter.hpp"
 #include "tests/falcon/safety/passivity_samples.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "claystack/falcon/guard.hpp"
 
-#include "falcon/safety/force_guard.hpp"
+#include "falcon/safety/basic_guard.hpp"
 #include "tests/falcon/safety/guard_faults.hpp"
 #include "tests/falcon/safety/guard_trial.hpp"
 
@@ -20,7 +20,8 @@
 namespace clay::falcon {
 namespace {
 
-static_assert(std::is_trivially_copyable_v<ForceGuard>, "it owns no memory");
+static_assert(std::is_trivially_copyable_v<BasicForceGuard<kAllGuardRules>>,
+              "a tick allocates nothing");
 static_assert(noexcept(std::declval<ForceGuard&>().admit(0, std::declval<const GuardSample&>())));
 static_assert(noexcept(std::declval<ForceGuard&>().force(0, std::declval<const WantedForce&>())));
 
@@ -247,7 +248,7 @@ TEST(ForceGuard, MinorCauseDoesNotUnlatchAMajorOne) {
 
 /// Without admit() the hand position is unknown, so an engaged force fades.
 TEST(ForceGuard, FadesWithoutAdmittedSamples) {
-  ForceGuard guard = ForceGuard::make({}).value();
+  ForceGuard guard = ForceGuard::build({}).value();
   auto tick = [&guard, now = std::int64_t{0}](bool admits, double wanted_n) mutable {
     now += 1000;
     if (admits) (void)guard.admit(now, {now, glm::dvec3(0.0), true, true});
@@ -261,7 +262,7 @@ TEST(ForceGuard, FadesWithoutAdmittedSamples) {
 }
 
 TEST(ForceGuard, RisesFromZeroAfterTheWatchdog) {
-  ForceGuard guard = ForceGuard::make({}).value();
+  ForceGuard guard = ForceGuard::build({}).value();
   std::int64_t now = 0;
   const auto tick = [&guard, &now](double wanted_n) {
     now += 1000;

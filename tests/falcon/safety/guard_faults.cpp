@@ -1,6 +1,6 @@
 #include "tests/falcon/safety/guard_faults.hpp"
 
-#include "claystack/falcon/falcon_device.hpp"
+#include "falcon/device/frame.hpp"
 
 #include <cmath>
 #include <limits>
@@ -164,10 +164,10 @@ void position_jumps(Trial& trial) {
 void bytes_lost(Trial& trial) {
   trial.engage(kPush);
   FrameReader reader;
-  const EncodedFrame sent = encode({.motors = {100, 200, 300}});
+  const FrameBytes sent = encode({.motors = {100, 200, 300}});
   int missed = 0;
   for (int i = 0; i < 1000; ++i) {
-    std::vector<std::uint8_t> bytes(sent.bytes.begin(), sent.bytes.end());
+    std::vector<std::uint8_t> bytes(sent.begin(), sent.end());
     if (i % 100 == 25) bytes.erase(bytes.begin() + i % 16);
     if (i % 100 == 75) bytes.insert(bytes.begin() + i % 16, 'A');
     std::span<const std::uint8_t> rest(bytes);

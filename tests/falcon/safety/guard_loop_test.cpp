@@ -59,7 +59,7 @@ class Loop {
   static constexpr SampledLoop kLoop{1000.0, 0.1, 0.002, 1};
   bool with_controller_;
   std::int64_t now_us_ = 0;
-  ForceGuard guard_ = ForceGuard::make({}).value();
+  ForceGuard guard_ = ForceGuard::build({}).value();
   SimulatedArm arm_ =
       SimulatedArm::build({kLoop, 0.0, kStepMm}, {{}, glm::dvec3(0.1), glm::dvec3(0.0005)},
                           {0.0, 0.0, 10.0})

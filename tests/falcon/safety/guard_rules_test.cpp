@@ -1,4 +1,4 @@
-#include "claystack/falcon/guard.hpp"
+#include "falcon/safety/guard_rules.hpp"
 #include "core/limit_norm.hpp"
 
 #include <gtest/gtest.h>

@@ -40,7 +40,7 @@ TEST(GuardSettings, ErrorsNameTheInvalidSetting) {
          {invalid.low, invalid.high, std::nan(""), std::numeric_limits<double>::infinity()}) {
       GuardSettings settings;
       settings.*invalid.number = value;
-      const auto guard = ForceGuard::make(settings);
+      const auto guard = ForceGuard::build(settings);
       ASSERT_FALSE(guard) << invalid.setting << " = " << value;
       // A NaN limit also bounds other settings; the error must name the NaN.
       EXPECT_STREQ(guard.error().setting, invalid.setting) << value;

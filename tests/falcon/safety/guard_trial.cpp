@@ -57,7 +57,7 @@ class GuardOf final : public TriedGuard {
   }
 
  private:
-  BasicForceGuard<rules> guard_ = BasicForceGuard<rules>::make({}).value();
+  BasicForceGuard<rules> guard_{GuardSettings{}};
 };
 
 template <std::uint32_t rules>

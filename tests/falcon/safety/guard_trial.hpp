@@ -4,7 +4,7 @@
 // computed from the faults alone, independently of the guard.
 
 #include "claystack/falcon/guard.hpp"
-#include "falcon/safety/force_guard.hpp"
+#include "falcon/safety/basic_guard.hpp"
 
 #include <cstdint>
 #include <glm/vec3.hpp>

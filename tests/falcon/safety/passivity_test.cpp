@@ -1,4 +1,4 @@
-#include "claystack/falcon/passivity.hpp"
+#include "falcon/safety/passivity_law.hpp"
 
 #include "tests/falcon/random_values.hpp"
 #include "tests/falcon/safety/passivity_samples.hpp"
@@ -17,17 +17,17 @@
 namespace clay::falcon {
 namespace {
 
-PassivityController controller_of(const SampledLoop& loop, double step_mm = 0.0) {
-  PassivitySpec spec;
-  spec.loop = loop;
-  spec.step_mm = step_mm;
-  return PassivityController::build(spec).value();
+PassivityLaw controller_of(const SampledLoop& loop, double step_mm = 0.0) {
+  PassivitySettings settings;
+  settings.loop = loop;
+  settings.step_mm = step_mm;
+  return PassivityLaw(settings);
 }
 
 /// Moves a hand along a path against a spring at x < 0; `each` gets the answer and the requested
 /// force.
 template <class Each>
-void play(PassivityController& controller, double stiffness, int ticks,
+void play(PassivityLaw& controller, double stiffness, int ticks,
           const std::function<double(double)>& path, Each each) {
   for (int k = 0; k < ticks; ++k) {
     const glm::dvec3 at = along(path(k * kTickS));
@@ -44,7 +44,7 @@ struct PressAndLeave {
 };
 PressAndLeave press_and_leave(double fraction_in, double fraction_out, bool reports_displayed) {
   constexpr double kStiffness = 0.4, kDepthMm = 5.0;
-  PassivityController controller = controller_of({1000, 0.1, 0.0005, 0});
+  PassivityLaw controller = controller_of({1000, 0.1, 0.0005, 0});
   PressAndLeave run;
   double before_mm = 0.0, held_n = 0.0;
   for (int k = 0; k <= 1000; ++k) {
@@ -86,7 +86,7 @@ TEST(Passivity, CountsTheDisplayedForce) {
 }
 
 TEST(Passivity, IgnoresANonFiniteDisplayedForce) {
-  PassivityController reported = controller_of(kLoop), unreported = controller_of(kLoop);
+  PassivityLaw reported = controller_of(kLoop), unreported = controller_of(kLoop);
   for (int k = 0; k < 100; ++k) {
     const glm::dvec3 at = along(-1e-2 * k), requested = along(4e-3 * k);
     EXPECT_EQ(reported.tick(1000 * k, at, requested).force_n,
@@ -100,7 +100,7 @@ RC_GTEST_PROP(Passivity, PassesAnAcceptedSpringUnchanged, ()) {
   SampledLoop loop = kLoop;
   loop.delay_ticks = *rc::gen::inRange(0, 4);
   loop.damping_ns_per_mm = within(0.0005, 0.01);
-  PassivityController controller = controller_of(loop);
+  PassivityLaw controller = controller_of(loop);
   // Any passive hand: swings of any frequency up to 30 Hz, in and out of the contact.
   std::vector<glm::dvec3> waves;
   for (int n = 0; n < 4; ++n) waves.push_back({within(0, 0.4), within(1, 30), within(0, 6)});
@@ -124,7 +124,7 @@ RC_GTEST_PROP(Passivity, PassesAnAcceptedSpringUnchanged, ()) {
 }
 
 TEST(Passivity, DisplaysAStiffContactAtTheAcceptedStiffness) {
-  PassivityController controller = controller_of(kLoop);  // accepted: b / T = 2 N/mm
+  PassivityLaw controller = controller_of(kLoop);  // accepted: b / T = 2 N/mm
   const auto path = [](double t) { return 0.1 - 10.0 * t; };
   double at = 0.0;
   play(controller, 1e3, 200, path, [&](const PassiveForce& sent, const glm::dvec3& requested) {
@@ -137,7 +137,7 @@ TEST(Passivity, DisplaysAStiffContactAtTheAcceptedStiffness) {
 }
 
 TEST(Passivity, InwardMotionBuildsUpTheForce) {
-  PassivityController controller = controller_of(kLoop);
+  PassivityLaw controller = controller_of(kLoop);
   std::int64_t time_us = 0;
   const auto sent = [&](double x, double requested) {
     return controller.tick(time_us += 1000, along(x), along(requested)).force_n.x;
@@ -151,7 +151,7 @@ TEST(Passivity, InwardMotionBuildsUpTheForce) {
 }
 
 /// A contact that takes almost no energy on 20 mm in, and gives `gain_mj` on 1 mm out.
-void inject(PassivityController& controller, std::int64_t& time_us, double gain_mj) {
+void inject(PassivityLaw& controller, std::int64_t& time_us, double gain_mj) {
   const auto tick = [&](double x, double force) {
     (void)controller.tick(time_us += 1000, along(x), along(force));
   };
@@ -162,7 +162,7 @@ void inject(PassivityController& controller, std::int64_t& time_us, double gain_
 }
 
 TEST(Passivity, DampingRemovesTheInjectedEnergyExactly) {
-  PassivityController controller = controller_of(kLoop);
+  PassivityLaw controller = controller_of(kLoop);
   std::int64_t time_us = 0;
   inject(controller, time_us, 2.0);
   const double injected = controller.observer().injected_mj();
@@ -194,7 +194,7 @@ TEST(Passivity, BoundOfTheDampingFollowsFromTheSampleTime) {
 }
 
 TEST(Passivity, TooMuchEnergyReducesThenEndsTheForce) {
-  PassivityController controller = controller_of(kLoop);
+  PassivityLaw controller = controller_of(kLoop);
   std::int64_t time_us = 0;
   inject(controller, time_us, 11.0);
   EXPECT_EQ(controller.state(), PassivityState::yielding);
@@ -212,7 +212,7 @@ TEST(Passivity, TooMuchEnergyReducesThenEndsTheForce) {
 }
 
 TEST(Passivity, LittleEnergyIsOnlyDamped) {
-  PassivityController controller = controller_of(kLoop);
+  PassivityLaw controller = controller_of(kLoop);
   std::int64_t time_us = 0;
   inject(controller, time_us, 2.0);
   EXPECT_EQ(controller.state(), PassivityState::damping);
@@ -221,7 +221,7 @@ TEST(Passivity, LittleEnergyIsOnlyDamped) {
 // A debt counts when it arises, and again when its contact ends with a gain. The third reduces the
 // force: here during the second contact, although each gives less than 0.1 mJ.
 TEST(Passivity, TheThirdSmallDebtReducesTheForce) {
-  PassivityController controller = controller_of(kLoop);
+  PassivityLaw controller = controller_of(kLoop);
   std::int64_t time_us = 0;
   const auto tick = [&](double x, double force) {
     (void)controller.tick(time_us += 1000, along(x), along(force));
@@ -250,7 +250,7 @@ TEST(Passivity, TheThirdSmallDebtReducesTheForce) {
 TEST(Passivity, OscillationReducesTheForce) {
   for (const double swing : {0.9, 1.1}) {
     for (const int half_period_ticks : {6, 8}) {  // 8 swings in 42 and in 56 ms
-      PassivityController controller = controller_of(kLoop);
+      PassivityLaw controller = controller_of(kLoop);
       for (int k = 0; k < 200; ++k) {
         const double force = 2.0 + (k / half_period_ticks % 2) * swing;
         (void)controller.tick(k * 1000, along(-10.0), along(k < 20 ? 2.0 : force));
@@ -263,7 +263,7 @@ TEST(Passivity, OscillationReducesTheForce) {
 }
 
 TEST(Passivity, InvalidTickGivesNoForceAndChangesNothing) {
-  PassivityController controller = controller_of(kLoop);
+  PassivityLaw controller = controller_of(kLoop);
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   (void)controller.tick(0, along(0), along(0));
   (void)controller.tick(1000, along(-1.0), along(1));
@@ -278,39 +278,39 @@ TEST(Passivity, InvalidTickGivesNoForceAndChangesNothing) {
 
 TEST(Passivity, ErrorsNameTheSetting) {
   const auto refused = [](auto change) {
-    PassivitySpec spec;
-    change(spec);
-    const auto built = PassivityController::build(spec);
+    PassivitySettings settings;
+    change(settings);
+    const auto built = PassivityController::build(settings);
     return built ? std::string() : std::string(built.error().setting);
   };
-  EXPECT_EQ(refused([](PassivitySpec&) {}), "");
-  EXPECT_EQ(refused([](PassivitySpec& s) { s.loop.rate_hz = 0; }), "rate_hz");
-  EXPECT_EQ(refused([](PassivitySpec& s) { s.step_mm = -1; }), "step_mm");
-  EXPECT_EQ(refused([](PassivitySpec& s) { s.energy_limit_mj = 0; }), "energy_limit_mj");
-  EXPECT_EQ(refused([](PassivitySpec& s) { s.energy_window_s = 11; }), "energy_window_s");
-  EXPECT_EQ(refused([](PassivitySpec& s) { s.reversal_limit = 17; }), "reversal_limit");
-  EXPECT_EQ(refused([](PassivitySpec& s) { s.reversal_window_s = std::nan(""); }),
+  EXPECT_EQ(refused([](PassivitySettings&) {}), "");
+  EXPECT_EQ(refused([](PassivitySettings& s) { s.loop.rate_hz = 0; }), "rate_hz");
+  EXPECT_EQ(refused([](PassivitySettings& s) { s.step_mm = -1; }), "step_mm");
+  EXPECT_EQ(refused([](PassivitySettings& s) { s.energy_limit_mj = 0; }), "energy_limit_mj");
+  EXPECT_EQ(refused([](PassivitySettings& s) { s.energy_window_s = 11; }), "energy_window_s");
+  EXPECT_EQ(refused([](PassivitySettings& s) { s.reversal_limit = 17; }), "reversal_limit");
+  EXPECT_EQ(refused([](PassivitySettings& s) { s.reversal_window_s = std::nan(""); }),
             "reversal_window_s");
-  EXPECT_EQ(refused([](PassivitySpec& s) { s.reversal_force_n = 0; }), "reversal_force_n");
+  EXPECT_EQ(refused([](PassivitySettings& s) { s.reversal_force_n = 0; }), "reversal_force_n");
 }
 
 TEST(Passivity, AcceptsSettingsUpToTheirLimitsAndNoOthers) {
   struct Range {
-    double PassivitySpec::*setting;
+    double PassivitySettings::*setting;
     double low, high;
   };
   const Range ranges[] = {
-      {&PassivitySpec::step_mm, 0.0, 10.0},
-      {&PassivitySpec::energy_limit_mj, 1e-6, 1e6},
-      {&PassivitySpec::energy_window_s, 1e-3, 10.0},
-      {&PassivitySpec::reversal_window_s, 1e-3, 10.0},
-      {&PassivitySpec::reversal_force_n, 1e-9, 1e3},
+      {&PassivitySettings::step_mm, 0.0, 10.0},
+      {&PassivitySettings::energy_limit_mj, 1e-6, 1e6},
+      {&PassivitySettings::energy_window_s, 1e-3, 10.0},
+      {&PassivitySettings::reversal_window_s, 1e-3, 10.0},
+      {&PassivitySettings::reversal_force_n, 1e-9, 1e3},
   };
   for (const Range& range : ranges) {
     const auto accepts = [&](double value) {
-      PassivitySpec spec;
-      spec.*range.setting = value;
-      return PassivityController::build(spec).has_value();
+      PassivitySettings settings;
+      settings.*range.setting = value;
+      return PassivityController::build(settings).has_value();
     };
     EXPECT_TRUE(accepts(range.low)) << range.low;
     EXPECT_TRUE(accepts(range.high)) << range.high;
@@ -318,9 +318,9 @@ TEST(Passivity, AcceptsSettingsUpToTheirLimitsAndNoOthers) {
     EXPECT_FALSE(accepts(range.high * 1.001)) << range.high;
   }
   const auto accepts_reversals = [](int limit) {
-    PassivitySpec spec;
-    spec.reversal_limit = limit;
-    return PassivityController::build(spec).has_value();
+    PassivitySettings settings;
+    settings.reversal_limit = limit;
+    return PassivityController::build(settings).has_value();
   };
   EXPECT_TRUE(accepts_reversals(2) && accepts_reversals(16));
   EXPECT_FALSE(accepts_reversals(1) || accepts_reversals(17));

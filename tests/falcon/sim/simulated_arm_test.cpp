@@ -13,18 +13,19 @@
 namespace clay::falcon {
 namespace {
 
-ArmSpec undelayed(double rate_hz, double mass_kg, double damping) {
-  ArmSpec arm;
+ArmSettings undelayed(double rate_hz, double mass_kg, double damping) {
+  ArmSettings arm;
   arm.loop = {rate_hz, mass_kg, damping, 0};
   return arm;
 }
 
-SimulatedArm built(const ArmSpec& arm, const HandSpec& hand = {}, const glm::dvec3& start = {}) {
+SimulatedArm built(const ArmSettings& arm, const HandSettings& hand = {},
+                   const glm::dvec3& start = {}) {
   return SimulatedArm::build(arm, hand, start).value();
 }
 
-HandSpec guiding(double stiffness, double damping, double push = 0.0) {
-  HandSpec hand;
+HandSettings guiding(double stiffness, double damping, double push = 0.0) {
+  HandSettings hand;
   hand.stiffness_n_per_mm.x = stiffness;
   hand.damping_ns_per_mm.x = damping;
   hand.push_n.x = push;
@@ -59,7 +60,7 @@ struct Reference {
 };
 
 /// The same equation by the fourth-order Runge-Kutta method with many small steps.
-Reference stepped(Reference r, const ArmSpec& arm, const HandSpec& hand, double force,
+Reference stepped(Reference r, const ArmSettings& arm, const HandSettings& hand, double force,
                   double speed) {
   constexpr int kSteps = 400;
   const double dt = arm.loop.period_s() / kSteps, m = 1e-3 * arm.loop.mass_kg,
@@ -91,8 +92,8 @@ Reference stepped(Reference r, const ArmSpec& arm, const HandSpec& hand, double 
 
 RC_GTEST_PROP(SimulatedArm, AgreesWithSmallStepsWhenAHandGuidesIt, ()) {
   const double rate = within(100, 8000);
-  const ArmSpec arm = undelayed(rate, within(0.1, 0.5), within(0.0, 0.01));
-  const HandSpec hand = guiding(within(0.0, 2.0), within(0.0, 0.02), within(-2.0, 2.0));
+  const ArmSettings arm = undelayed(rate, within(0.1, 0.5), within(0.0, 0.01));
+  const HandSettings hand = guiding(within(0.0, 2.0), within(0.0, 0.02), within(-2.0, 2.0));
   SimulatedArm exact = built(arm, hand);
   Reference reference;
   for (int k = 0; k < 5; ++k) {
@@ -108,7 +109,7 @@ RC_GTEST_PROP(SimulatedArm, AgreesWithSmallStepsWhenAHandGuidesIt, ()) {
 
 RC_GTEST_PROP(SimulatedArm, OnePeriodEqualsManyShorterOnes, ()) {
   const double m = within(0.1, 0.5), b = within(0.0, 0.02), force = within(-5.0, 5.0);
-  const HandSpec hand = guiding(within(0.0, 2.0), within(0.0, 0.02));
+  const HandSettings hand = guiding(within(0.0, 2.0), within(0.0, 0.02));
   SimulatedArm slow = built(undelayed(100, m, b), hand), fast = built(undelayed(8000, m, b), hand);
   for (int k = 1; k <= 10; ++k) {
     slow.advance({force, 0, 0}, {1.0 * k, 0, 0});
@@ -119,20 +120,20 @@ RC_GTEST_PROP(SimulatedArm, OnePeriodEqualsManyShorterOnes, ()) {
 }
 
 RC_GTEST_PROP(SimulatedArm, WorkOfAPushEqualsForceTimesDistance, ()) {
-  HandSpec hand;
+  HandSettings hand;
   hand.push_n = {within(-2, 2), within(-2, 2), within(-2, 2)};
-  ArmSpec spec = undelayed(1000, within(0.1, 0.5), within(0.0, 0.01));
-  spec.friction_n = within(0.0, 0.3);
-  SimulatedArm arm = built(spec, hand);
+  ArmSettings settings = undelayed(1000, within(0.1, 0.5), within(0.0, 0.01));
+  settings.friction_n = within(0.0, 0.3);
+  SimulatedArm arm = built(settings, hand);
   for (int k = 0; k < 100; ++k) arm.advance({within(-5, 5), within(-5, 5), within(-5, 5)});
   RC_ASSERT(std::abs(arm.energy().hand - glm::dot(hand.push_n, arm.position_mm())) <= 1e-9);
 }
 
 TEST(SimulatedArm, ForceArrivesAfterItsDelayForOnePeriod) {
   for (int delay = 0; delay <= 8; ++delay) {
-    ArmSpec spec = undelayed(1000, 0.5, 0.0);
-    spec.loop.delay_ticks = delay;
-    SimulatedArm arm = built(spec);
+    ArmSettings settings = undelayed(1000, 0.5, 0.0);
+    settings.loop.delay_ticks = delay;
+    SimulatedArm arm = built(settings);
     for (int k = 0; k <= 10; ++k) {
       arm.advance({k == 0 ? 1.0 : 0.0, 0, 0});
       EXPECT_NEAR(arm.velocity_mm_s().x, k >= delay ? 2.0 : 0.0, 1e-13) << delay << " " << k;
@@ -141,20 +142,20 @@ TEST(SimulatedArm, ForceArrivesAfterItsDelayForOnePeriod) {
 }
 
 TEST(SimulatedArm, EncodersReadTheNearestStep) {
-  ArmSpec spec = undelayed(1000, 0.1, 0.001);
-  spec.step_mm = 0.05;
-  SimulatedArm arm = built(spec, {}, {0.124, -0.126, 0});
+  ArmSettings settings = undelayed(1000, 0.1, 0.001);
+  settings.step_mm = 0.05;
+  SimulatedArm arm = built(settings, {}, {0.124, -0.126, 0});
   EXPECT_NEAR(arm.reading_mm().x, 0.1, 1e-15);
   EXPECT_NEAR(arm.reading_mm().y, -0.15, 1e-15);
   EXPECT_EQ(arm.position_mm().x, 0.124);
-  spec.step_mm = 0.0;
-  EXPECT_EQ(built(spec, {}, {0.124, 0, 0}).reading_mm().x, 0.124);
+  settings.step_mm = 0.0;
+  EXPECT_EQ(built(settings, {}, {0.124, 0, 0}).reading_mm().x, 0.124);
 }
 
 TEST(Friction, HoldsAgainstASmallerPull) {
-  ArmSpec spec = undelayed(1000, 0.2, 0.0);
-  spec.friction_n = 0.5;
-  SimulatedArm arm = built(spec);
+  ArmSettings settings = undelayed(1000, 0.2, 0.0);
+  settings.friction_n = 0.5;
+  SimulatedArm arm = built(settings);
   for (int k = 0; k < 100; ++k) arm.advance({0.5, -0.49, 0.6});
   EXPECT_EQ(arm.position_mm().x, 0.0);
   EXPECT_EQ(arm.position_mm().y, 0.0);
@@ -164,9 +165,9 @@ TEST(Friction, HoldsAgainstASmallerPull) {
 
 TEST(Friction, StopsASlideWithinTheTickAndHoldsIt) {
   // A push of 1 N for 10 ms: 50 mm/s minus friction; it then slides m v^2 / 2f.
-  ArmSpec spec = undelayed(100, 0.2, 0.0);
-  spec.friction_n = 0.4;
-  SimulatedArm arm = built(spec);
+  ArmSettings settings = undelayed(100, 0.2, 0.0);
+  settings.friction_n = 0.4;
+  SimulatedArm arm = built(settings);
   arm.advance({1.0, 0, 0});
   const double v = 0.6 / 0.2e-3 * 0.01, x = 0.5 * v * 0.01;
   EXPECT_NEAR(arm.velocity_mm_s().x, v, 1e-13);
@@ -177,9 +178,9 @@ TEST(Friction, StopsASlideWithinTheTickAndHoldsIt) {
 }
 
 TEST(Friction, ReleasesWhenTheHandPullsHarder) {
-  ArmSpec spec = undelayed(1000, 0.2, 0.001);
-  spec.friction_n = 0.5;
-  SimulatedArm arm = built(spec, guiding(0.1, 0.0));  // releases at 5 mm
+  ArmSettings settings = undelayed(1000, 0.2, 0.001);
+  settings.friction_n = 0.5;
+  SimulatedArm arm = built(settings, guiding(0.1, 0.0));  // releases at 5 mm
   for (int k = 1; k <= 60; ++k) {
     arm.advance({0, 0, 0}, {0.1 * k, 0, 0});
     EXPECT_EQ(arm.position_mm().x > 0.0, k > 50) << k;
@@ -187,8 +188,8 @@ TEST(Friction, ReleasesWhenTheHandPullsHarder) {
 }
 
 TEST(SimulatedArm, CarryMovesTheArmAndCountsTheWork) {
-  ArmSpec spec = undelayed(1000, 0.2, 0.003);
-  SimulatedArm arm = built(spec);
+  ArmSettings settings = undelayed(1000, 0.2, 0.003);
+  SimulatedArm arm = built(settings);
   arm.carry({1.5, 0, 0}, {1.0, 0, 0});
   EXPECT_EQ(arm.position_mm().x, 1.0);
   EXPECT_NEAR(arm.energy().displayed, 1.5, 1e-15);
@@ -204,18 +205,19 @@ TEST(SimulatedArm, TreatsANonFiniteForceAsZero) {
 }
 
 TEST(SimulatedArm, ErrorsNameTheSetting) {
-  const auto refused = [](const ArmSpec& arm, const HandSpec& hand = {}, glm::dvec3 start = {}) {
+  const auto refused = [](const ArmSettings& arm, const HandSettings& hand = {},
+                          glm::dvec3 start = {}) {
     const auto built = SimulatedArm::build(arm, hand, start);
     return built ? std::string() : std::string(built.error().setting);
   };
   const double nan = std::nan("");
-  const ArmSpec good = undelayed(1000, 0.1, 0.001);
+  const ArmSettings good = undelayed(1000, 0.1, 0.001);
   EXPECT_EQ(refused(good), "");
   EXPECT_EQ(refused(undelayed(9, 0.1, 0.001)), "rate_hz");
   EXPECT_EQ(refused(undelayed(nan, 0.1, 0.001)), "rate_hz");
   EXPECT_EQ(refused(undelayed(1000, 0.0, 0.001)), "mass_kg");
   EXPECT_EQ(refused(undelayed(1000, 0.1, -1.0)), "damping_ns_per_mm");
-  ArmSpec arm = good;
+  ArmSettings arm = good;
   arm.loop.delay_ticks = 9;
   EXPECT_EQ(refused(arm), "delay_ticks");
   arm = good, arm.friction_n = -0.1;

@@ -12,7 +12,7 @@ constexpr std::int64_t kTickUs = 1'000;
 
 SimulatedSettings in_virtual_time() {
   SimulatedSettings settings = simulated_and_loaded();
-  settings.pace = Pace::virtual_;
+  settings.clock = SimClock::stepped;
   return settings;
 }
 

@@ -46,8 +46,8 @@ struct DeviceError : Error {
 
 /// The Result of core, which it converts to, with the fault kept: a program reacts to it, for
 /// example to no_firmware by loading it. Result itself cannot carry it, because core has no
-/// devices. Everything in falcon that a user can cause returns one of the two; only settings and
-/// kinematics, which must not allocate, return OutOfRange and KinematicsError instead.
+/// devices. Everything in falcon that a user can cause returns one of the two; only checks of
+/// settings, which do not allocate, return OutOfRange instead.
 template <class T>
 using DeviceResult = tl::expected<T, DeviceError>;
 static_assert(std::is_convertible_v<DeviceResult<int>, Result<int>>);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <tl/expected.hpp>
 
 namespace clay::falcon::inline safety {
@@ -56,111 +57,10 @@ struct GuardSettings {
 /// Returns the first setting that is NaN or out of range; some ranges depend on other settings.
 [[nodiscard]] tl::expected<void, OutOfRange> check(const GuardSettings& settings) noexcept;
 
-// ---- guard rules ---------------------------------------------------------------------
-// The rules of the guard, each a separate unit. Time that increases the force is rounded down, and
-// time that decreases it is rounded up, so that a clock that stops, jumps or runs backwards can
-// only reduce the force.
-
-/// Seconds from one reading of the clock to a later one; 0 if the clock went back. At most 1000.
-[[nodiscard]] double elapsed_s(std::int64_t from_us, std::int64_t to_us) noexcept;
-
-/// The force of this tick on the way from `before` to `wanted`. It may first shrink freely to any
-/// fraction of `before`; from there it changes by `rise` at most. A force that reverses its
-/// direction thus starts from 0.
-[[nodiscard]] glm::dvec3 limit_rise(const glm::dvec3& wanted, const glm::dvec3& before,
-                                    double rise) noexcept;
-
-/// 1 up to `from`, 0 from `zero` on, linear between.
-[[nodiscard]] double fade(double age, double from, double zero) noexcept;
-
-/// Duration of the last tick.
-struct TickTime {
-  double real_s = 0.0;     ///< by the clock
-  double growing_s = 0.0;  ///< rounded down: at most a period
-  double fading_s = 0.0;   ///< rounded up: at least kShortestStepS
-};
-
-class TickClock {
- public:
-  [[nodiscard]] TickTime advance(std::int64_t now_us, double period_s) noexcept;
-
- private:
-  std::int64_t last_us_ = 0;
-  bool started_ = false;
-};
-
-/// Age of the newest item of a time-stamped stream: by its stamp or by the ticks since then,
-/// whichever is larger.
-class Age {
- public:
-  /// Registers an item with this stamp, unless it repeats the last one.
-  void see(std::int64_t stamp_us, std::int64_t now_us) noexcept;
-  void pass(double fading_s) noexcept { passed_s_ += fading_s; }
-  [[nodiscard]] double at(std::int64_t now_us) const noexcept;
-  [[nodiscard]] bool is_last(std::int64_t stamp_us) const noexcept;
-  [[nodiscard]] std::int64_t stamp_us() const noexcept { return stamp_us_; }
-  [[nodiscard]] bool any() const noexcept { return any_; }
-  void forget() noexcept { *this = {}; }
-
- private:
-  std::int64_t stamp_us_ = 0;
-  double passed_s_ = 0.0;
-  bool any_ = false;
-};
-
-/// Detects positions that imply a motion faster than a hand. A single such frame is dropped. If the
-/// next frame is near it, or again out of reach, the jump is real.
-class JumpFilter {
- public:
-  enum class Verdict { plausible, dropped, stays };
-
-  /// `reach_mm`: the farthest a hand can move since the last plausible frame. The position after a
-  /// real jump is accepted from the next frame on.
-  [[nodiscard]] Verdict take(const glm::dvec3& position_mm, double reach_mm) noexcept;
-  void forget() noexcept { *this = {}; }
-
- private:
-  glm::dvec3 plausible_mm_{0.0}, suspect_mm_{0.0};
-  bool any_ = false, suspected_ = false;
-};
-
-/// Engages the force: after some ticks with a small requested force, it ramps up linearly.
-class Engagement {
- public:
-  enum class Phase { waiting, ramping, engaged };
-
-  void restart() noexcept { *this = {}; }
-  /// A tick of waiting with this requested force [N].
-  void want(double wanted_n, double small_n, int ticks) noexcept;
-  void grow(double growing_s, double ramp_s) noexcept;
-  [[nodiscard]] double gain() const noexcept { return gain_; }
-  [[nodiscard]] Phase phase() const noexcept { return phase_; }
-
- private:
-  Phase phase_ = Phase::waiting;
-  int small_ticks_ = 0;
-  double gain_ = 0.0;
-};
-
-/// Limits long, large forces. Cooling counts at the same rate as heating.
-class HeatLimit {
- public:
-  /// `force_n`: displayed in the last tick.
-  void hold(double force_n, double hot_n, const TickTime& time, double most_s) noexcept;
-  /// Once hot, fades within `fade_s`. Returns true once, when the force has reached 0: then it must
-  /// ramp up again.
-  [[nodiscard]] bool fade_out(double fading_s, double fade_s) noexcept;
-  [[nodiscard]] double gain() const noexcept { return gain_; }
-  [[nodiscard]] bool fading() const noexcept { return fading_; }
-
- private:
-  double hot_s_ = 0.0, gain_ = 1.0;
-  bool fading_ = false;
-};
-
 // ---- force guard ---------------------------------------------------------------------
 // Stands between every force and every device. A state machine whose caller supplies the time: no
-// thread, clock, allocation or exception, so that every fault can be tested. Each tick, in order:
+// thread, clock or exception, and no allocation after build(), so that every fault can be tested.
+// Each tick, in order:
 //
 //   const Admission admission = guard.admit(now_us, sample);  // accept the position or not
 //   ... if admission.may_deform, deform the clay; compute the requested force ...
@@ -237,13 +137,12 @@ struct GuardedForce {
   std::uint32_t flags = 0;  ///< of GuardFlag
 };
 
-/// `rules`: bits of falcon/safety/force_guard.hpp. Programs use ForceGuard, which has all rules;
-/// the tests compile guards without one of them, to show the effect of that rule.
-template <std::uint32_t rules>
-class BasicForceGuard {
+class ForceGuard {
  public:
-  [[nodiscard]] static tl::expected<BasicForceGuard, OutOfRange> make(
-      const GuardSettings& settings) noexcept;
+  [[nodiscard]] static tl::expected<ForceGuard, OutOfRange> build(const GuardSettings& settings);
+  ForceGuard(ForceGuard&&) noexcept;
+  ForceGuard& operator=(ForceGuard&&) noexcept;
+  ~ForceGuard();
 
   /// First half of a tick: decides whether the sample is accepted.
   [[nodiscard]] Admission admit(std::int64_t now_us, const GuardSample& sample) noexcept;
@@ -252,52 +151,19 @@ class BasicForceGuard {
   [[nodiscard]] GuardedForce force(std::int64_t now_us, const WantedForce& wanted) noexcept;
 
   /// Force zero until rearm().
-  void pause() noexcept { latch(SafeCause::paused); }
+  void pause() noexcept;
   /// Force zero permanently.
-  void stop() noexcept { latch(SafeCause::stopped); }
+  void stop() noexcept;
   /// Call if the last force was not sent, or was replaced by zero: the next one rises from 0.
-  void was_zeroed() noexcept { sent_n_ = glm::dvec3(0.0); }
+  void was_zeroed() noexcept;
   /// Leaves SAFE or a pause; the force then ramps up again. False after stop().
   bool rearm() noexcept;
 
  private:
-  explicit BasicForceGuard(const GuardSettings& settings) noexcept : settings_(settings) {}
-  [[nodiscard]] static constexpr bool on(std::uint32_t rule) noexcept {
-    return (rules & rule) != 0;
-  }
-  void latch(SafeCause cause) noexcept;
-  [[nodiscard]] bool is_new_frame(const GuardSample& sample) noexcept;
-  [[nodiscard]] bool take_frame(std::int64_t now_us, const GuardSample& sample,
-                                Admission& admission) noexcept;
-  void watch_force(const WantedForce& wanted) noexcept;
-  void watch_clock(const TickTime& time) noexcept;
-  void watch_ages(const TickTime& time, std::int64_t now_us, const WantedForce& wanted) noexcept;
-  void rest(double growing_s) noexcept;
-  [[nodiscard]] glm::dvec3 limit(const glm::dvec3& wanted_n) noexcept;
-  [[nodiscard]] double let_go(const TickTime& time, std::int64_t now_us) noexcept;
-  void earn(const glm::dvec3& limited_n, double growing_s) noexcept;
-  [[nodiscard]] glm::dvec3 rise(const glm::dvec3& force_n, double growing_s) noexcept;
-  [[nodiscard]] GuardState state(double held) const noexcept;
-
-  GuardSettings settings_;
-  SafeCause cause_ = SafeCause::none;
-  TickClock clock_;
-  Age frame_age_, clay_age_;
-  JumpFilter jumps_;
-  Engagement engagement_;
-  HeatLimit heat_;
-  double rested_s_ = 0.0;
-  std::int64_t seen_us_ = 0;  // stamp of the newest frame, plausible or not
-  bool seen_ = false;
-  int not_finite_ticks_ = 0;
-  std::uint32_t flags_ = 0;  // of the tick that runs
-  bool ready_ = false, admitted_ = false;
-  glm::dvec3 sent_n_{0.0};
+  struct State;
+  explicit ForceGuard(std::unique_ptr<State> state) noexcept;
+  std::unique_ptr<State> state_;
 };
-
-inline constexpr std::uint32_t kAllGuardRules = ~0u;
-extern template class BasicForceGuard<kAllGuardRules>;
-using ForceGuard = BasicForceGuard<kAllGuardRules>;
 
 // ---- force gate ----------------------------------------------------------------------
 // Ensures that one thread at a time commands a force, and that the last packet is zero. The servo

@@ -3,60 +3,15 @@
 #include "claystack/falcon/falcon_device.hpp"
 #include "claystack/falcon/passivity.hpp"
 
-#include <array>
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <tl/expected.hpp>
+#include <vector>
 
 namespace clay::falcon::inline sim {
-
-// ---- loopback transport --------------------------------------------------------------
-// Connects a FalconModel as a transport, within the process.
-
-enum class Pace {
-  real,     ///< answers come one millisecond after the question, by CLOCK_MONOTONIC
-  virtual_  ///< the same on a clock that only waiting advances: a second takes microseconds
-};
-
-class LoopbackTransport final : public Transport {
- public:
-  /// The model outlives this; its owner may inspect it and plan faults between calls.
-  LoopbackTransport(std::shared_ptr<FalconModel> model, Pace pace);
-
-  [[nodiscard]] std::string describe() const override { return "simulated"; }
-  [[nodiscard]] bool loads_firmware() const noexcept override { return true; }
-  DeviceResult<void> open() override;
-  void close() noexcept override;
-  DeviceResult<void> set_mode(LineMode mode) override;
-  WireStatus write(std::span<const std::uint8_t> bytes) noexcept override;
-  Received read(std::span<std::uint8_t> bytes, std::int64_t wait_us) noexcept override;
-  void write_last(std::span<const std::uint8_t> bytes) noexcept override;
-  [[nodiscard]] std::int64_t now_us() const noexcept override;
-
- private:
-  struct OnTheWay {
-    std::int64_t ready_us = 0;
-    Answer answer;
-    std::size_t taken = 0;
-  };
-  [[nodiscard]] OnTheWay& first() noexcept { return queue_[first_ % queue_.size()]; }
-  void wait_until(std::int64_t time_us) noexcept;
-  [[nodiscard]] bool hold_model() noexcept;
-  void let_go(bool held) noexcept;
-
-  std::shared_ptr<FalconModel> model_;
-  Pace pace_;
-  std::atomic<bool> model_held_{false};  // by `write` or `write_last`
-  std::atomic<bool> open_{false};
-  std::int64_t virtual_us_ = 3'600'000'000;  // an hour: clocks of computers are not near 0
-  std::int64_t asked_us_ = 0;
-  std::array<OnTheWay, 64> queue_{};  // a ring: from first_, size_ of them
-  std::size_t first_ = 0, size_ = 0;
-};
 
 // ---- simulated arm -------------------------------------------------------------------
 // A simulated arm: a mass on three independent axes with damping, friction, encoder steps, a force
@@ -67,14 +22,14 @@ class LoopbackTransport final : public Transport {
 //
 // Units: mm, s, N, mJ; the mass alone is in kg.
 
-struct ArmSpec {
+struct ArmSettings {
   SampledLoop loop;         ///< rate, m, b and delay
   double friction_n = 0.0;  ///< f, Coulomb: of each axis
   double step_mm = 0.0;     ///< encoder step: readings are whole multiples; 0: continuous
 };
 
 /// A hand pulls towards its intended point s, and pushes.
-struct HandSpec {
+struct HandSettings {
   glm::dvec3 push_n{0.0};
   glm::dvec3 stiffness_n_per_mm{0.0};  ///< k_h, of each axis
   glm::dvec3 damping_ns_per_mm{0.0};   ///< b_h
@@ -94,7 +49,8 @@ class SimulatedArm {
   /// Starts at rest at `start_mm`. Refuses what `check` of the loop refuses, friction outside 0 to
   /// 100 N, steps outside 0 to 10 mm, a hand stiffer than 1000 N/mm, damped more than 10 N s/mm or
   /// pushing more than 100 N, and a start beyond 10 m.
-  static tl::expected<SimulatedArm, OutOfRange> build(const ArmSpec& arm, const HandSpec& hand = {},
+  static tl::expected<SimulatedArm, OutOfRange> build(const ArmSettings& arm,
+                                                      const HandSettings& hand = {},
                                                       const glm::dvec3& start_mm = {}) noexcept;
 
   /// The current encoder readings [mm].
@@ -113,27 +69,27 @@ class SimulatedArm {
   [[nodiscard]] const glm::dvec3& velocity_mm_s() const noexcept { return velocity_; }
   [[nodiscard]] double kinetic_energy_mj() const noexcept;
   [[nodiscard]] const ArmEnergy& energy() const noexcept { return energy_; }
-  [[nodiscard]] const ArmSpec& spec() const noexcept { return spec_; }
+  [[nodiscard]] const ArmSettings& settings() const noexcept { return settings_; }
 
  private:
   struct Coefficients;
-  static constexpr int kMostDelay = 8;
 
-  SimulatedArm(const ArmSpec& arm, const HandSpec& hand, const glm::dvec3& start_mm) noexcept;
+  SimulatedArm(const ArmSettings& arm, const HandSettings& hand,
+               const glm::dvec3& start_mm) noexcept;
   [[nodiscard]] glm::dvec3 late(const glm::dvec3& force_n) noexcept;
 
-  ArmSpec spec_;
-  HandSpec hand_;
+  ArmSettings settings_;
+  HandSettings hand_;
   std::shared_ptr<const Coefficients> tick_;  // of a whole period, for each axis
   glm::dvec3 position_{0.0}, velocity_{0.0}, intended_{0.0};
-  glm::dvec3 on_the_way_[kMostDelay]{};  // forces sent and not yet held, a ring
+  glm::dvec3 on_the_way_[kMostDelayTicks]{};  // forces sent and not yet held, a ring
   int next_ = 0;
   ArmEnergy energy_;
 };
 
 // ---- simulated falcon ----------------------------------------------------------------
-// A whole Falcon without hardware: a SimulatedArm as the grip of a FalconModel, behind a
-// LoopbackTransport and the real driver. For demos and tests; `auto` never selects it.
+// A whole Falcon without hardware: a SimulatedArm as the grip of a model of its processor, behind
+// the real driver. For demos and tests; `auto` never selects it.
 
 /// The hand's intended point [mm], in the device frame, at a time [s] since the device was made.
 using HandPath = std::function<glm::dvec3(double time_s)>;
@@ -151,19 +107,58 @@ struct Fingers {
 /// At the time [s] of HandPath; without a function no button is pressed and nothing is held.
 using HandFingers = std::function<Fingers(double time_s)>;
 
+/// A fault of the model.
+enum class WireFault {
+  lost_byte,    ///< of the frame it sends
+  extra_byte,   ///< within the frame
+  half_frame,   ///< the second half is not sent
+  bad_nibble,   ///< a byte that is not a payload letter
+  no_frame,     ///< it does not answer
+  stale_frame,  ///< it repeats an earlier frame
+  homing_lost,  ///< from here on, until homed again
+  unplugged,
+  echo_error,  ///< one byte of the firmware echo is changed
+};
+
+/// Happens once, at the first opportunity from that frame on, counted from 0 since the first frame
+/// received; for echo_error at that byte of the firmware.
+struct PlannedFault {
+  WireFault fault = WireFault::lost_byte;
+  std::uint64_t at = 0;
+};
+
+/// The model of a Falcon: its state at the start, and its faults.
+struct FalconModelSettings {
+  Geometry geometry = kLibnifalconGeometry;
+  double motor_counts_per_nmm = kMotorCountsPerNmm;
+  bool power = true;    ///< false: USB enumerates, but the device does not answer
+  bool loaded = false;  ///< firmware is present from an earlier start
+  bool homed = false;
+  /// Frames with the homing bit per leg, one leg after the other; at least 1.
+  int homing_frames = 20;
+  std::int16_t unhomed_offset = -300;  ///< of the encoders until then
+  std::uint8_t buttons = 0;
+  std::vector<PlannedFault> faults;
+};
+
+/// The time in which a simulated Falcon answers, one millisecond after each question.
+enum class SimClock {
+  real,    ///< CLOCK_MONOTONIC
+  stepped  ///< advanced only by waiting for an answer: a second takes microseconds
+};
+
 struct SimulatedSettings {
-  ArmSpec arm;
-  HandSpec hand{glm::dvec3(0.0), glm::dvec3(0.3), glm::dvec3(0.003)};
+  ArmSettings arm;
+  HandSettings hand{glm::dvec3(0.0), glm::dvec3(0.3), glm::dvec3(0.003)};
   HandPath path = idle_circle_mm;
   HandFingers fingers;
   FalconModelSettings model;  ///< faults; `loaded`: its firmware is present
   FalconSettings falcon;
-  Pace pace = Pace::real;
+  SimClock clock = SimClock::real;
 };
 
 struct SimulatedFalcon {
   std::unique_ptr<HapticDevice> device;  ///< closed
-  std::shared_ptr<FalconModel> model;    ///< the other end of the wire, for faults on demand
   const Transport* line = nullptr;       ///< the device's transport, for its clock
 };
 

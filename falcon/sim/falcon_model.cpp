@@ -1,9 +1,9 @@
-#include "claystack/falcon/falcon_device.hpp"
+#include "falcon/sim/falcon_model.hpp"
 
 #include <algorithm>
 #include <string_view>
 
-namespace clay::falcon::inline device {
+namespace clay::falcon::inline sim {
 namespace {
 
 constexpr std::string_view kGreeting = "\x0A\x43\x0D";
@@ -159,8 +159,8 @@ glm::dvec3 FalconModel::force_of(const LegCounts& motors) const noexcept {
   return jacobian ? torques * *jacobian : glm::dvec3(0.0);
 }
 
-std::array<std::uint8_t, kFrameBytes> FalconModel::state_frame() const {
-  std::array<std::uint8_t, kFrameBytes> frame{};
+FrameBytes FalconModel::state_frame() const {
+  FrameBytes frame{};
   frame.fill('A');
   frame.front() = '<';
   frame.back() = '>';
@@ -205,4 +205,4 @@ void FalconModel::answer_frame(double dt_s, Answer& answer) {
   answer.add(bytes.subspan(kMiddle + (lost ? 1 : 0)));
 }
 
-}  // namespace clay::falcon::inline device
+}  // namespace clay::falcon::inline sim

@@ -1,9 +1,10 @@
 #pragma once
-// The guard as a template over its rules: force_guard.cpp compiles the one with all rules; tests
-// compile guards that lack one, to show its effect.
+// The guard as a template over its rules: ForceGuard has all of them; tests compile guards that
+// lack one, to show its effect.
 
 #include "claystack/falcon/guard.hpp"
 #include "core/limit_norm.hpp"
+#include "falcon/safety/guard_rules.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -35,11 +36,56 @@ enum GuardRule : std::uint32_t {
   return cause == SafeCause::jumped || cause == SafeCause::overrun;
 }
 
+/// `rules`: bits of GuardRule.
 template <std::uint32_t rules>
-tl::expected<BasicForceGuard<rules>, OutOfRange> BasicForceGuard<rules>::make(
-    const GuardSettings& settings) noexcept {
-  return check(settings).map([&] { return BasicForceGuard(settings); });
-}
+class BasicForceGuard {
+ public:
+  /// `settings` must pass `check`.
+  explicit BasicForceGuard(const GuardSettings& settings) noexcept : settings_(settings) {}
+
+  // As ForceGuard.
+  [[nodiscard]] Admission admit(std::int64_t now_us, const GuardSample& sample) noexcept;
+  [[nodiscard]] GuardedForce force(std::int64_t now_us, const WantedForce& wanted) noexcept;
+  void pause() noexcept { latch(SafeCause::paused); }
+  void stop() noexcept { latch(SafeCause::stopped); }
+  void was_zeroed() noexcept { sent_n_ = glm::dvec3(0.0); }
+  bool rearm() noexcept;
+
+ private:
+  [[nodiscard]] static constexpr bool on(std::uint32_t rule) noexcept {
+    return (rules & rule) != 0;
+  }
+  void latch(SafeCause cause) noexcept;
+  [[nodiscard]] bool is_new_frame(const GuardSample& sample) noexcept;
+  [[nodiscard]] bool take_frame(std::int64_t now_us, const GuardSample& sample,
+                                Admission& admission) noexcept;
+  void watch_force(const WantedForce& wanted) noexcept;
+  void watch_clock(const TickTime& time) noexcept;
+  void watch_ages(const TickTime& time, std::int64_t now_us, const WantedForce& wanted) noexcept;
+  void rest(double growing_s) noexcept;
+  [[nodiscard]] glm::dvec3 limit(const glm::dvec3& wanted_n) noexcept;
+  [[nodiscard]] double let_go(const TickTime& time, std::int64_t now_us) noexcept;
+  void earn(const glm::dvec3& limited_n, double growing_s) noexcept;
+  [[nodiscard]] glm::dvec3 rise(const glm::dvec3& force_n, double growing_s) noexcept;
+  [[nodiscard]] GuardState state(double held) const noexcept;
+
+  GuardSettings settings_;
+  SafeCause cause_ = SafeCause::none;
+  TickClock clock_;
+  Age frame_age_, clay_age_;
+  JumpFilter jumps_;
+  Engagement engagement_;
+  HeatLimit heat_;
+  double rested_s_ = 0.0;
+  std::int64_t seen_us_ = 0;  // stamp of the newest frame, plausible or not
+  bool seen_ = false;
+  int not_finite_ticks_ = 0;
+  std::uint32_t flags_ = 0;  // of the tick that runs
+  bool ready_ = false, admitted_ = false;
+  glm::dvec3 sent_n_{0.0};
+};
+
+inline constexpr std::uint32_t kAllGuardRules = ~0u;
 
 template <std::uint32_t rules>
 Admission BasicForceGuard<rules>::admit(std::int64_t now_us, const GuardSample& sample) noexcept {
