@@ -36,13 +36,6 @@ void Histogram::add(std::int64_t ns) noexcept {
   sum_ += static_cast<double>(time);
 }
 
-void Histogram::merge(const Histogram& other) noexcept {
-  for (std::size_t i = 0; i < kBuckets; ++i) counts_[i] += other.counts_[i];
-  count_ += other.count_;
-  most_ = std::max(most_, other.most_);
-  sum_ += other.sum_;
-}
-
 double Histogram::mean_ns() const noexcept {
   return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0;
 }

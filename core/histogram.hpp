@@ -16,8 +16,6 @@ class Histogram {
 
   /// Adds a time [ns]; negative times (early, not late) count as 0.
   void add(std::int64_t ns) noexcept;
-  /// Adds all counts of `other`.
-  void merge(const Histogram& other) noexcept;
   void clear() noexcept { *this = {}; }
 
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
