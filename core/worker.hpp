@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <cstdint>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -48,7 +47,6 @@ class NewestWorker {
     }
     {
       const std::lock_guard lock(mutex_);
-      if (question_) ++dropped_;
       question_ = std::move(question);
     }
     wake_.notify_one();
@@ -62,11 +60,6 @@ class NewestWorker {
   [[nodiscard]] bool busy() const {
     const std::lock_guard lock(mutex_);
     return question_ || working_ || answer_;
-  }
-  /// The number of questions replaced by a newer one.
-  [[nodiscard]] std::uint64_t dropped() const {
-    const std::lock_guard lock(mutex_);
-    return dropped_;
   }
 
  private:
@@ -95,7 +88,6 @@ class NewestWorker {
   std::optional<Question> question_;
   std::optional<Answer> answer_;
   bool working_ = false, over_ = false;
-  std::uint64_t dropped_ = 0;
   std::thread thread_;  // last: it uses all members above
 };
 
