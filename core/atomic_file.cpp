@@ -286,21 +286,4 @@ Result<void> publish(const fs::path& target, std::string_view bytes) {
       [&](AtomicFile file) { return file.write(bytes).and_then([&] { return file.commit(); }); });
 }
 
-Result<void> publish_all(std::span<const NamedBytes> files) {
-  std::vector<AtomicFile> created;
-  for (const NamedBytes& file : files) {
-    if (file.path.empty()) continue;
-    auto made = AtomicFile::create(file.path);
-    if (!made) return tl::make_unexpected(made.error());
-    created.push_back(std::move(*made));
-  }
-  std::vector<AtomicFile*> all;
-  for (const NamedBytes& file : files) {
-    if (file.path.empty()) continue;
-    all.push_back(&created[all.size()]);
-    if (auto written = all.back()->write(file.bytes); !written) return written;
-  }
-  return commit_all(all);
-}
-
 }  // namespace clay

@@ -137,8 +137,9 @@ TEST_F(AtomicFileFailures, PublishesInAFolderThatCannotBeSynced) {
   for (const SystemCallFault& folder_fault :
        {SystemCallFault{SYS_openat, EIO, O_DIRECTORY}, {SYS_openat, EACCES, O_DIRECTORY}}) {
     const int status = status_under(folder_fault, [&] {
-      const std::array both{NamedBytes{folder_ / "pot", "new"}, NamedBytes{folder_ / "cup", "too"}};
-      return publish_all(both).has_value();
+      auto pot = AtomicFile::create(folder_ / "pot").value();
+      auto cup = AtomicFile::create(folder_ / "cup").value();
+      return pot.write("new") && cup.write("too") && commit_all(std::array{&pot, &cup});
     });
     EXPECT_EQ(status, 0);
     EXPECT_EQ(bytes_in(folder_ / "pot"), "new");
@@ -195,8 +196,10 @@ TEST_F(AtomicFileFailures, PublishesAllFilesOrNone) {
   fs::remove(kiln);
   expect_io_error(commit_all(std::array{&first, &orphan}), kiln / "pot", ENOENT);
   EXPECT_EQ(bytes_in(folder_ / "old"), "old");
-  ASSERT_TRUE(publish_all(std::array{NamedBytes{folder_ / "old", "1"}, NamedBytes{},
-                                     NamedBytes{folder_ / "pot", "2"}}));
+  auto again = AtomicFile::create(folder_ / "old").value();
+  auto pot = AtomicFile::create(folder_ / "pot").value();
+  ASSERT_TRUE(again.write("1") && pot.write("2"));
+  ASSERT_TRUE(commit_all(std::array{&again, &pot}));
   EXPECT_EQ(bytes_in(folder_ / "old"), "1");
   EXPECT_EQ(bytes_in(folder_ / "pot"), "2");
   EXPECT_EQ(names(), (std::set<std::string>{"blocked", "old", "pot"}));

@@ -84,15 +84,7 @@ void sync_folder(const std::filesystem::path& folder) noexcept;
 /// all files under construction.
 void remove_temporary_files() noexcept;
 
-/// A file to write; an empty path means no file, "-" standard output.
-struct NamedBytes {
-  std::filesystem::path path;
-  std::string bytes;
-};
-
 /// Calls create, write, commit.
 Result<void> publish(const std::filesystem::path& target, std::string_view bytes);
-/// Publishes all or none, see `commit_all`.
-Result<void> publish_all(std::span<const NamedBytes> files);
 
 }  // namespace clay
