@@ -35,10 +35,8 @@ Contender engine_at(std::string name, std::string about, const SceneSpec& scene,
 /// With rings processed two at a time, as on a machine without AVX2.
 Contender in_two_lanes(Contender contender) {
   contender.press = [press = std::move(contender.press)] {
-    const bool supported = std::exchange(four_lanes, false);
-    const double seconds = press();
-    four_lanes = supported;
-    return seconds;
+    const TwoLanesScope lanes;
+    return press();
   };
   return contender;
 }

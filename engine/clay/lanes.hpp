@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 namespace clay {
 
@@ -38,18 +39,42 @@ inline constexpr double kBothExponents = 0x1p84 + 0x1p52;
 /// The largest size of a number that packs.hpp rounds to quanta.
 inline constexpr double kMostLaneQuanta = 0x1p50;
 
-#if defined(__x86_64__)
-/// Only a test or a benchmark that compares the two writes this.
-inline bool four_lanes = __builtin_cpu_supports("avx2") != 0;
+/// How many doubles loops take at a time.
+class Lanes {
+ public:
+  /// Four, as on any machine with AVX2; otherwise two.
+  [[nodiscard]] static bool four() noexcept { return four_; }
 
+ private:
+  friend class TwoLanesScope;
+#if defined(__x86_64__)
+  static inline bool four_ = __builtin_cpu_supports("avx2") != 0;
+#else
+  static inline bool four_ = false;
+#endif
+};
+
+/// As long as it exists, loops take two at a time, as on a machine without AVX2: for the tests and
+/// benchmarks that compare the two. `two` = false changes nothing.
+class TwoLanesScope {
+ public:
+  explicit TwoLanesScope(bool two = true) noexcept
+      : before_(std::exchange(Lanes::four_, Lanes::four_ && !two)) {}
+  ~TwoLanesScope() { Lanes::four_ = before_; }
+  TwoLanesScope(const TwoLanesScope&) = delete;
+  TwoLanesScope& operator=(const TwoLanesScope&) = delete;
+
+ private:
+  bool before_;
+};
+
+#if defined(__x86_64__)
 /// A copy of the loop: its captures are then in registers, not read again after every store.
 template <class Loop>
 __attribute__((target("avx2"))) void in_four_lanes(const Loop& loop) noexcept {
   const Loop own = loop;
   own();
 }
-#else
-inline bool four_lanes = false;
 #endif
 
 /// Runs the loop four doubles at a time where the machine has AVX2, else two. The loop and all that
@@ -57,7 +82,7 @@ inline bool four_lanes = false;
 template <class Loop>
 void in_lanes(const Loop& loop) noexcept {
 #if defined(__x86_64__)
-  if (four_lanes) return in_four_lanes(loop);
+  if (Lanes::four()) return in_four_lanes(loop);
 #endif
   loop();
 }

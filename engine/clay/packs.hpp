@@ -69,7 +69,7 @@ inline constexpr std::size_t kPackBytes = 64;
 template <class Loop>
 void in_packs(const Loop& loop) noexcept {
 #if defined(__x86_64__)
-  if (four_lanes)
+  if (Lanes::four())
     return in_four_lanes([&]() CLAYSTACK_INLINE {
       const Loop own = loop;
       own(std::integral_constant<std::size_t, 4>{});

@@ -54,14 +54,12 @@ RC_GTEST_PROP(RingSums, EqualTheSumsOfTheRings, ()) {
 
 /// Volumes that 64 bits cannot add up.
 TEST(RingSums, AddUpTheLargestRings) {
-  const bool supported = four_lanes;
   const std::vector<Ring> rings(200, Ring{quanta_from_radius(kMaxRadiusMm), 1});
-  for (const bool four : {false, supported}) {
-    four_lanes = four;
+  for (const bool two : {true, false}) {
+    const TwoLanesScope lanes(two);
     EXPECT_TRUE(stretch_of(rings).volume == 200 * WideQuanta{rings[0].volume()});
     EXPECT_EQ(stretch_of(rings).least, rings[0].volume());
   }
-  four_lanes = supported;
 }
 
 /// A predicate that is always true visits every ring once, from the top, with its load.

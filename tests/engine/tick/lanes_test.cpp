@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace clay {
@@ -25,9 +24,10 @@ struct Thrown {
   friend bool operator==(const Thrown&, const Thrown&) = default;
 };
 
-/// A tool that moves up and down along a wall, into it, and back to the start.
+/// A tool that moves up and down along a wall, into it, and back to the start. `four`: with four
+/// lanes, if the machine has them.
 Thrown throw_with(const ToolShapeSpec& shape, bool four, std::optional<ClaySpec> clay = {}) {
-  const bool supported = std::exchange(four_lanes, four);
+  const TwoLanesScope lanes(!four);
   SceneSpec scene;
   scene.lump.ring_height_mm = 0.3;
   scene.lump.inner_radius_mm = 15.0;
@@ -43,7 +43,6 @@ Thrown throw_with(const ToolShapeSpec& shape, bool four, std::optional<ClaySpec>
                          2.0 * part);
     thrown.forces_n.push_back(wheel.step({1000 * (k + 1), hip, false}).force_n());
   }
-  four_lanes = supported;
   thrown.rings.assign(wheel.stack().rings().begin(), wheel.stack().rings().end());
   return thrown;
 }
@@ -58,7 +57,7 @@ struct Rows {
 
 /// With packs of four, if the machine has them, or of two.
 void convert(Rows& rows, bool four) noexcept {
-  const bool supported = std::exchange(four_lanes, four);
+  const TwoLanesScope lanes(!four);
   in_packs([to = &rows](auto n) CLAYSTACK_INLINE {
     for (std::size_t k = 0; k < kRows; k += n) {
       store(to->doubles + k, doubles_of(load<Quantas<n>>(to->quanta + k)));
@@ -66,7 +65,6 @@ void convert(Rows& rows, bool four) noexcept {
       store(to->roots + k, rough_roots<n>(load_doubles<n>(to->doubles + k)));
     }
   });
-  four_lanes = supported;
 }
 
 TEST(Packs, ConvertLikeSingleNumbers) {
@@ -79,7 +77,7 @@ TEST(Packs, ConvertLikeSingleNumbers) {
       const double number = std::ldexp(dice.between(-1.0, 1.0), static_cast<int>(50 * dice.unit()));
       rows.numbers[k] = dice.unit() < 0.2 ? std::round(number) : number;
     }
-    convert(rows, round % 2 == 0 && four_lanes);
+    convert(rows, round % 2 == 0);
     for (std::size_t k = 0; k < kRows; ++k) {
       EXPECT_EQ(rows.doubles[k], static_cast<double>(rows.quanta[k]));
       EXPECT_EQ(rows.whole[k], static_cast<Quanta>(rows.numbers[k])) << rows.numbers[k];
@@ -101,26 +99,25 @@ std::uint64_t hash_of(const Thrown& thrown) {
 
 /// Recorded with four lanes, so that a machine without AVX2 compares its two lanes with these.
 TEST(LanesRecorded, GiveTheBitsOfAnotherMachine) {
-  EXPECT_EQ(hash_of(throw_with(SphereSpec{12}, four_lanes)), 192666849042331055u);
-  EXPECT_EQ(hash_of(throw_with(RibSpec{11, 5}, four_lanes)), 10594037236924233922u);
+  EXPECT_EQ(hash_of(throw_with(SphereSpec{12}, true)), 192666849042331055u);
+  EXPECT_EQ(hash_of(throw_with(RibSpec{11, 5}, true)), 10594037236924233922u);
 }
 
 TEST_P(Lanes, TwoAndFourLanesGiveTheSameBits) {
-  EXPECT_TRUE(throw_with(GetParam(), four_lanes) == throw_with(GetParam(), false));
+  EXPECT_TRUE(throw_with(GetParam(), true) == throw_with(GetParam(), false));
 }
 TEST_P(Lanes, TwoAndFourLanesGiveTheSameBitsWithClayRules) {
-  EXPECT_TRUE(throw_with(GetParam(), four_lanes, ClaySpec{}) ==
+  EXPECT_TRUE(throw_with(GetParam(), true, ClaySpec{}) ==
               throw_with(GetParam(), false, ClaySpec{}));
 }
 /// Both sides, pinches, cuts, jumps past both ends, a floor, very low and very high rings.
 TEST(LanesOfRules, GiveTheSameBitsForAnyMotion) {
   const auto thrown_with = [](const SceneSpec& scene, bool four) {
-    const bool supported = std::exchange(four_lanes, four);
+    const TwoLanesScope lanes(!four);
     Wheel wheel = Wheel::build(scene).value();
     Thrown thrown;
     for (const Pose& pose : random_poses(5, 1500))
       thrown.forces_n.push_back(wheel.step(pose).force_n());
-    four_lanes = supported;
     thrown.rings.assign(wheel.stack().rings().begin(), wheel.stack().rings().end());
     return thrown;
   };
@@ -134,7 +131,7 @@ TEST(LanesOfRules, GiveTheSameBitsForAnyMotion) {
       scene.clay->floor_mm = 5.0;
       scene.clay->thin_wall_yields = true;
       if (sponge) scene.tool.mode = ToolMode::smooth;
-      EXPECT_TRUE(thrown_with(scene, four_lanes) == thrown_with(scene, false)) << h << sponge;
+      EXPECT_TRUE(thrown_with(scene, true) == thrown_with(scene, false)) << h << sponge;
     }
 }
 

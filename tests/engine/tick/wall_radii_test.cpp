@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace clay {
@@ -24,7 +23,7 @@ ClayStack leaning_wall(double outer_mm, std::size_t count) {
 
 /// All rings of a wall, with packs of four if the machine has them, or of two.
 void expect_radii(double outer_mm, std::size_t count, bool four) {
-  const bool supported = std::exchange(four_lanes, four && four_lanes);
+  const TwoLanesScope lanes(!four);
   const ClayStack stack = leaning_wall(outer_mm, count);
   const auto rings = stack.rings();
   WallRadii walls;
@@ -39,7 +38,6 @@ void expect_radii(double outer_mm, std::size_t count, bool four) {
   }
   EXPECT_EQ(walls.thickness(0)[-1], walls.thickness(0)[0]);
   EXPECT_EQ(walls.thickness(0)[count], walls.thickness(0)[count - 1]);
-  four_lanes = supported;
 }
 
 TEST(WallRadii, AreThoseOfTheRings) {
