@@ -3,7 +3,7 @@
 // the reference for the cost of skipped stages.
 
 #include "claystack/engine/clay.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 #include "claystack/engine/wheel.hpp"
 #include "engine/tick/redistribution.hpp"
 #include "engine/tick/removal.hpp"

@@ -4,7 +4,7 @@
 #include "claystack/core/atomic_file.hpp"
 #include "core/text.hpp"
 #ifdef CLAYSTACK_EXPORT
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/export/formats.hpp"
 
 #include <fmt/format.h>

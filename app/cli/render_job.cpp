@@ -6,7 +6,7 @@
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "core/text.hpp"
 #ifdef CLAYSTACK_EXPORT
 #include "app/render/wall_rows.hpp"

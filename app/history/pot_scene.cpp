@@ -1,6 +1,6 @@
 #include "app/history/pot_scene.hpp"
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "app/render/wall_rows.hpp"
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/export/fallen.hpp"
 #include "claystack/export/job.hpp"
 

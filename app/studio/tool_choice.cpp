@@ -1,6 +1,6 @@
 #include "app/studio/tool_choice.hpp"
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 
 #include <algorithm>
 

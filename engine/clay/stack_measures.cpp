@@ -1,7 +1,6 @@
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 
-#include "core/portable_trig.hpp"
-#include "engine/tick/stability.hpp"
+#include "engine/clay/stress.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,12 +17,12 @@ double largest_radius_mm(const ClayStack& stack) noexcept {
 }
 
 std::vector<double> stresses_kpa(const ClayStack& stack, double density_g_cm3) {
-  const StabilityPlan plan{0.0, kpa_per_ratio(density_g_cm3, stack.ring_height_mm())};
+  const double per_ratio = kpa_per_ratio(density_g_cm3, stack.ring_height_mm());
   const auto rings = stack.rings();
   std::vector<double> stresses(rings.size());
   WideQuanta above = stack.crown();
   for (std::size_t i = rings.size(); i-- > 0; above += rings[i].volume())
-    stresses[i] = stress_kpa(plan, above, rings[i].volume());
+    stresses[i] = stress_kpa(per_ratio, above, rings[i].volume());
   return stresses;
 }
 

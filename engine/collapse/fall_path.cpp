@@ -1,6 +1,6 @@
 #include "engine/collapse/fall_path.hpp"
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "core/portable_trig.hpp"
 #include "engine/collapse/fallen_body.hpp"
 #include "engine/collapse/yield_power.hpp"

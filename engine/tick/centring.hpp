@@ -2,7 +2,7 @@
 // If one of two tools is deeper in a wall, the wall is pushed to the other, never past the middle.
 
 #include "claystack/engine/clay.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 #include "engine/tick/band.hpp"
 #include "engine/tick/removal.hpp"
 #include "engine/tick/shift.hpp"

@@ -123,7 +123,7 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
     work.highest = std::max(work.highest, work.shift.to() - 1);
   }
   if (!press.trim && !lifts && !(rules & kHeave)) {
-    const std::size_t reach = flow_reach(press.plan.kernel);
+    const std::size_t reach = flow_reach(*press.plan.kernel);
     work.lowest = std::min(work.lowest, contact.bottom - std::min(contact.bottom, reach));
     work.highest = std::max(work.highest, std::min(stack.size() - 1, contact.top + reach));
   }

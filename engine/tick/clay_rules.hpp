@@ -3,7 +3,7 @@
 // the wall (shift), becomes height (lift, hoop), or heaves up beside the tool; a wet finger smears.
 
 #include "claystack/engine/clay.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 #include "engine/tick/band.hpp"
 #include "engine/tick/centring.hpp"
 #include "engine/tick/redistribution.hpp"
@@ -19,6 +19,8 @@
 #include <vector>
 
 namespace clay {
+
+inline constexpr unsigned kRuleSets = 64;
 
 /// Advances the tool's mean motion by a tick.
 void follow(Motion& motion, const ToolState& tool) noexcept;

@@ -1,5 +1,5 @@
 #pragma once
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 #include "engine/tick/contact.hpp"
 
 #include <glm/vec3.hpp>

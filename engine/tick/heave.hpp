@@ -2,7 +2,6 @@
 // The place of clay that a tool squeezes aside: it heaves up the wall beside the contact.
 
 #include "claystack/engine/clay.hpp"
-#include "claystack/engine/tick.hpp"
 #include "engine/clay/stack_writer.hpp"
 #include "engine/tick/band.hpp"
 #include "engine/tick/relief.hpp"

@@ -1,4 +1,4 @@
-#include "claystack/engine/tick.hpp"
+#include "engine/tick/rayleigh_kernel.hpp"
 
 #include "engine/clay/portable_math.hpp"
 
@@ -40,11 +40,6 @@ RayleighKernel::RayleighKernel(double sigma_mm, double reach_mm, double ring_hei
   }
   const auto all = std::lower_bound(cumulative_.begin(), cumulative_.end(), cumulative_.back());
   effective_length_ = static_cast<std::size_t>(all - cumulative_.begin());
-}
-
-double RayleighKernel::weight(std::size_t j) const noexcept {
-  return static_cast<double>(cumulative_[j] - cumulative_[j - 1]) /
-         static_cast<double>(std::int64_t{1} << kFractionBits);
 }
 
 }  // namespace clay

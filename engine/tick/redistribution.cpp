@@ -247,15 +247,15 @@ Flow press_clay(const StepPlan& plan, std::span<const ToolRemoval> removals, boo
 
   WideQuanta rest = take(removals, stack);
   level(rim, removals, count);
-  if (!upward) rest = flow_down(plan.kernel, portions(rest), contact, stack);
-  if (rest > 0) rest = flow_up(plan.kernel, portions(rest), contact, count, rim, stack);
+  if (!upward) rest = flow_down(*plan.kernel, portions(rest), contact, stack);
+  if (rest > 0) rest = flow_up(*plan.kernel, portions(rest), contact, count, rim, stack);
   if constexpr (model == Model::paper)
     ledger.outside += rest;
   else
     writer.put_on_crown(rest);
 
   Flow flow;
-  const std::size_t reach = flow_reach(plan.kernel);
+  const std::size_t reach = flow_reach(*plan.kernel);
   flow.lowest = upward ? contact.bottom : contact.bottom - std::min(contact.bottom, reach);
   flow.highest = contact.top + std::min(reach, count - 1 - contact.top);
   grow<model>(flow, stack, ledger, rim, writer);
@@ -289,8 +289,8 @@ WideQuanta inside_part(WideQuanta amount, std::int64_t inside_share,
 WideQuanta flow_by_kernel(const StepPlan& plan, WideQuanta amount, bool up, const Contact& contact,
                           Rim* rim, ClayStack& stack) noexcept {
   const Split clay = split(amount, plan.inside_share, stack);
-  return up ? flow_up(plan.kernel, clay, contact, stack.size(), rim, stack)
-            : flow_down(plan.kernel, clay, contact, stack);
+  return up ? flow_up(*plan.kernel, clay, contact, stack.size(), rim, stack)
+            : flow_down(*plan.kernel, clay, contact, stack);
 }
 
 void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const ToolRemoval> removals,

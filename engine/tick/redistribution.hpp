@@ -2,8 +2,9 @@
 // Moves displaced clay along the wall (section 5.1).
 
 #include "claystack/engine/clay.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 #include "engine/clay/stack_writer.hpp"
+#include "engine/tick/rayleigh_kernel.hpp"
 #include "engine/tick/removal.hpp"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 // Clay that overhangs the end of a contact yields: a finger leaves no undercut steeper than 2 : 1.
 
 #include "claystack/engine/clay.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 #include "engine/clay/stack_writer.hpp"
 #include "engine/tick/band.hpp"
 #include "engine/tick/removal.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 #include "claystack/engine/clay.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 #include "engine/tick/contact.hpp"
 #include "engine/tick/shift.hpp"
 

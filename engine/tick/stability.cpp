@@ -1,5 +1,7 @@
 #include "engine/tick/stability.hpp"
 
+#include "engine/clay/stress.hpp"
+
 #include <algorithm>
 
 namespace clay {
@@ -25,7 +27,7 @@ class Threshold {
 
 void note_worse(const StabilityPlan& plan, WideQuanta above, std::span<const Ring> rings,
                 std::size_t i, std::optional<Failure>& worst) noexcept {
-  const double stress = stress_kpa(plan, above, rings[i].volume());
+  const double stress = stress_kpa(plan.kpa_per_ratio, above, rings[i].volume());
   if (stress > plan.max_stress_kpa && (!worst || stress > worst->stress_kpa))
     worst = Failure{i, stress};
 }
@@ -60,10 +62,6 @@ void find_weakest(const StabilityPlan& plan, std::span<const Ring> rings, WideQu
 }
 
 }  // namespace
-
-double stress_kpa(const StabilityPlan& plan, WideQuanta above, Quanta ring) noexcept {
-  return plan.kpa_per_ratio * (static_cast<double>(above) / static_cast<double>(ring));
-}
 
 StabilityWatch::StabilityWatch(const ClayStack& stack) : cursor_(stack.size() - 1), sums_(stack) {}
 

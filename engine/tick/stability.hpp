@@ -2,7 +2,7 @@
 // Section 7: does every ring carry the load on it?
 
 #include "claystack/engine/clay.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 #include "engine/clay/ring_sums.hpp"
 #include "engine/tick/redistribution.hpp"
 
@@ -15,16 +15,6 @@ struct Failure {
   std::size_t ring = 0;
   double stress_kpa = 0.0;
 };
-
-/// StabilityPlan::kpa_per_ratio. rho g h: g/cm^3 = 1e-6 kg/mm^3, and kg/mm^3 m/s^2 mm = N/mm^2 =
-/// 1000 kPa.
-[[nodiscard]] inline double kpa_per_ratio(double density_g_cm3, double ring_height_mm) noexcept {
-  return density_g_cm3 * 1e-6 * kStandardGravity * ring_height_mm * 1e3;
-}
-
-/// beta_i = g M_i / (pi (R_i^2 - r_i^2)) [kPa], M_i the mass of all above ring i, crown included.
-/// The paper omits g and so compares a mass per area; with g the threshold is a stress.
-[[nodiscard]] double stress_kpa(const StabilityPlan& plan, WideQuanta above, Quanta ring) noexcept;
 
 /// Stress is examined only where it can have risen. Clay moves locally, so the weight above a ring
 /// changes only between the places that lost clay and those that got it: rings lowest..highest of

@@ -1,9 +1,10 @@
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 
 #include "claystack/engine/clay.hpp"
 #include "core/text.hpp"
 #include "engine/clay/scene_ranges.hpp"
-#include "engine/tick/stability.hpp"
+#include "engine/clay/stress.hpp"
+#include "engine/tick/rayleigh_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -235,8 +236,9 @@ Result<StepPlan> StepPlan::build(const SceneSpec& scene) {
   plan.mode = scene.tool.mode;
   plan.gap_mm = scene.tool.mode == ToolMode::pinch ? *scene.tool.gap_mm : 0.0;
   plan.tool = std::move(*tool);
-  plan.kernel = RayleighKernel(scene.flow.sigma_mm, scene.flow.reach_mm, scene.lump.ring_height_mm,
-                               max_rings_of(scene.lump));
+  plan.kernel =
+      std::make_shared<const RayleighKernel>(scene.flow.sigma_mm, scene.flow.reach_mm,
+                                             scene.lump.ring_height_mm, max_rings_of(scene.lump));
   plan.inside_share = static_cast<std::int64_t>(scene.flow.inside_share * (1 << 30) + 0.5);
   plan.removal = {scene.removal.rate_per_s, scene.removal.yield_depth_mm, scene.removal.min_wall_mm,
                   scene.removal.paper_fraction.value_or(

@@ -2,7 +2,7 @@
 // How clay gives way to a tool in it, for some rings at once: plain loops over arrays, compiled for
 // two or four rows at a time, with operations that IEEE 754 defines exactly.
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 
 #include <array>
 #include <cstddef>

@@ -50,6 +50,8 @@ struct Wheel::State {
 
 namespace {
 
+constexpr unsigned kStageSets = 64;
+
 template <unsigned stages>
 constexpr Model kModel = (stages & kPaperModel) ? Model::paper : Model::conserving;
 
@@ -135,7 +137,7 @@ std::uint32_t deform(State& s, const ToolState& tool,
       if constexpr (stages & kStability) s.watch.move_to(s.stack, s.work.highest);
       return s.rules.move(rule_press(s, tool), removals, s.work, s.stack, s.ledger, s.rim);
     } else {
-      const std::size_t reach = flow_reach(s.plan.kernel);
+      const std::size_t reach = flow_reach(*s.plan.kernel);
       if constexpr (stages & kStability)
         s.watch.move_to(s.stack, std::min(removals[0].contact.top + reach, s.stack.size() - 1));
       return trims(s, tool) ? trim_clay<kModel<stages>>(removals, s.stack, s.ledger, &s.rim)

@@ -1,4 +1,4 @@
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/export/fallen.hpp"
 #include "core/text.hpp"
 #include "export/section/stack_section.hpp"

@@ -1,6 +1,6 @@
 #include "export/job/collapsed_export.hpp"
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/export/solid.hpp"
 #include "claystack/export/walls.hpp"
 #include "core/content_hash.hpp"

@@ -1,6 +1,6 @@
 #include "export/job/prepare.hpp"
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "core/text.hpp"
 #include "export/section/stack_section.hpp"
 

@@ -1,6 +1,6 @@
 #include "export/job/revolved_export.hpp"
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/engine/tool.hpp"
 #include "claystack/export/solid.hpp"
 #include "export/job/left_out.hpp"

@@ -5,7 +5,6 @@
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/files.hpp"
-#include "claystack/engine/tick.hpp"
 #include "claystack/engine/wheel.hpp"
 #include "tests/samples/sample_files.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 
 #include <fmt/format.h>
 

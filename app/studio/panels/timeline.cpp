@@ -3,7 +3,7 @@
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
 #include "app/studio/tool_choice.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 
 #include <fmt/format.h>
 

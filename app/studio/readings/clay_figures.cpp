@@ -1,7 +1,7 @@
 #include "app/studio/readings/clay_figures.hpp"
 
 #include "app/studio/units.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 
 #include <fmt/format.h>
 

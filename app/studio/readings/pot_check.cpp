@@ -3,7 +3,7 @@
 #include "app/render/wall_rows.hpp"
 #include "app/studio/readings/clay_figures.hpp"
 #include "app/studio/units.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/export/job.hpp"
 #include "claystack/export/walls.hpp"
 #include "core/colour_scale.hpp"

@@ -1,6 +1,6 @@
 #include "app/studio/readings/readings.hpp"
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "app/studio/readings/goal.hpp"
 
 #include "app/render/pot_view.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/export/walls.hpp"
 #include "tests/app/studio/cups.hpp"
 

@@ -1,4 +1,4 @@
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 
 #include "engine/tick/stability.hpp"
 #include "tests/engine/clay/stack_samples.hpp"

@@ -1,6 +1,6 @@
 #include "engine/collapse/collapse.hpp"
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "tests/engine/clay/stack_samples.hpp"
 #include "tests/engine/collapse/falls.hpp"
 

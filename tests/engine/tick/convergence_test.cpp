@@ -2,7 +2,7 @@
 
 #include "app/bench/convergence_experiments.hpp"
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/engine/wheel.hpp"
 
 #include <gtest/gtest.h>

@@ -67,10 +67,10 @@ RC_GTEST_PROP(Flow, AgreesIn64And128Bits, ()) {
   const bool up = *rc::gen::arbitrary<bool>();
   if (!up)
     rest = literal_flow(
-        plan.kernel, contact.down_offset, inside(), rest - inside(), bottom,
+        *plan.kernel, contact.down_offset, inside(), rest - inside(), bottom,
         [&](std::size_t j) { return bottom - j; }, rings);
   rest = literal_flow(
-      plan.kernel, contact.up_offset, inside(), rest - inside(), 79 - contact.top,
+      *plan.kernel, contact.up_offset, inside(), rest - inside(), 79 - contact.top,
       [&](std::size_t j) { return contact.top + j; }, rings);
   Ledger ledger;
   press_clay<Model::paper>(plan, {&removal, 1}, up, stack, ledger);

@@ -1,5 +1,7 @@
 #include "engine/tick/stability.hpp"
 
+#include "engine/clay/stress.hpp"
+
 #include "engine/tick/redistribution.hpp"
 #include "tests/engine/clay/stack_samples.hpp"
 #include "tests/engine/tick/contact_samples.hpp"
@@ -31,14 +33,15 @@ TEST(Stability, StressEqualsWeightOverArea) {
   const double mass = 1900.0 * area * 0.0995;
   const double expected = mass * 9.80665 / area * 1e-3;
   const WideQuanta above = stack.volume() - stack.rings()[0].volume();
-  EXPECT_NEAR(stress_kpa(plan.stability, above, stack.rings()[0].volume()), expected, 1e-12);
+  EXPECT_NEAR(stress_kpa(plan.stability.kpa_per_ratio, above, stack.rings()[0].volume()), expected,
+              1e-12);
 }
 
 TEST(Stability, HoldsAtTheThresholdAndFailsOneUlpAbove) {
   const ClayStack stack = ClayStack::cylinder(100, 1.0, 40.0, 0.0, 100).value();
   StabilityPlan plan = plan_of(100.0).stability;
-  const double stress =
-      stress_kpa(plan, stack.volume() - stack.rings()[0].volume(), stack.rings()[0].volume());
+  const double stress = stress_kpa(plan.kpa_per_ratio, stack.volume() - stack.rings()[0].volume(),
+                                   stack.rings()[0].volume());
   plan.max_stress_kpa = stress;
   EXPECT_FALSE(StabilityWatch::check_all(plan, stack));
   plan.max_stress_kpa = std::nextafter(stress, 0.0);
@@ -70,7 +73,8 @@ TEST(Stability, NewRingOfPaperLoadsAllRingsBelow) {
   ClayStack stack = ClayStack::cylinder(500, 1.0, 30.0, 0.0, 600).value();
   const Quanta ring = stack.rings()[0].volume();
   StepPlan plan = plan_of(1.0);
-  plan.stability.max_stress_kpa = stress_kpa(plan.stability, stack.volume() - ring / 2, ring);
+  plan.stability.max_stress_kpa =
+      stress_kpa(plan.stability.kpa_per_ratio, stack.volume() - ring / 2, ring);
   StabilityWatch watch(stack);
   Ledger ledger;
   ledger.outside = ring - 1;  // clay outside the stack since the foot was last checked
@@ -89,7 +93,7 @@ std::optional<Failure> direct_sum(const StabilityPlan& plan, const ClayStack& st
   for (std::size_t i = 0; i < stack.size(); ++i) {
     WideQuanta above = stack.crown();
     for (std::size_t j = i + 1; j < stack.size(); ++j) above += stack.rings()[j].volume();
-    const double stress = stress_kpa(plan, above, stack.rings()[i].volume());
+    const double stress = stress_kpa(plan.kpa_per_ratio, above, stack.rings()[i].volume());
     if (stress > plan.max_stress_kpa && (!worst || stress > worst->stress_kpa))
       worst = Failure{i, stress};
   }
@@ -116,7 +120,7 @@ RC_GTEST_PROP(Stability, WatchedRangeMatchesTheFullSum, ()) {
       removed.push_back(static_cast<Quanta>(0.4 * samples::uniform(random) *
                                             static_cast<double>(stack.rings()[i].volume())));
     }
-    watch.move_to(stack, std::min(contact.top + flow_reach(plan.kernel), stack.size() - 1));
+    watch.move_to(stack, std::min(contact.top + flow_reach(*plan.kernel), stack.size() - 1));
     const bool trim = samples::uniform(random) < 0.1;
     const bool up = samples::uniform(random) < 0.5;
     const Flow flow = trim ? trim_clay<Model::conserving>({&removal, 1}, stack, ledger)
@@ -135,7 +139,7 @@ std::optional<Failure> running_sum(const StabilityPlan& plan, const ClayStack& s
   std::optional<Failure> worst;
   WideQuanta above = stack.crown();
   for (std::size_t i = stack.size(); i-- > 0; above += stack.rings()[i].volume()) {
-    const double stress = stress_kpa(plan, above, stack.rings()[i].volume());
+    const double stress = stress_kpa(plan.kpa_per_ratio, above, stack.rings()[i].volume());
     if (stress > plan.max_stress_kpa && (!worst || stress > worst->stress_kpa))
       worst = Failure{i, stress};
   }
@@ -212,7 +216,7 @@ void check_jumps_against_the_running_sum() {
   for (int step = 0; step < 40 && !failed; ++step) {
     const ToolRemoval removal = random_removal(random, stack);
     const std::size_t highest =
-        std::min(removal.contact.top + flow_reach(plan.kernel), stack.size() - 1);
+        std::min(removal.contact.top + flow_reach(*plan.kernel), stack.size() - 1);
     watch.move_to(stack, highest);
     const bool trim = samples::uniform(random) < 0.1;
     const bool up = samples::uniform(random) < 0.5;

@@ -2,6 +2,7 @@
 // CLAYSTACK_AUDIT_TICKS=100000 engine_tests --gtest_filter=ClayAudit.*
 
 #include "claystack/engine/wheel.hpp"
+#include "engine/tick/clay_rules.hpp"
 #include "engine/tick/contact.hpp"
 #include "tests/engine/wheel/rule_samples.hpp"
 

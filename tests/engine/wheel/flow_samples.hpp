@@ -1,7 +1,7 @@
 #pragma once
 // Explicit flow settings.
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 #include "tests/engine/tick/contact_samples.hpp"
 
 namespace clay::samples {

@@ -1,6 +1,6 @@
 #include "claystack/export/job.hpp"
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "export/formats/zip_package.hpp"
 #include "tests/export/formats/refused.hpp"
 #include "tests/export/job/exported.hpp"

@@ -1,6 +1,6 @@
 #include "claystack/export/walls.hpp"
 
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/export/smoothing.hpp"
 #include "tests/engine/clay/stack_samples.hpp"
 #include "tests/export/section/cup_section.hpp"

@@ -123,6 +123,22 @@ class ClayStack {
   std::size_t bores_ = 0;  ///< rings with r > 0
 };
 
+// ---- stack measures ------------------------------------------------------------------
+
+/// [mm]; 0 without rings.
+[[nodiscard]] double largest_radius_mm(const ClayStack& stack) noexcept;
+
+/// The stress in every ring [kPa], bottom to top: beta_i = g M_i / (pi (R_i^2 - r_i^2)), M_i the
+/// mass of all above it, crown included (paper, section 7). Equal, to the last bit, to the stress
+/// that a scene compares with its StabilitySpec::max_stress_kpa.
+[[nodiscard]] std::vector<double> stresses_kpa(const ClayStack& stack, double density_g_cm3);
+
+/// Capacity of the bore that opens at the top, filled to the brim [mm^3]; exact for the steps of a
+/// pot in one piece. 0 without such a bore, or if it goes through the whole pot.
+[[nodiscard]] double capacity_mm3(const ClayStack& stack) noexcept;
+
+inline constexpr double kStandardGravity = 9.80665;  ///< m/s^2 (ISO 80000-3)
+
 // ---- ledger --------------------------------------------------------------------------
 
 /// The account of every quantum of clay: initial + added = in the stack + trimmed + outside.

@@ -3,7 +3,7 @@
 // claystack/engine/files.hpp, component `files`.
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/collapse.hpp"
+#include "claystack/engine/plan.hpp"
 #include "claystack/engine/scene.hpp"
-#include "claystack/engine/tick.hpp"
 #include "claystack/engine/tool.hpp"
 #include "claystack/engine/wheel.hpp"

@@ -3,7 +3,7 @@
 
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
-#include "claystack/engine/tick.hpp"
+#include "claystack/engine/plan.hpp"
 #include "claystack/engine/tool.hpp"
 
 #include <cstdint>
