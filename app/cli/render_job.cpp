@@ -5,8 +5,8 @@
 #include "app/cli/usage.hpp"
 
 #include "claystack/core/atomic_file.hpp"
-#include "claystack/engine/files.hpp"
 #include "claystack/engine/clay.hpp"
+#include "claystack/engine/files.hpp"
 #include "core/text.hpp"
 #ifdef CLAYSTACK_EXPORT
 #include "app/render/wall_rows.hpp"

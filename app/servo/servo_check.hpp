@@ -1,7 +1,7 @@
 #pragma once
 #include "claystack/core/result.hpp"
-#include "claystack/engine/scene.hpp"
 #include "claystack/engine/plan.hpp"
+#include "claystack/engine/scene.hpp"
 #include "claystack/falcon/passivity.hpp"
 
 namespace clay::servo {
