@@ -83,7 +83,9 @@ std::string number_text(double value) { return digits_of(value); }
 std::string short_number_text(double value) {
   return digits_of(value, std::chars_format::general, 6);
 }
-std::string in_mm(double mm) { return digits_of(mm, std::chars_format::general, 9); }
+std::string nine_digit_text(double value) {
+  return digits_of(value, std::chars_format::general, 9);
+}
 
 std::string expected_number(std::string_view of_what, std::size_t first, std::size_t count) {
   const std::string expected = "expected the number of " + std::string(of_what);

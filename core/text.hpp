@@ -14,7 +14,7 @@ namespace clay {
 /// Six significant digits, with an exponent where the number is very large or small.
 [[nodiscard]] std::string short_number_text(double value);
 /// Nine significant digits: enough to distinguish neighbouring float32 values.
-[[nodiscard]] std::string in_mm(double mm);
+[[nodiscard]] std::string nine_digit_text(double value);
 /// "1 warning", "2 warnings": for nouns with a plural in s.
 [[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
 

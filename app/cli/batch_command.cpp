@@ -9,7 +9,7 @@
 #include "core/file_reader.hpp"
 #include "core/json/object_reader.hpp"
 #include "core/line_reader.hpp"
-#include "core/number_text.hpp"
+#include "core/number_parsing.hpp"
 #include "core/text.hpp"
 
 #include <fcntl.h>

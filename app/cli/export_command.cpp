@@ -15,7 +15,7 @@
 #include "claystack/engine/files.hpp"
 #include "claystack/export/job.hpp"
 #include "core/material.hpp"
-#include "core/number_text.hpp"
+#include "core/number_parsing.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

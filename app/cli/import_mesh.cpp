@@ -36,7 +36,8 @@ Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 /// Of a mesh that is not closed or not oriented outward.
 std::vector<std::string> warnings_about(const solid::MeshEnclosure& found) {
   const auto at = [](const glm::dvec3& p) {
-    return fmt::format("the first at ({}, {}, {}) mm", in_mm(p.x), in_mm(p.y), in_mm(p.z));
+    return fmt::format("the first at ({}, {}, {}) mm", nine_digit_text(p.x), nine_digit_text(p.y),
+                       nine_digit_text(p.z));
   };
   std::vector<std::string> warnings;
   if (found.open_edges > 0)

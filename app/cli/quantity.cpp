@@ -1,6 +1,6 @@
 #include "app/cli/quantity.hpp"
 
-#include "core/number_text.hpp"
+#include "core/number_parsing.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "app/cli/pot_input.hpp"
 #include "app/cli/render_job.hpp"
 #include "app/cli/usage.hpp"
-#include "core/number_text.hpp"
+#include "core/number_parsing.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

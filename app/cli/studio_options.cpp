@@ -4,7 +4,7 @@
 #include "app/cli/device_choice.hpp"
 #include "app/cli/usage.hpp"
 #include "app/render/offscreen.hpp"
-#include "core/number_text.hpp"
+#include "core/number_parsing.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

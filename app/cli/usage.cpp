@@ -1,7 +1,7 @@
 #include "app/cli/usage.hpp"
 
 #include "app/cli/suggestion.hpp"
-#include "core/number_text.hpp"
+#include "core/number_parsing.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,7 @@
 
 #include "app/import/readers.hpp"
 
-#include "core/number_text.hpp"
+#include "core/number_parsing.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>

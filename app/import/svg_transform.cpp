@@ -1,7 +1,7 @@
 #include "app/import/svg_transform.hpp"
 
 #include "app/import/svg_style.hpp"
-#include "core/number_text.hpp"
+#include "core/number_parsing.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>

@@ -182,7 +182,7 @@ class GlbReader {
     const auto q = numbers_in(node, "rotation", {0, 0, 0, 1});
     const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
     if (!(std::abs(length - 1.0) <= 1e-3))
-      throw BadGlb("rotation: expected a quaternion of length 1, found " + in_mm(length));
+      throw BadGlb("rotation: expected a quaternion of length 1, found " + nine_digit_text(length));
     return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
   }
 

@@ -25,8 +25,9 @@ struct OddFaces {
   /// "2 faces of more than 3 corners WHAT, the first at (1, 2, 3) mm: ", for one or for several.
   [[nodiscard]] std::string text(std::string_view of_one, std::string_view of_several) const {
     return counted(count, "face") + " of more than 3 corners " +
-           std::string(count == 1 ? of_one : of_several) + ", the first at (" + in_mm(first.x) +
-           ", " + in_mm(first.y) + ", " + in_mm(first.z) + ") mm: ";
+           std::string(count == 1 ? of_one : of_several) + ", the first at (" +
+           nine_digit_text(first.x) + ", " + nine_digit_text(first.y) + ", " +
+           nine_digit_text(first.z) + ") mm: ";
   }
 };
 

@@ -115,7 +115,7 @@ class Drawing {
     page_.line("bold", from, to);
     page_.line("bold", from, from + tick);
     page_.line("bold", to, to + tick);
-    page_.text(to + glm::dvec2{10.0, 2.0}, in_mm(mm) + " mm", SvgPage::Anchor::start);
+    page_.text(to + glm::dvec2{10.0, 2.0}, nine_digit_text(mm) + " mm", SvgPage::Anchor::start);
   }
 
   void caption(const std::string& label) {

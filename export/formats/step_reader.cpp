@@ -1,6 +1,6 @@
 // Judges a STEP file of this program by its text alone: topology, incidence, orientation, volume.
 
-#include "core/number_text.hpp"
+#include "core/number_parsing.hpp"
 #include "export/formats/step.hpp"
 #include "export/formats/step_text.hpp"
 

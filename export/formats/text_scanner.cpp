@@ -1,7 +1,7 @@
 #include "export/formats/text_scanner.hpp"
 
 #include "core/cancel.hpp"
-#include "core/number_text.hpp"
+#include "core/number_parsing.hpp"
 #include "export/formats/mesh_limits.hpp"
 
 #include <algorithm>

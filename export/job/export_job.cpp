@@ -32,7 +32,7 @@ using Progress = std::function<void(std::string_view)>;
 Result<PreparedPot> prepared(const Pot& pot, const ExportOptions& options) {
   if (!(options.tolerance_mm > 0.0))
     return failure(ErrorKind::bad_input, "tolerance: expected more than 0 mm, found " +
-                                             in_mm(options.tolerance_mm) + " mm");
+                                             nine_digit_text(options.tolerance_mm) + " mm");
   return prepare(pot, options);
 }
 

@@ -56,7 +56,7 @@ Result<void> check_aims(const std::vector<Aim>& aims, const Goal& goal,
   if (aims.empty()) return wrong("goal: expected a capacity, a weight, a height or a diameter");
   for (const Aim& aim : aims)
     if (!(aim.target > 0.0 && std::isfinite(aim.target)))
-      return wrong(aim.name + ": expected more than 0, found " + in_mm(aim.target));
+      return wrong(aim.name + ": expected more than 0, found " + nine_digit_text(aim.target));
   if (aims.size() > 2 || (aims.size() == 2 && aims[0].power_of_radius == 2.0))
     return wrong(
         "goal: expected one figure, or a height or diameter with one other: capacity, weight, "
@@ -151,7 +151,8 @@ class GoalSearch {
       if (!(factor < kFarthest && factor > 1.0 / kFarthest))
         return failure(ErrorKind::bad_input,
                        first.name + ": expected a goal for which lengths change by at most " +
-                           in_mm(kFarthest) + " times, found " + in_mm(first.target));
+                           nine_digit_text(kFarthest) + " times, found " +
+                           nine_digit_text(first.target));
     return {};
   }
 
@@ -159,7 +160,7 @@ class GoalSearch {
   [[nodiscard]] std::string nothing(const ExportReport& report) const {
     if (state(report).capacity_ml > 0.0)
       return ": expected a fill line above the floor of the pot, found one " +
-             in_mm(options_.fill_line_mm) + " mm below the brim";
+             nine_digit_text(options_.fill_line_mm) + " mm below the brim";
     return ": expected a pot that has one, found none: " + report.maker->no_capacity;
   }
 

@@ -46,8 +46,8 @@ Result<Pot> scaled(const Pot& pot, double radius_factor, double height_factor) {
   if (const double radius_mm = radius_factor * largest_radius_mm(pot.stack);
       !(radius_mm <= kMaxRadiusMm))
     return failure(ErrorKind::bad_input, "expected a diameter of at most " +
-                                             in_mm(2.0 * kMaxRadiusMm) + " mm, found " +
-                                             in_mm(2.0 * radius_mm) + " mm");
+                                             nine_digit_text(2.0 * kMaxRadiusMm) + " mm, found " +
+                                             nine_digit_text(2.0 * radius_mm) + " mm");
   std::vector<Ring> rings;
   rings.reserve(pot.stack.size());
   // A double represents a radius to the quantum up to 362 mm; so does every file.
@@ -68,8 +68,9 @@ Result<Pot> scaled(const Pot& pot, double radius_factor, double height_factor) {
 
 Result<Pot> enlarged(const Pot& pot, double shrinkage) {
   if (!(shrinkage >= 0.0 && shrinkage <= kMostShrinkage))
-    return failure(ErrorKind::bad_input, "shrinkage: expected 0 to " + in_mm(kMostShrinkage) +
-                                             ", found " + in_mm(shrinkage));
+    return failure(ErrorKind::bad_input, "shrinkage: expected 0 to " +
+                                             nine_digit_text(kMostShrinkage) + ", found " +
+                                             nine_digit_text(shrinkage));
   if (shrinkage == 0.0) return pot;
   const double factor = enlargement(shrinkage);
   return scaled(pot, factor, factor)
@@ -93,10 +94,10 @@ Result<DrainedStack> drain(const ClayStack& stack, double diameter_mm) {
   std::vector<Ring> rings(stack.rings().begin(), stack.rings().end());
   for (std::size_t i = 0; i < depth; ++i) {
     if (rings[i].outer2 <= hole2)
-      return failure(ErrorKind::bad_input, "drain: expected a hole narrower than ring " +
-                                               std::to_string(i) + " (" +
-                                               in_mm(2.0 * rings[i].outer_mm()) + " mm), found " +
-                                               in_mm(diameter_mm) + " mm");
+      return failure(ErrorKind::bad_input,
+                     "drain: expected a hole narrower than ring " + std::to_string(i) + " (" +
+                         nine_digit_text(2.0 * rings[i].outer_mm()) + " mm), found " +
+                         nine_digit_text(diameter_mm) + " mm");
     rings[i].inner2 = std::max(rings[i].inner2, hole2);
   }
   return ClayStack::from_rings(stack.ring_height_mm(), std::move(rings), stack.crown(),

@@ -41,8 +41,8 @@ Result<std::size_t> segments_within(const Profile& profile, double tolerance_mm,
   if (budget > 0.0 && chordal_error_mm(extent.radius, segments) <= budget) return segments;
   return failure(ErrorKind::bad_input,
                  "tolerance: expected at least " +
-                     in_mm(rounding + chordal_error_mm(extent.radius, kMaxSegments)) +
-                     " mm for a pot of this size, found " + in_mm(tolerance_mm) + " mm");
+                     nine_digit_text(rounding + chordal_error_mm(extent.radius, kMaxSegments)) +
+                     " mm for a pot of this size, found " + nine_digit_text(tolerance_mm) + " mm");
 }
 
 }  // namespace

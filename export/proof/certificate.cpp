@@ -22,7 +22,7 @@ using Point = Kernel::Point_2;
 Point exact(const ProfilePoint& p) { return {p.rho, p.y}; }
 
 std::string place(const ProfilePoint& p) {
-  return "(rho, y) = (" + in_mm(p.rho) + ", " + in_mm(p.y) + ") mm";
+  return "(rho, y) = (" + nine_digit_text(p.rho) + ", " + nine_digit_text(p.y) + ") mm";
 }
 
 tl::unexpected<Error> unsound(std::size_t piece, const std::string& message) {

@@ -13,8 +13,8 @@ std::vector<MeshProblem> compare_with_claims(const TriangleMesh& decoded,
   const double allowed = claims.volume_bound_mm3 + kSummation * claims.volume_mm3;
   if (std::abs(volume - claims.volume_mm3) <= allowed) return {};
   return {{"volume differs from the one the file states",
-           "expected " + in_mm(claims.volume_mm3) + " mm3 within " + in_mm(allowed) + ", found " +
-               in_mm(volume) + " mm3",
+           "expected " + nine_digit_text(claims.volume_mm3) + " mm3 within " +
+               nine_digit_text(allowed) + ", found " + nine_digit_text(volume) + " mm3",
            1}};
 }
 

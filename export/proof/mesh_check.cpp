@@ -31,7 +31,8 @@ std::string numbered(std::string_view noun, const std::vector<std::uint32_t>& nu
 }
 
 std::string coordinates(const glm::dvec3& place) {
-  return std::string("(") + in_mm(place.x) + ", " + in_mm(place.y) + ", " + in_mm(place.z) + ") mm";
+  return std::string("(") + nine_digit_text(place.x) + ", " + nine_digit_text(place.y) + ", " +
+         nine_digit_text(place.z) + ") mm";
 }
 
 /// The middle of the faulty vertices; if none are listed, of the first triangle.
@@ -198,7 +199,7 @@ class Inspection {
     report_.oriented = outward && !contradicting_;
     if (outward || (!report_.bounds_volume && !volume.sign_is_certain())) return;
     problem("inside out",
-            "normals point into the clay, volume " + in_mm(report_.volume_mm3) + " mm^3");
+            "normals point into the clay, volume " + nine_digit_text(report_.volume_mm3) + " mm^3");
   }
 
   void problem(std::string what, std::string where, std::size_t count = 1) {

@@ -25,7 +25,8 @@ struct VertexName {
 };
 
 std::string place(const glm::dvec3& p) {
-  return std::string("(") + in_mm(p.x) + ", " + in_mm(p.y) + ", " + in_mm(p.z) + ") mm";
+  return std::string("(") + nine_digit_text(p.x) + ", " + nine_digit_text(p.y) + ", " +
+         nine_digit_text(p.z) + ") mm";
 }
 
 /// A circle or a pole of a revolve: its point in the half-plane of a sector.
@@ -203,7 +204,7 @@ Result<double> match_revolve(const TriangleMesh& decoded, const RevolveLayout& r
     const auto found = finder.find(decoded.points[i]);
     if (!found)
       return wrong("point " + std::to_string(i + 1) + ": expected a vertex of the solid within " +
-                   in_mm(reach_mm) + " mm, found none of " + place(decoded.points[i]));
+                   nine_digit_text(reach_mm) + " mm, found none of " + place(decoded.points[i]));
     names.push_back(*found);
   }
   Roll roll(rule);

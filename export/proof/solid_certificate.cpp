@@ -82,7 +82,7 @@ Result<void> same_number(std::string_view file, std::string_view claim, double s
                          double slack = 0.0) {
   // The libm of another compiler may differ in the last bits.
   if (std::abs(stated - found) <= 1e-9 * std::abs(found) + slack) return {};
-  return wrong(file, claim, in_mm(stated), in_mm(found));
+  return wrong(file, claim, nine_digit_text(stated), nine_digit_text(found));
 }
 
 /// Permitted difference of a profile's volume [mm^3] from the counted clay: two walls by pi H
@@ -152,8 +152,9 @@ Result<void> same_solid(const SolidCertificate& stated, const Margins& margins,
   if (stated.proof == Proof::margins) {
     const double safe = margins.safe_rounding_mm();
     if (stated.rounding_mm < safe) return {};
-    return wrong(file, "proof", "that margins cover the rounding of " + in_mm(stated.rounding_mm),
-                 "that they cover less than " + in_mm(safe) + " mm");
+    return wrong(file, "proof",
+                 "that margins cover the rounding of " + nine_digit_text(stated.rounding_mm),
+                 "that they cover less than " + nine_digit_text(safe) + " mm");
   }
   const MeshReport report = completed_check(decoded);
   if (report.sound()) return {};

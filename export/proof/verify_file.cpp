@@ -48,8 +48,8 @@ Result<double> verify_file(std::string_view bytes, MeshFormat format, const Tria
   const double moved =
       reordered ? vertex_distance(mesh, *decoded) : corner_distance(mesh, *decoded);
   if (moved > allowed_mm)
-    return wrong("expected vertices within " + in_mm(allowed_mm) + " mm of their places, found " +
-                 in_mm(moved) + " mm");
+    return wrong("expected vertices within " + nine_digit_text(allowed_mm) +
+                 " mm of their places, found " + nine_digit_text(moved) + " mm");
   if (reordered) {
     // The decoded points differ from those checked before encoding.
     const MeshReport check = completed_check(*decoded);

@@ -157,8 +157,8 @@ std::string four_digits(double value) {
 }
 
 std::string size_and_place(const FilledHole& hole) {
-  return four_digits(hole.extent_mm) + " mm wide at (" + in_mm(hole.place.x) + ", " +
-         in_mm(hole.place.y) + ", " + in_mm(hole.place.z) + ") mm";
+  return four_digits(hole.extent_mm) + " mm wide at (" + nine_digit_text(hole.place.x) + ", " +
+         nine_digit_text(hole.place.y) + ", " + nine_digit_text(hole.place.z) + ") mm";
 }
 
 tl::unexpected<Error> wide_opening(const Patch& patch) {

@@ -95,7 +95,7 @@ Balance balance(double centre_mm, double foot_diameter_mm) noexcept {
   return {centre_mm, std::atan2(0.5 * foot_diameter_mm, centre_mm) * 180.0 / std::numbers::pi};
 }
 
-std::string in_percent(double part) { return in_mm(100.0 * part) + " %"; }
+std::string in_percent(double part) { return nine_digit_text(100.0 * part) + " %"; }
 
 Result<void> check_part(std::string_view name, double value, double below) {
   if (value >= 0.0 && value < below) return {};
@@ -144,9 +144,9 @@ void measure_surface(const Profile& profile, PotState& pot) noexcept {
 
 Result<void> ClayFigures::check() const {
   if (!(density_g_cm3 > 0.0 && density_g_cm3 < 100.0))
-    return failure(
-        ErrorKind::bad_input,
-        "density: expected more than 0 and less than 100 g/cm3, found " + in_mm(density_g_cm3));
+    return failure(ErrorKind::bad_input,
+                   "density: expected more than 0 and less than 100 g/cm3, found " +
+                       nine_digit_text(density_g_cm3));
   return check_part("shrinkage", shrinkage, 1.0)
       .and_then([&] { return check_part("water", water, 1.0); })
       .and_then([&] { return check_part("loss on ignition", ignition_loss, 1.0); })
@@ -161,7 +161,7 @@ Result<void> ClayFigures::check() const {
 
 std::vector<std::pair<std::string, std::string>> assumptions_of(const ClayFigures& clay) {
   std::vector<std::pair<std::string, std::string>> rows{
-      {"density as thrown", in_mm(clay.density_g_cm3) + " g/cm3"}};
+      {"density as thrown", nine_digit_text(clay.density_g_cm3) + " g/cm3"}};
   if (!(clay.shrinkage > 0.0)) return rows;
   const double drying = clay.drying_shrinkage.value_or(0.5 * clay.shrinkage);
   rows.emplace_back("shrinkage", in_percent(clay.shrinkage) + " of each length");

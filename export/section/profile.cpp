@@ -15,11 +15,12 @@ namespace {
 tl::unexpected<Error> touching_in_a_circle(const ClayStack& stack, std::size_t upper) {
   const Ring& below = stack.rings()[upper - 1];
   const Ring& above = stack.rings()[upper];
-  return failure(ErrorKind::unsound,
-                 "rings " + std::to_string(upper - 1) + " and " + std::to_string(upper) +
-                     ": expected them to share clay at y = " + in_mm(level_mm(stack, upper)) +
-                     " mm or to stand apart, found that they touch in the circle of radius " +
-                     in_mm(std::min(below.outer_mm(), above.outer_mm())) + " mm only");
+  return failure(
+      ErrorKind::unsound,
+      "rings " + std::to_string(upper - 1) + " and " + std::to_string(upper) +
+          ": expected them to share clay at y = " + nine_digit_text(level_mm(stack, upper)) +
+          " mm or to stand apart, found that they touch in the circle of radius " +
+          nine_digit_text(std::min(below.outer_mm(), above.outer_mm())) + " mm only");
 }
 
 /// The parts of a piece in which all rings have a bore.

@@ -299,7 +299,7 @@ Result<void> check_range(const std::string& option, double value, bool zero_allo
   if (std::isfinite(value) && (value > 0.0 || (zero_allowed && value == 0.0))) return {};
   return failure(ErrorKind::bad_input, option + ": expected " +
                                            (zero_allowed ? "0 mm or more" : "more than 0 mm") +
-                                           ", found " + in_mm(value) + " mm");
+                                           ", found " + nine_digit_text(value) + " mm");
 }
 
 /// An option for `fair` only.

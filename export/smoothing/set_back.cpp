@@ -121,7 +121,7 @@ Result<Polygon> set_back(const WallLines& lines, double distance_mm, double tole
   const double bottom = open_below ? low : floor->y - distance_mm;
   double top = lines.outer.back().y - distance_mm;
   if (!((solid ? top : bottom) > low) && !open_below)
-    return wrong("a floor thicker than " + in_mm(distance_mm) + " mm");
+    return wrong("a floor thicker than " + nine_digit_text(distance_mm) + " mm");
 
   const Polygon bore_line = mirrored({floor, lines.bore.end()});
   const SetBackWall outer(lines.outer, distance_mm), bore(bore_line, distance_mm);

@@ -175,7 +175,7 @@ Result<void> check_poles(const Polygon& points) {
       return failure(ErrorKind::unsound,
                      "expected a flat surface at the axis, found a cone at "
                      "height " +
-                         in_mm(pole.y) + " mm");
+                         nine_digit_text(pole.y) + " mm");
   }
   return {};
 }
@@ -204,7 +204,7 @@ Result<std::pair<BrepBody, double>> body_of(const Polygon& polygon, StepWalls wa
     if (deviation <= std::max(tolerance_mm, 2.0 * kBrepGridMm)) return std::pair(body, deviation);
   }
   return failure(ErrorKind::bad_input, "expected a tolerance that curves can keep, found " +
-                                           in_mm(tolerance_mm) +
+                                           nine_digit_text(tolerance_mm) +
                                            " mm; straight lines instead of curves are exact");
 }
 

@@ -2,7 +2,7 @@
 #include "core/text.hpp"
 
 #include "core/file_reader.hpp"
-#include "core/number_text.hpp"
+#include "core/number_parsing.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
