@@ -148,6 +148,24 @@ std::vector<FileOption> made_options(const ExportCommand& command) {
   return options;
 }
 
+/// Refuses options that contradict each other. The export refuses them too, but names no option.
+Result<void> check_pairs(const ExportCommand& command) {
+  const solid::ExportOptions& options = command.request.options;
+  const auto refuse = [](const std::string& text) { return failure(ErrorKind::bad_input, text); };
+  for (const auto& [name, mm] : {std::pair("--smooth-length", options.smooth_length_mm),
+                                 {"--lip-fillet", options.lip_fillet_mm}})
+    if (mm.value_or(0.0) > 0.0 && command.smooth != "fair")
+      return refuse(fmt::format("{}: expected --smooth fair, found {}", name, command.smooth));
+  const double drying = options.clay.drying_shrinkage.value_or(0.0);
+  if (drying > options.shrinkage)
+    return refuse(
+        fmt::format("--drying-shrinkage: expected at most --shrinkage, {:g}%, found {:g}%",
+                    100.0 * options.shrinkage, 100.0 * drying));
+  if (command.goal.fired && command.has_goal() && options.shrinkage == 0.0)
+    return tl::make_unexpected(no_effect_without("--fired", "--shrinkage"));
+  return {};
+}
+
 /// Refuses options that have no effect on any of the requested files.
 Result<void> check_options(const ExportCommand& command) {
   const solid::ExportOptions& options = command.request.options;
@@ -180,7 +198,7 @@ Result<void> check_options(const ExportCommand& command) {
         {"--ignition-loss", options.clay.ignition_loss != kUsual.ignition_loss}})
     if (given && options.shrinkage == 0.0)
       return tl::make_unexpected(no_effect_without(name, "--shrinkage"));
-  return {};
+  return check_pairs(command);
 }
 
 /// Standard output gets a binary STL, as from `check -o -`.
@@ -243,7 +261,9 @@ Result<void> complete_request(ExportCommand& command, const Console& console) {
 /// Writes the copies of the pot at the requested precision.
 Result<std::vector<PotCopy>> add_copies(const Pot& pot, ExportCommand& command) {
   const auto copied = command.precision_mm ? rounded_pot(pot, *command.precision_mm) : pot;
-  if (!copied) return failure(copied.error().kind, command.pot + ": " + copied.error().message);
+  if (!copied)
+    return failure(copied.error().kind,
+                   "--precision with " + command.pot + ": " + copied.error().message);
   std::vector<PotCopy> copies;
   for (FileRequest& file : command.request.files) {
     const auto encoding = pot_encoding_of(file.path);

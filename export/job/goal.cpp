@@ -86,8 +86,6 @@ class GoalSearch {
   Result<GoalReport> run() {
     if (pot_.collapse)
       return failure(ErrorKind::bad_input, "goal: expected a standing pot, found a collapsed one");
-    if (auto checked = check_aims(aims_, goal_, options_); !checked)
-      return tl::make_unexpected(checked.error());
     // A length meets its goal by its own factor; each step brings all others closer.
     for (int step = 0; step < kMostSteps; ++step) {
       auto measured = measure();
@@ -204,6 +202,9 @@ std::string text_of(const MetGoal& met) {
 }
 
 Result<GoalReport> scaled_to(const Pot& pot, const Goal& goal, const ExportOptions& options) {
+  // The request alone is at fault, and not the pot.
+  if (auto checked = check_aims(aims_of(goal), goal, options); !checked)
+    return tl::make_unexpected(checked.error());
   return named(GoalSearch(pot, goal, options).run(), options.source);
 }
 

@@ -447,8 +447,23 @@ TEST_F(ExportOptions, DrawingAloneProvesNothing) {
 TEST_F(ExportOptions, AFilletWithoutSmoothingIsRefused) {
   const Ran run_none = run("--lip-fillet 1 --smooth none");
   EXPECT_EQ(run_none.status, 2);
-  EXPECT_NE(run_none.err.find("lip fillet: expected fair smoothing, found none"), std::string::npos)
+  EXPECT_NE(run_none.err.find("--lip-fillet: expected --smooth fair, found none"),
+            std::string::npos)
       << run_none.err;
+}
+
+TEST_F(ExportOptions, ErrorsOfTheRequestNameTheOptionAndNotThePot) {
+  for (const auto& [options, says] :
+       {std::pair("--shrinkage 12% --drying-shrinkage 13%",
+                  "claystack: --drying-shrinkage: expected at most --shrinkage, 12%, found 13%"),
+        {"--smooth none --smooth-length 9",
+         "claystack: --smooth-length: expected --smooth fair, found none"},
+        {"--fired --height 100", "claystack: --fired: expected --shrinkage too"},
+        {"--height 120 --diameter 60 --holds 350ml", "claystack: goal: expected one figure"}}) {
+    const Ran refused = run(options);
+    EXPECT_EQ(refused.status, 2) << options;
+    EXPECT_NE(refused.err.find(says), std::string::npos) << refused.err;
+  }
 }
 
 TEST_F(ExportOptions, JsonReplacesInvalidUtf8InNames) {

@@ -105,6 +105,7 @@ TEST_F(PotCopy, RefusesUnroundablePotsAndWritesNothing) {
          "--precision: expected a pot among the files to write, found none");
   expect("--precision 2 " + pot + " " + copy, "--precision");
   expect("--precision 0.00012345 " + pot + " " + copy + " " + stl, "in whole nanometres");
+  expect("--precision 0.0000123 " + pot + " " + copy, "claystack: --precision with " + pot);
   const std::string coarse = folder.file("d.pot.cbor");
   ASSERT_EQ(claystack("export -q --precision 0.01 " + pot + " " + coarse).status, 0);
   expect("--precision 0.001 " + coarse + " " + copy, "0.01 mm or coarser");
