@@ -170,15 +170,6 @@ void Journal::append(std::string_view lines) {
 
 void Journal::sync_soon() { worker_.wake(); }
 
-Result<void> Journal::sync() {
-  {
-    const std::lock_guard lock(mutex_);
-    if (trouble_) return tl::make_unexpected(*trouble_);
-  }
-  if (synced(descriptor_)) return {};
-  return tl::make_unexpected(system_error(path_, "sync"));
-}
-
 void Journal::discard() {
   const std::lock_guard lock(mutex_);
   (void)unlink(path_.c_str());

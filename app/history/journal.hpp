@@ -37,8 +37,6 @@ class Journal {
 
   void append(std::string_view lines);
   void sync_soon();  ///< does not wait
-  /// Waits until everything is on disk; returns the first error.
-  Result<void> sync();
   /// Deletes the file: the work was saved, or is not needed.
   void discard();
 

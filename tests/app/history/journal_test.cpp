@@ -53,7 +53,7 @@ TEST(Journal, RecordsEveryEvent) {
     work.undo();
     (void)work.add(small_scene(8.0, ToolMode::trim), press_stroke(3)).value();
     work.undo();
-    EXPECT_TRUE(work.journal()->sync());
+    EXPECT_FALSE(work.journal()->trouble());
     record = work.record();
   }
   const auto all = recoverable(folder.path);
@@ -83,7 +83,7 @@ TEST(Journal, HoldsAStrokeFromItsFirstContactWithEarlierPoses) {
     PoseSink& sink = *work.begin_stroke(small_scene()).value().sink;
     test::record({poses.begin(), poses.begin() + 100}, sink, false);
     test::record({poses.begin() + 100, poses.end()}, sink);
-    EXPECT_TRUE(work.journal()->sync());
+    EXPECT_FALSE(work.journal()->trouble());
   }
   Work work = recover(path).value();
   ASSERT_EQ(work.size(), 3u);
@@ -220,7 +220,6 @@ TEST(Journal, AFullDiskDoesNotStopTheWork) {
   EXPECT_EQ(**work.pot(), plainly_thrown(work.record(), 5));
   ASSERT_TRUE(work.journal()->trouble());
   EXPECT_NE(work.journal()->trouble()->message.find(": could not write: "), std::string::npos);
-  EXPECT_FALSE(work.journal()->sync());
 }
 
 TEST(Journal, RecoversEverythingBeforeADamagedLine) {
