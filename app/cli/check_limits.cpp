@@ -8,10 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <numbers>
 #include <utility>
 
 namespace clay::cli {
@@ -62,31 +59,6 @@ Result<void> measure_wall(const PrintedBody& body, const solid::WallLimit& limit
   return {};
 }
 
-/// Undersides that a printer cannot build without support: triangles that face down by more than
-/// the limit, and do not lie on the bed.
-struct Undersides {
-  double area_mm2 = 0.0;
-  double angle_deg = 0.0, at_mm = 0.0;  ///< of the steepest: from the vertical, and its height
-};
-
-Undersides undersides_of(const TriangleMesh& mesh, double limit_deg) {
-  constexpr double kOnBedMm = 0.05;
-  Undersides found;
-  const double bed_mm = solid::extent_of(mesh).low.z;
-  for (const auto& corners : mesh.triangles) {
-    const glm::dvec3 a = mesh.points[corners[0]], b = mesh.points[corners[1]],
-                     c = mesh.points[corners[2]];
-    const glm::dvec3 normal = glm::cross(b - a, c - a);
-    const double twice = glm::length(normal), low = std::min({a.z, b.z, c.z});
-    if (!(normal.z < 0.0) || std::max({a.z, b.z, c.z}) <= bed_mm + kOnBedMm) continue;
-    const double deg = std::asin(std::min(-normal.z / twice, 1.0)) * 180.0 / std::numbers::pi;
-    if (!(deg > limit_deg)) continue;
-    found.area_mm2 += 0.5 * twice;
-    if (deg > found.angle_deg) found.angle_deg = deg, found.at_mm = low - bed_mm;
-  }
-  return found;
-}
-
 }  // namespace
 
 Result<PrintedBody> printed_body(const TriangleMesh& mesh, const CheckCommand& command,
@@ -131,19 +103,17 @@ void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckC
                 fmt::format("too large: {}; {}: at most {:g} x {:g} mm and {:g} mm high ({})",
                             passed, process->name, largest->width_mm, largest->depth_mm,
                             largest->height_mm, largest->source));
-  if (process->overhang && verdict.mesh.closed && !verdict.mesh.oriented) {
-    passed += ", overhangs not measured: some or all faces point into the clay";
-  } else if (const auto& most = process->overhang) {
-    const Undersides steep = undersides_of(body.mesh(), most->max_deg);
-    constexpr double kLeastMm2 = 4.0;  // smaller ones need no support
-    if (steep.area_mm2 > kLeastMm2)
-      return verdict.add(
-          check_name(ProblemKind::overhang), Grade::warn,
-          fmt::format("overhang of up to {:.1f} degrees ({:.3g} cm2 in all, the steepest at a "
-                      "height of {:.1f} mm); {}: at most {:g} without support ({})",
-                      steep.angle_deg, 0.01 * steep.area_mm2, steep.at_mm, process->name,
-                      most->max_deg, most->source));
-    passed += fmt::format(", no overhang above {:g} degrees", most->max_deg);
+  if (const auto& most = process->overhang) {
+    const bool outward = !verdict.mesh.closed || verdict.mesh.oriented;
+    const auto steepest = outward ? solid::steepest_overhang(body.mesh()) : std::nullopt;
+    if (steepest && !most->met_by(steepest->angle_deg))
+      return verdict.add(check_name(ProblemKind::overhang), Grade::warn,
+                         solid::overhang_text(steepest->angle_deg, steepest->height_mm, *process));
+    if (steepest)
+      passed += fmt::format(", overhang of {:.0f} degrees at most", steepest->angle_deg);
+    else
+      passed += outward ? ", overhangs not measured"
+                        : ", overhangs not measured: some or all faces point into the clay";
   }
   if (fits) verdict.add("process", Grade::pass, process->name + ": " + passed);
 }

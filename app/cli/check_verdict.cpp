@@ -207,6 +207,7 @@ std::string check_name(solid::ProblemKind kind) {
     case solid::ProblemKind::overhang:
       return "process";
     case solid::ProblemKind::cavity:
+    case solid::ProblemKind::drain:
     case solid::ProblemKind::bodies:
     case solid::ProblemKind::lip_fillet:
       break;

@@ -176,14 +176,21 @@ void print_smoothing(const Console& console, const ExportReport& report) {
                     report.section.smoothed.taken_mm));
 }
 
+/// Of the round solid; of a collapsed pot, of its mesh.
+solid::PotSize in_files(const ExportReport& report) {
+  if (report.maker) return report.maker->thrown.size;
+  return {report.size.diameter_mm, report.size.height_mm, 0.0};
+}
+
 void print_shrinkage(const Console& console, const ExportReport& report) {
   if (report.prepared.shrinkage == 0.0) return;
   const double fired = 1.0 - report.prepared.shrinkage;
+  const solid::PotSize size = in_files(report);
   console.detail(fmt::format(
-      "enlarged for a shrinkage of {:g} %; across the corners of the facets {:.2f} mm wide and "
-      "{:.2f} mm high in the files, {:.2f} mm wide and {:.2f} mm high after firing",
-      100.0 * report.prepared.shrinkage, report.size.diameter_mm, report.size.height_mm,
-      fired * report.size.diameter_mm, fired * report.size.height_mm));
+      "enlarged for a shrinkage of {:g} %: {:.2f} mm wide and {:.2f} mm high in the files, {:.2f} "
+      "mm wide and {:.2f} mm high after firing",
+      100.0 * report.prepared.shrinkage, size.diameter_mm, size.height_mm, fired * size.diameter_mm,
+      fired * size.height_mm));
 }
 
 void print_solid(const Console& console, const ExportReport& report) {
@@ -241,9 +248,10 @@ Json finish_json(const ExportReport& report) {
 
 Json shrinkage_json(const ExportReport& report) {
   const double fired = 1.0 - report.prepared.shrinkage;
+  const solid::PotSize size = in_files(report);
   return {{"part", report.prepared.shrinkage},
-          {"fired_diameter_mm", fired * report.size.diameter_mm},
-          {"fired_height_mm", fired * report.size.height_mm},
+          {"fired_diameter_mm", fired * size.diameter_mm},
+          {"fired_height_mm", fired * size.height_mm},
           {"fired_volume_mm3", fired * fired * fired * report.volume.solid_mm3}};
 }
 
@@ -298,7 +306,10 @@ Json solid_json(const ExportReport& report) {
   add_smoothing(json, report.section);
   if (report.prepared.shrinkage > 0.0) json["shrinkage"] = shrinkage_json(report);
   if (report.collapsed) json["collapsed"] = collapsed_json(*report.collapsed);
-  if (report.prepared.drilled_mm3 > 0.0) json["drilled_mm3"] = report.prepared.drilled_mm3;
+  if (report.prepared.drain_mm > 0.0) {
+    json["drain_mm"] = report.prepared.drain_mm;
+    json["drilled_mm3"] = report.prepared.drilled_mm3;
+  }
   if (report.section.finish.any()) json["finish"] = finish_json(report);
   if (report.walls.as_steps_mm) json["wall_as_steps_mm"] = *report.walls.as_steps_mm;
   if (!report.walls.parts.empty()) json["wall_parts"] = wall_parts_json(report.walls.parts);
@@ -320,12 +331,12 @@ Json problems_json(const ExportReport& report) {
 
 Json overhang_json(const solid::ProcessReport& process) {
   const solid::Overhang& overhang = *process.overhang;
-  Json json = {{"angle_deg", overhang.angle_deg}, {"at_mm", {overhang.from.rho, overhang.from.y}}};
+  Json json = {{"angle_deg", overhang.angle_deg}, {"at_mm", {overhang.at.rho, overhang.at.y}}};
   if (!process.limits || !process.limits->overhang) return json;
   const solid::OverhangLimit& limit = *process.limits->overhang;
   json["limit_deg"] = limit.max_deg;
   json["source"] = limit.source;
-  json["passes"] = overhang.angle_deg <= limit.max_deg;
+  json["passes"] = limit.met_by(overhang.angle_deg);
   return json;
 }
 
@@ -451,8 +462,8 @@ void print_export(const Console& console, const ExportReport& report,
                   const std::vector<PotCopy>& copies) {
   if (report.has_solid()) print_solid(console, report);
   if (report.prepared.drilled_mm3 > 0.0)
-    console.print(fmt::format("drain hole: {:.3f} cm3 of clay removed",
-                              report.prepared.drilled_mm3 / 1000.0));
+    console.print(fmt::format("drain hole: {:g} mm wide, {:.3f} cm3 of clay removed",
+                              report.prepared.drain_mm, report.prepared.drilled_mm3 / 1000.0));
   for (const auto& [what, clay] : finish_rows(report)) console.print(what + ": " + clay);
   auto copy = copies.begin();
   for (const FileReport& file : report.files) {

@@ -279,7 +279,7 @@ class Page {
       if (const auto& overhang = report_.process.overhang)
         row({"steepest overhang",
              fmt::format("{:.0f} degrees from the vertical at a height of {:.1f} mm",
-                         overhang->angle_deg, overhang->from.y)},
+                         overhang->angle_deg, overhang->at.y)},
             "td", false);
       if (const auto& process = report_.process.limits) fits(*process);
     });

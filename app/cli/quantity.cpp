@@ -62,10 +62,11 @@ Result<double> length_of(std::string_view text, double low_mm, double high_mm) {
                              names_of(kLengthUnits), text));
 }
 
-CLI::Validator length_within(double low_mm, double high_mm) {
+CLI::Validator length_within(double low_mm, double high_mm, OrNone zero) {
   return {[=](std::string& text) {
-            const auto length = length_of(text, low_mm, high_mm);
-            if (!length) return length.error().message;
+            const bool none = zero == OrNone::yes && number_in(text, kLengthUnits) == 0.0;
+            const auto length = none ? Result<double>(0.0) : length_of(text, low_mm, high_mm);
+            if (!length) return length.error().message + (zero == OrNone::yes ? "; or 0" : "");
             text = fmt::format("{}", *length);
             return std::string();
           },

@@ -36,8 +36,13 @@ Result<double> quantity_of(std::string_view text, std::span<const Unit> units);
 /// kind `bad_input` state limits and units.
 Result<double> length_of(std::string_view text, double low_mm, double high_mm);
 
+/// The smallest length of a part that a section can have [mm].
+inline constexpr double kSmallestPartMm = 1e-3;
+/// Whether 0 is read, too: the part is absent.
+enum class OrNone : bool { no, yes };
+
 /// Replaces a text by the length in mm, as a number.
-[[nodiscard]] CLI::Validator length_within(double low_mm, double high_mm);
+[[nodiscard]] CLI::Validator length_within(double low_mm, double high_mm, OrNone zero = OrNone::no);
 /// The name of a value of a length in the help.
 inline constexpr const char* kLengthName = "LENGTH";
 
@@ -52,6 +57,15 @@ CLI::Option* add_length(CLI::App& command, const std::string& name, Value& value
   return command.add_option(name, value, help)
       ->type_name(kLengthName)
       ->transform(length_within(low_mm, high_mm));
+}
+
+/// An option for a part of the section: 0, or a length from kSmallestPartMm.
+template <class Value>
+CLI::Option* add_part_length(CLI::App& command, const std::string& name, Value& value,
+                             const std::string& help, double high_mm) {
+  return command.add_option(name, value, help)
+      ->type_name(kLengthName)
+      ->transform(length_within(kSmallestPartMm, high_mm, OrNone::yes));
 }
 
 }  // namespace clay::cli

@@ -1,6 +1,7 @@
 #include "export/job/collapsed_export.hpp"
 
 #include "claystack/engine/clay.hpp"
+#include "claystack/export/check.hpp"
 #include "claystack/export/solid.hpp"
 #include "claystack/export/walls.hpp"
 #include "core/content_hash.hpp"
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -62,7 +64,8 @@ class CollapsedExport {
     return check_options(options_)
         .and_then([&] { return make_parts(); })
         .and_then([&] { return unite(); })
-        .and_then([&] { return meet_budget(); });
+        .and_then([&] { return meet_budget(); })
+        .map([&] { measure_overhang(); });
   }
 
   Result<void> make_parts() {
@@ -144,6 +147,13 @@ class CollapsedExport {
   void thin_walls_by(double moved_mm) {
     double& wall_mm = report_.walls.min_wall_mm;
     wall_mm = std::max(0.0, wall_mm - 2.0 * moved_mm);
+  }
+
+  void measure_overhang() {
+    const auto found = stages_.run("overhang", [&] { return steepest_overhang(mesh_); });
+    if (found)
+      report_.process.overhang = {found->angle_deg,
+                                  {glm::length(glm::dvec2(found->at)), found->height_mm}};
   }
 
   void describe_volume(double volume_mm3) {

@@ -46,17 +46,13 @@ std::string text_of(const Cavity& cavity) {
 
 namespace {
 
-std::optional<Problem> steep_overhang(const ProcessReport& process) {
-  const auto& overhang = process.overhang;
-  if (!overhang || !process.limits || !process.limits->overhang ||
-      overhang->angle_deg <= process.limits->overhang->max_deg)
+std::optional<Problem> steep_overhang(const ExportReport& report) {
+  const auto& [limits, overhang] = report.process;
+  if (!overhang || !limits || !limits->overhang || limits->overhang->met_by(overhang->angle_deg))
     return std::nullopt;
-  return Problem{
-      fmt::format("overhang of {:.1f} degrees at a height of {:.1f} mm; {}: at most {:g} without "
-                  "support ({})",
-                  overhang->angle_deg, overhang->from.y, process.limits->name,
-                  process.limits->overhang->max_deg, process.limits->overhang->source),
-      overhang->from, false, ProblemKind::overhang, overhang->angle_deg};
+  return Problem{overhang_text(overhang->angle_deg, overhang->at.y, *limits),
+                 report.collapsed ? std::nullopt : std::optional(overhang->at), false,
+                 ProblemKind::overhang, overhang->angle_deg};
 }
 
 std::optional<Problem> too_large(const ExportReport& report) {
@@ -115,6 +111,15 @@ std::vector<Problem> cavities_of(const ExportReport& report) {
   return cavities;
 }
 
+std::optional<Problem> narrow_drain(const ExportReport& report) {
+  const double drain_mm = report.prepared.drain_mm;
+  if (drain_mm == 0.0 || drain_mm >= kLeastDrainMm) return std::nullopt;
+  return Problem{
+      fmt::format("drain hole of {:g} mm: it may close below {:g} mm", drain_mm, kLeastDrainMm),
+      std::nullopt, report.process.limits && report.process.limits->fired, ProblemKind::drain,
+      drain_mm};
+}
+
 /// The pieces of a standing pot are one above the other.
 std::optional<Problem> several_bodies(const ExportReport& report) {
   const auto& shapes = report.section.shapes();
@@ -141,7 +146,8 @@ std::vector<Problem> problems_with(const ExportReport& report, std::optional<std
   }
   if (auto size = too_large(report)) problems.push_back(std::move(*size));
   for (Problem& cavity : cavities_of(report)) problems.push_back(std::move(cavity));
-  if (auto steep = steep_overhang(report.process)) problems.push_back(std::move(*steep));
+  if (auto narrow = narrow_drain(report)) problems.push_back(std::move(*narrow));
+  if (auto steep = steep_overhang(report)) problems.push_back(std::move(*steep));
   if (auto bodies = several_bodies(report)) problems.push_back(std::move(*bodies));
   return problems;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,26 @@ WideQuanta crown_of(const ClayStack& stack, const Ring& larger_top) {
   const double part =
       static_cast<double>(stack.crown()) / static_cast<double>(stack.rings().back().volume());
   return std::min(times(larger_top.volume(), part), larger_top.volume() - 1);
+}
+
+/// Float32 does not separate the points of a smaller part, and the set-back is made within the
+/// tolerance.
+Result<void> check_parts(const ExportOptions& options) {
+  constexpr double kSmallestMm = 1e-3, kOfTolerance = 0.1;
+  const Finish& finish = options.finish;
+  const auto check = [](const char* part, double mm, double least_mm) -> Result<void> {
+    if (mm == 0.0 || mm >= least_mm) return {};
+    return failure(ErrorKind::bad_input, std::string(part) + ": expected 0, or at least " +
+                                             nine_digit_text(least_mm) + " mm, found " +
+                                             nine_digit_text(mm) + " mm");
+  };
+  return check("floor fillet", finish.floor_fillet_mm, kSmallestMm)
+      .and_then(
+          [&] { return check("lip fillet", options.lip_fillet_mm.value_or(0.0), kSmallestMm); })
+      .and_then([&] {
+        return check("glaze allowance", finish.glaze_mm,
+                     std::max(kSmallestMm, kOfTolerance * options.tolerance_mm));
+      });
 }
 
 /// Number of rings below the bottom of the uppermost closed cavity; 0 if there is none.
@@ -114,16 +135,18 @@ Result<PreparedPot> prepare(const Pot& pot, const ExportOptions& options) {
     return failure(ErrorKind::bad_input, "drain: expected a standing pot, found a collapsed one");
   ClayFigures clay = options.clay;
   clay.shrinkage = options.shrinkage;
-  return enlarged(pot, options.shrinkage)
+  return check_parts(options)
+      .and_then([&] { return enlarged(pot, options.shrinkage); })
       .and_then([&](Pot larger) {
         clay.density_g_cm3 = larger.density_g_cm3;
         return clay.check().map([&] { return std::move(larger); });
       })
       .and_then([&](Pot larger) -> Result<PreparedPot> {
-        PreparedPot prepared{std::move(larger), {options.shrinkage, 0.0, 0.0}, std::nullopt};
+        PreparedPot prepared{std::move(larger), {.shrinkage = options.shrinkage}, std::nullopt};
         if (!options.drain_mm) return prepared;
         return drain(prepared.pot.stack, *options.drain_mm).map([&](DrainedStack drained) {
           prepared.pot.stack = std::move(drained.stack);
+          prepared.done.drain_mm = *options.drain_mm;
           prepared.done.drilled_mm3 = drained.drilled_mm3;
           return std::move(prepared);
         });

@@ -2,9 +2,9 @@
 
 #include "core/cancel.hpp"
 #include "export/repair/surface_making.hpp"
-#include "export/repair/surface_samples.hpp"
 #include "export/repair/winding_ray.hpp"
 #include "export/solid/shell_volumes.hpp"
+#include "export/solid/surface_samples.hpp"
 
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "export/repair/wall_gaps.hpp"
 
 #include "core/cancel.hpp"
-#include "export/repair/surface_samples.hpp"
 #include "export/repair/winding_ray.hpp"
+#include "export/solid/surface_samples.hpp"
 
 #include <glm/geometric.hpp>
 

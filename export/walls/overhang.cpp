@@ -1,77 +1,132 @@
 #include "claystack/export/walls.hpp"
+#include "export/walls/steepest_places.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <vector>
 
 namespace clay::solid::inline walls {
 namespace {
 
-double distance(const ProfilePoint& a, const ProfilePoint& b) {
-  return std::hypot(b.rho - a.rho, b.y - a.y);
+constexpr double kUnheld = std::numeric_limits<double>::infinity();
+constexpr double kSpacingMm = 0.004;
+constexpr double kMostPlaces = 100'000, kMostBands = 100'000;
+
+struct FaceLine {
+  ProfilePoint from, to;
+  [[nodiscard]] double length() const { return std::hypot(to.rho - from.rho, to.y - from.y); }
+  [[nodiscard]] ProfilePoint at(double part) const {
+    return {std::lerp(from.rho, to.rho, part), std::lerp(from.y, to.y, part)};
+  }
+};
+
+std::vector<FaceLine> edges_of(const Profile& profile) {
+  std::vector<FaceLine> edges;
+  for (const Polygon& polygon : profile.pieces)
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      edges.push_back({polygon[i], polygon[(i + 1) % polygon.size()]});
+  return edges;
 }
 
-/// The steepest mean angle over stretches that begin at each vertex of a polygon. Counterclockwise,
-/// an underside runs away from the axis.
-class Undersides {
+/// The clay below a place. In a solid of revolution the nearest clay of each level is in the
+/// section of the place.
+class ClayBelow {
  public:
-  Undersides(const Polygon& polygon, double bed) : polygon_(polygon), bed_(bed) {}
-
-  void search(Overhang& steepest) {
-    double length = 0.0;
-    std::size_t end = 0;
-    for (std::size_t begin = 0; begin < polygon_.size(); ++begin) {
-      if (end < begin) end = begin, length = 0.0;
-      while (length < kOverhangLengthMm && end < begin + polygon_.size())
-        length += distance(at(end), at(end + 1)), ++end;
-      measure(begin, end, length, steepest);
-      length -= distance(at(begin), at(begin + 1));
+  explicit ClayBelow(const std::vector<FaceLine>& edges) : edges_(edges) {
+    bed_ = kUnheld;
+    double top = -kUnheld;
+    for (const FaceLine& edge : edges) {
+      bed_ = std::min({bed_, edge.from.y, edge.to.y});
+      top = std::max({top, edge.from.y, edge.to.y});
+    }
+    band_mm_ = std::max(kOverhangDepthMm, (top - bed_) / kMostBands);
+    bands_.resize(band(top) + 1);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const auto [low, high] = std::minmax(edges[i].from.y, edges[i].to.y);
+      for (std::size_t b = band(low); b <= band(high); ++b) bands_[b].push_back(i);
     }
   }
 
+  /// The least slope of a line from the place down to clay or to the bed.
+  [[nodiscard]] double slope(const ProfilePoint& place) const {
+    const double low = place.y - kOverhangDepthMm;
+    if (low <= bed_) return 0.0;
+    double least = kUnheld;
+    for (std::size_t b = band(low); b <= band(place.y); ++b)
+      for (const std::size_t i : bands_[b]) least = std::min(least, slope(place, edges_[i], low));
+    return least;
+  }
+
  private:
-  [[nodiscard]] const ProfilePoint& at(std::size_t i) const {
-    return polygon_[i % polygon_.size()];
+  [[nodiscard]] std::size_t band(double y) const {
+    return static_cast<std::size_t>((y - bed_) / band_mm_);
   }
 
-  /// From vertex `begin` along kOverhangLengthMm of the `length` up to vertex `end`.
-  void measure(std::size_t begin, std::size_t end, double length, Overhang& steepest) const {
-    if (end == begin) return;
-    const double last = distance(at(end - 1), at(end));
-    const double part =
-        last > 0.0 ? std::clamp((length - kOverhangLengthMm) / last, 0.0, 1.0) : 0.0;
-    const ProfilePoint from = at(begin);
-    const ProfilePoint to{std::lerp(at(end).rho, at(end - 1).rho, part),
-                          std::lerp(at(end).y, at(end - 1).y, part)};
-    if (from.y <= bed_ && at(begin + 1).y <= bed_) return;
-    const double chord = distance(from, to);
-    // A stretch around an edge or a lip is no underside.
-    if (chord < 0.9 * std::min(length, kOverhangLengthMm)) return;
-    const double angle = std::asin(std::clamp((to.rho - from.rho) / chord, -1.0, 1.0));
-    const double angle_deg = angle * 180.0 / std::numbers::pi;
-    if (angle_deg > steepest.angle_deg) steepest = {angle_deg, from, to};
+  /// Along a straight edge the slope is least at an end, or 0 where it passes below the place.
+  static double slope(const ProfilePoint& place, const FaceLine& edge, double low) {
+    constexpr double kRoundingMm = 1e-6;  // of the place's own level
+    const double high = place.y - kRoundingMm, rise = edge.to.y - edge.from.y;
+    const auto [bottom, top] = std::minmax(edge.from.y, edge.to.y);
+    if (bottom > high || top < low) return kUnheld;
+    const auto part = [&](double y) { return std::clamp((y - edge.from.y) / rise, 0.0, 1.0); };
+    const ProfilePoint a = rise == 0.0 ? edge.from : edge.at(part(low));
+    const ProfilePoint b = rise == 0.0 ? edge.to : edge.at(part(high));
+    const double aside_a = a.rho - place.rho, aside_b = b.rho - place.rho;
+    if (aside_a * aside_b <= 0.0) return 0.0;
+    return std::min(std::abs(aside_a) / (place.y - a.y), std::abs(aside_b) / (place.y - b.y));
   }
 
-  const Polygon& polygon_;
-  double bed_;
+  const std::vector<FaceLine>& edges_;
+  double bed_ = 0.0, band_mm_ = 0.0;
+  std::vector<std::vector<std::size_t>> bands_;
 };
+
+/// Of a polygon that runs counterclockwise, the edges that run away from the axis, in pieces.
+std::vector<UndersidePart<FaceLine>> undersides(const std::vector<FaceLine>& edges) {
+  const auto faces_down = [](const FaceLine& edge) { return edge.to.rho > edge.from.rho; };
+  double length = 0.0;
+  for (const FaceLine& edge : edges)
+    if (faces_down(edge)) length += edge.length();
+  const double spacing = std::max(kSpacingMm, length / kMostPlaces);
+  std::vector<UndersidePart<FaceLine>> parts;
+  for (const FaceLine& edge : edges) {
+    if (!faces_down(edge)) continue;
+    const double rise = std::abs(edge.to.y - edge.from.y),
+                 count = std::ceil(edge.length() / spacing);
+    const double slope = rise > 0.0 ? (edge.to.rho - edge.from.rho) / rise : kUnheld;
+    for (double i = 0.0; i < count; ++i) {
+      const FaceLine piece{edge.at(i / count), edge.at((i + 1.0) / count)};
+      parts.push_back(
+          {slope, std::numbers::pi * (piece.from.rho + piece.to.rho) * piece.length(), piece});
+    }
+  }
+  return parts;
+}
 
 }  // namespace
 
 Overhang steepest_overhang(const Profile& profile) {
-  double bed = std::numeric_limits<double>::infinity(), top = -bed;
-  for (const Polygon& polygon : profile.pieces)
-    for (const ProfilePoint& point : polygon) {
-      bed = std::min(bed, point.y);
-      top = std::max(top, point.y);
-    }
-  Overhang steepest;
-  const double rounding = 1e-9 * (top - bed);
-  for (const Polygon& polygon : profile.pieces)
-    Undersides(polygon, bed + rounding).search(steepest);
-  return steepest;
+  const std::vector<FaceLine> edges = edges_of(profile);
+  if (edges.empty()) return {};
+  const ClayBelow clay(edges);
+  // The end that is farther from clay: outside the outer one, in a bore the inner one.
+  const auto steepest = steepest_part(undersides(edges), [&](const FaceLine& piece) {
+    return std::max(clay.slope(piece.from), clay.slope(piece.to));
+  });
+  if (!steepest) return {};
+  return {std::atan(steepest->slope) * 180.0 / std::numbers::pi, steepest->place.at(0.5)};
+}
+
+std::string overhang_text(double angle_deg, double height_mm, const ProcessLimits& process) {
+  return fmt::format(
+      "overhang of {:.1f} degrees at a height of {:.1f} mm; {}: at most {:g} without support ({})",
+      angle_deg, height_mm, process.name, process.overhang->max_deg, process.overhang->source);
 }
 
 }  // namespace clay::solid::inline walls

@@ -238,6 +238,8 @@ std::string text_of(const solid::Problem& problem, const PotCheck& check, Length
       return "too large for " + process;
     case solid::ProblemKind::cavity:
       return fmt::format("closed cavity at a height of {}", length_text(y_mm, unit));
+    case solid::ProblemKind::drain:
+      return fmt::format("the drain hole is only {} wide", length_text(problem.figure, unit));
     case solid::ProblemKind::overhang:
       return fmt::format("overhang of {:.1f} degrees at a height of {}: print it with supports",
                          problem.figure, length_text(y_mm, unit));

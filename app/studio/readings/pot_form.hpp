@@ -2,6 +2,7 @@
 // The form of a pot, from its rings: figures for which a process sets no limit.
 
 #include "claystack/engine/clay.hpp"
+#include "claystack/export/job.hpp"
 
 #include <cstddef>
 #include <glm/vec2.hpp>
@@ -10,7 +11,7 @@
 namespace clay::studio {
 
 /// The least diameter of a mouth through which a hollow can be filled or drained [mm].
-inline constexpr double kLeastMouthMm = 2.0;
+inline constexpr double kLeastMouthMm = solid::kLeastDrainMm;
 
 struct PotForm {
   bool hollow = false;                ///< some ring has a bore

@@ -422,7 +422,62 @@ TEST(ExportDrain, OpensACavityAndReportsTheRemovedClay) {
   EXPECT_TRUE(drained.json().at("cavities").empty());
   EXPECT_EQ(drained.json().at("shells"), 1);
   EXPECT_NEAR(drained.json().at("drilled_mm3"), std::numbers::pi * 9.0 * 10.0, 1e-6);
+  EXPECT_EQ(drained.json().at("drain_mm"), 6.0);
   EXPECT_EQ(claystack("check " + stl).status, 0);
+  const Ran shown = claystack("export --drain 6 " + pot + " " + stl);
+  EXPECT_NE(shown.out.find("drain hole: 6 mm wide, 0.283 cm3 of clay removed"), std::string::npos)
+      << shown.out;
+}
+
+TEST(ExportDrain, OfLessThanTwoMillimetresMayClose) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("box.pot.json");
+  write_text(pot, kBox);
+  const auto drained = [&](const std::string& options) {
+    return claystack("export " + pot + " " + folder.file("box.stl") + " --drain " + options);
+  };
+  const std::string narrow = "drain hole of 0.001 mm: it may close below 2 mm";
+  const Ran fired = drained("0.001 --process stoneware");
+  EXPECT_EQ(fired.status, 1) << fired.err;
+  EXPECT_NE(fired.err.find(narrow), std::string::npos) << fired.err;
+  const Ran printed = drained("0.001 --process fdm");
+  EXPECT_EQ(printed.status, 0) << printed.err;
+  EXPECT_NE(printed.err.find("warning: " + narrow), std::string::npos) << printed.err;
+  const Ran wide = drained("2 --process stoneware");
+  EXPECT_EQ(wide.status, 0) << wide.err;
+  EXPECT_EQ(wide.err.find("drain hole of"), std::string::npos) << wide.err;
+}
+
+/// Smaller parts than float32 separates, and set-backs within the tolerance.
+TEST_F(ExportOptions, RefusesPartsThatAreTooSmall) {
+  for (const char* option : {"--floor-fillet", "--lip-fillet", "--glaze-allowance"}) {
+    for (const char* small : {"1e-9", "0.0009", "-1"}) {
+      const Ran refused = run(std::string(option) + ' ' + small);
+      EXPECT_EQ(refused.status, 2) << option << ' ' << small << refused.err;
+      EXPECT_NE(refused.err.find(std::string(option) + ": expected a length from 0.001 to "),
+                std::string::npos)
+          << refused.err;
+      EXPECT_NE(refused.err.find("; or 0"), std::string::npos) << refused.err;
+    }
+    EXPECT_EQ(run(std::string(option) + " 0").status, 0) << option;
+    EXPECT_EQ(run(std::string(option) + " 0.005").status, 0) << option;
+  }
+  const Ran coarse = run("--glaze-allowance 0.01 --tolerance 0.2");
+  EXPECT_EQ(coarse.status, 2);
+  EXPECT_NE(coarse.err.find("glaze allowance: expected 0, or at least 0.02 mm, found 0.01 mm"),
+            std::string::npos)
+      << coarse.err;
+}
+
+TEST_F(ExportOptions, StatesOneFiredSize) {
+  for (const std::string facets : {"", " --segments 3"}) {
+    const auto json = run("--json --shrinkage 10%" + facets).json();
+    const auto& fired = json.at("maker").at("fired");
+    EXPECT_NEAR(json.at("shrinkage").at("fired_diameter_mm").get<double>(),
+                fired.at("diameter_mm").get<double>(), 1e-9);
+    EXPECT_NEAR(json.at("shrinkage").at("fired_height_mm").get<double>(),
+                fired.at("height_mm").get<double>(), 1e-9);
+  }
 }
 
 TEST_F(ExportOptions, WritesNothingIfOneFileCannotBeWritten) {

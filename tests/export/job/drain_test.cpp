@@ -1,10 +1,12 @@
 #include "export/job/prepare.hpp"
 
+#include "claystack/export/job.hpp"
 #include "claystack/export/section.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <gtest/gtest.h>
 #include <numbers>
+#include <string>
 
 namespace clay::solid {
 namespace {
@@ -40,6 +42,25 @@ TEST(Drain, RefusesUnsupportedRequests) {
   const auto wide = drain(stack_of(2.0, {{30, 0}, {9, 0}, {30, 8}, {30, 0}}), 18.0);
   ASSERT_FALSE(wide);
   EXPECT_NE(wide.error().message.find("ring 1"), std::string::npos);
+}
+
+TEST(Parts, AreAbsentOrLargeEnoughForTheirFile) {
+  const Pot pot = shapes::pot_of(stack_of(2.0, {{30, 0}, {30, 0}, {30, 24}, {30, 24}, {30, 24}}));
+  const auto refusal = [&](const ExportOptions& options) {
+    const auto report = run_export(pot, {}, options);
+    return report ? std::string() : report.error().message;
+  };
+  ExportOptions options;
+  options.finish.floor_fillet_mm = 1e-4;
+  EXPECT_EQ(refusal(options), "floor fillet: expected 0, or at least 0.001 mm, found 0.0001 mm");
+  options = {};
+  options.lip_fillet_mm = 1e-4;
+  EXPECT_EQ(refusal(options), "lip fillet: expected 0, or at least 0.001 mm, found 0.0001 mm");
+  options = {};
+  options.finish.glaze_mm = 0.0019;
+  EXPECT_EQ(refusal(options), "glaze allowance: expected 0, or at least 0.002 mm, found 0.0019 mm");
+  options.finish.glaze_mm = 0.002;
+  EXPECT_EQ(refusal(options), "");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
-// The use of a foreign mesh: whether it prints without being sound, and how thin its walls are.
+// The use of a foreign mesh: whether it prints without being sound, its undersides, and how thin
+// its walls are.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/proof.hpp"
@@ -35,6 +36,18 @@ struct HangingParts {
 /// where the clay is.
 [[nodiscard]] std::optional<HangingParts> hanging_parts(const TriangleMesh& mesh,
                                                         const MeshReport& report);
+
+/// The overhang of a mesh, z up.
+struct MeshOverhang {
+  double angle_deg = 0.0;  ///< 0 without undersides
+  glm::dvec3 at{0.0};      ///< [mm]
+  double height_mm = 0.0;  ///< of `at` above the bed
+};
+
+/// By the same rule as `steepest_overhang` of a profile. The places are 100,000 points, evenly
+/// distributed over the area of all triangles that face down; the bed is the lowest level. Empty if
+/// a point of a triangle is not finite, or an index out of range.
+[[nodiscard]] std::optional<MeshOverhang> steepest_overhang(const TriangleMesh& mesh);
 
 // ---- sampled walls -------------------------------------------------------------------
 // The wall of a mesh that has no profile: sampled at many points, not bounded.

@@ -197,9 +197,13 @@ struct ExportRequest {
 // The results of the stages. All lengths and volumes are those of the written solid, enlarged for
 // shrinkage.
 
+/// A printer or glaze may close a narrower drain hole [mm].
+inline constexpr double kLeastDrainMm = 2.0;
+
 /// Scale and drain.
 struct Preparation {
   double shrinkage = 0.0;           ///< as requested, 0 to below 1
+  double drain_mm = 0.0;            ///< diameter of the hole that opens cavities; 0: none
   double drilled_mm3 = 0.0;         ///< clay removed for the drain
   double counted_volume_mm3 = 0.0;  ///< volume of the stack, after drilling and finishing
 };
@@ -316,7 +320,7 @@ struct ExportReport {
 /// The drawing of a standing pot at 1:1, as in an .svg.
 [[nodiscard]] std::string drawing_svg(const ExportReport& report, const ExportOptions& options);
 
-enum class ProblemKind { thin_wall, too_large, cavity, overhang, bodies, lip_fillet };
+enum class ProblemKind { thin_wall, too_large, cavity, drain, overhang, bodies, lip_fillet };
 
 /// A problem for printing, with its place on the section of the written solid, if it has one.
 struct Problem {
@@ -324,12 +328,15 @@ struct Problem {
   std::optional<ProfilePoint> at;
   bool fails = true;  ///< else a warning
   ProblemKind kind = ProblemKind::thin_wall;
-  double figure = 0.0;  ///< of a thin wall its thickness [mm], of an overhang its angle [deg]
+  /// Of a thin wall its thickness [mm], of a drain hole its diameter [mm], of an overhang its angle
+  /// [deg].
+  double figure = 0.0;
 };
 
-/// Fails: a wall below the limit, a size above it, a closed cavity in a fired process. Warnings:
-/// without a limit a wall that no process allows, other closed cavities, overhangs above the
-/// limit, several bodies or pieces, in a file a lip with a smaller fillet than requested.
+/// Fails: a wall below the limit, a size above it, in a fired process a closed cavity and a drain
+/// hole narrower than kLeastDrainMm. Warnings: without a limit a wall that no process allows, other
+/// closed cavities and narrow drain holes, overhangs above the limit, several bodies or pieces, in
+/// a file a lip with a smaller fillet than requested.
 [[nodiscard]] std::vector<Problem> problems_of(const ExportReport& report);
 /// The same for the solid, of which no mesh need be written.
 [[nodiscard]] std::vector<Problem> problems_of_solid(const ExportReport& report);

@@ -146,6 +146,10 @@ struct WallLimit {
 struct OverhangLimit {
   double max_deg = 90.0;
   std::string source;
+
+  /// So that an underside drawn at the limit passes although facets and rounding make it a little
+  /// steeper: by up to 0.1 degrees.
+  [[nodiscard]] bool met_by(double angle_deg) const noexcept { return angle_deg <= max_deg + 0.1; }
 };
 
 /// The smallest radius of edges: sharp ones chip.
@@ -212,18 +216,33 @@ struct WallDemand {
 
 // ---- overhang ------------------------------------------------------------------------
 
-/// An underside of a section, printed upright.
+// The angle of a place on an underside, printed upright, is that of the face there [deg from the
+// vertical: 0 for a wall, 90 for a ceiling], or, if that is less and at most kHeldDeg, of the
+// straight line nearest to the vertical down to clay that is at most kOverhangDepthMm lower. So
+// each step of a staircase is held by those below it, and a ledge is held that is narrower than the
+// depth times the tangent of the limit. The bed holds all that is at most kOverhangDepthMm above
+// it. The overhang of a solid is the largest angle that places of kOverhangAreaMm2 together reach.
+
+/// About two layers of a filament printer.
+inline constexpr double kOverhangDepthMm = 0.5;
+/// Clay within kOverhangDepthMm of height and 10 times as far aside.
+inline constexpr double kHeldDeg = 84.3;
+/// Smaller undersides need no support.
+inline constexpr double kOverhangAreaMm2 = 4.0;
+
 struct Overhang {
-  double angle_deg = 0.0;  ///< from the vertical: 0 for a wall, 90 for a ceiling
-  ProfilePoint from, to;
+  double angle_deg = 0.0;  ///< 0 without undersides
+  ProfilePoint at;
 };
 
-/// Boundary over which the angle of an underside is the mean: steps and rounded edges below this
-/// length do not count [mm].
-inline constexpr double kOverhangLengthMm = 2.0;
-
-/// The steepest underside of the profile, apart from that on the bed, its lowest level.
+/// Of the solid of revolution of a profile; the bed is its lowest level. Places are examined every
+/// 0.004 mm of the section, less closely along more than 400 mm of undersides.
 [[nodiscard]] Overhang steepest_overhang(const Profile& profile);
+
+/// "overhang of 51.2 degrees at a height of 6.6 mm; fdm: at most 45 without support (SOURCE)". The
+/// process has a limit.
+[[nodiscard]] std::string overhang_text(double angle_deg, double height_mm,
+                                        const ProcessLimits& process);
 
 /// "3.440 mm, expected at least 3.000 mm (SOURCE)".
 [[nodiscard]] std::string wall_text(double thinnest_mm, const WallLimit& limit);

@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-namespace clay::solid::inline repair {
+namespace clay::solid {
 
 /// Points on triangles, spread evenly over their area. They do not depend on the pose.
 class SurfaceSamples {
@@ -32,4 +32,4 @@ class SurfaceSamples {
   AreaShares shares_;
 };
 
-}  // namespace clay::solid::inline repair
+}  // namespace clay::solid

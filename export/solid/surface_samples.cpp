@@ -1,10 +1,10 @@
-#include "export/repair/surface_samples.hpp"
+#include "export/solid/surface_samples.hpp"
 
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-namespace clay::solid::inline repair {
+namespace clay::solid {
 namespace {
 
 std::vector<std::uint32_t> all_of(const TriangleMesh& mesh) {
@@ -45,4 +45,4 @@ glm::dvec3 SurfaceSamples::place(std::size_t sample) const {
          w.y * (mesh_.points[c] - mesh_.points[a]);
 }
 
-}  // namespace clay::solid::inline repair
+}  // namespace clay::solid
