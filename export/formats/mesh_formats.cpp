@@ -6,6 +6,7 @@
 #include "export/formats/text_scanner.hpp"
 
 #include <algorithm>
+#include <new>
 #include <vector>
 
 namespace clay::solid::inline formats {
@@ -47,8 +48,10 @@ Result<MeshFormat> mesh_format_named(std::string_view name) {
                  std::string("expected the name of a mesh format, found ").append(name));
 }
 
-Result<std::string> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
-                                const FileContents& contents) {
+namespace {
+
+Result<std::string> encoded(const TriangleMesh& mesh, MeshFormat format,
+                            const FileContents& contents) {
   switch (format) {
     case MeshFormat::stl_binary:
       return encode_stl_binary(mesh);
@@ -69,10 +72,8 @@ Result<std::string> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
       break;
   }
   return failure(ErrorKind::bad_input,
-                 std::string("cannot write ").append(facts_of(format).ending));
+                 std::string("cannot write the format ").append(facts_of(format).name));
 }
-
-namespace {
 
 /// Enough for known_kind.
 constexpr std::size_t kHeadBytes = 4096;
@@ -125,6 +126,14 @@ Result<TriangleMesh> decode_as(MeshFormat format, std::string_view bytes, std::s
 }
 
 }  // namespace
+
+Result<std::string> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
+                                const FileContents& contents) try {
+  return encoded(mesh, format, contents);
+} catch (const std::bad_alloc&) {
+  return failure(ErrorKind::io,
+                 std::string("not enough memory for the mesh as ").append(facts_of(format).name));
+}
 
 Result<TriangleMesh> decode_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
                                  const ReadOptions& options) {

@@ -2,6 +2,7 @@
 
 #include "core/text.hpp"
 #include "export/formats/mesh_limits.hpp"
+#include "export/formats/text_scanner.hpp"
 
 #include <algorithm>
 #include <array>
@@ -46,12 +47,6 @@ std::optional<Number> number_named(std::string_view name) {
 }
 
 /// Shortened, and without the control characters of terminals.
-std::string quoted(std::string_view text) {
-  std::string shown = "'";
-  for (const char c : text.substr(0, 40)) shown += c >= ' ' && c <= '~' ? c : '?';
-  return shown + "'";
-}
-
 class HeaderReader {
  public:
   HeaderReader(std::string_view file, std::string_view name) : file_(file), name_(name) {}

@@ -22,7 +22,7 @@ std::string real(double number, int digits = 9) {
 }
 
 /// A STRING: quotes are doubled, everything but printable ASCII becomes a question mark.
-std::string quoted(std::string_view words) {
+std::string step_string(std::string_view words) {
   std::string text = "'";
   for (const char c : words) {
     text += c >= ' ' && c <= '~' ? c : '?';
@@ -278,13 +278,13 @@ void add_product(StepData& data, const Ref& shape, const std::string& name) {
 
 std::string encode_step(const RevolvedBrep& brep, std::string_view name) {
   StepData data;
-  const std::string title = quoted(name);
+  const std::string title = step_string(name);
   std::vector<Ref> items{data.frame(0.0)};
   for (const BrepBody& body : brep.bodies) items.push_back(solid_of(data, body, title));
   const Ref shape = data.add("ADVANCED_BREP_SHAPE_REPRESENTATION(", title, ",", listed(items), ",",
                              units(data), ")");
   add_product(data, shape, title);
-  const std::string program = quoted("claystack " CLAYSTACK_VERSION);
+  const std::string program = step_string("claystack " CLAYSTACK_VERSION);
   return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME(" + title +
          ",'1980-01-01T00:00:00',(''),('')," + program + "," + program +
          ",'');\nFILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n" +

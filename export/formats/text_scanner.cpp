@@ -1,5 +1,7 @@
 #include "export/formats/text_scanner.hpp"
 
+#include "core/text.hpp"
+
 #include "core/cancel.hpp"
 #include "core/number_parsing.hpp"
 #include "export/formats/mesh_limits.hpp"
@@ -41,12 +43,10 @@ std::optional<float> parse_float(std::string_view word) noexcept {
 }
 
 /// Also removes the control characters of terminals.
+std::string quoted(std::string_view text) { return "'" + shown(text) + "'"; }
+
 std::string shown_word(std::string_view word) {
-  constexpr std::size_t kLongest = 32;
-  if (word.empty()) return "the end of the line or file";
-  std::string text = "'";
-  for (const char c : word.substr(0, kLongest)) text += c > ' ' && c <= '~' ? c : '?';
-  return text + (word.size() > kLongest ? "...'" : "'");
+  return word.empty() ? "the end of the line or file" : quoted(word);
 }
 
 std::string stray_lines_note(std::size_t first_line, std::size_t count, std::string_view where) {

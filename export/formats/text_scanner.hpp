@@ -70,7 +70,10 @@ class TextScanner {
 /// Parsed directly as float32; values too small for it are 0. Empty: not a number, or too large.
 [[nodiscard]] std::optional<float> parse_float(std::string_view word) noexcept;
 
-/// A word for a message: in quotes, shortened; if it is empty, "the end of the line or file".
+/// Text of a file for a message: in single quotes, shortened, without characters that do not print.
+[[nodiscard]] std::string quoted(std::string_view text);
+
+/// The same of a word; if it is empty, "the end of the line or file".
 [[nodiscard]] std::string shown_word(std::string_view word);
 
 /// "line 3: 2 lines before the mesh were not read"; `where` is "before" or "after".

@@ -3,6 +3,7 @@
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/formats.hpp"
+#include "export/formats/three_mf_grammar.hpp"
 #include "export/formats/xml_reader.hpp"
 
 #include <array>
@@ -35,25 +36,8 @@ struct Object {
   std::size_t depth = 0;
 };
 
-enum class Place : std::uint8_t {
-  outside,
-  model,
-  metadata,
-  metadata_group,
-  resources,
-  materials,
-  base,
-  object,
-  mesh,
-  vertices,
-  vertex,
-  triangles,
-  triangle,
-  components,
-  component,
-  build,
-  item,
-};
+/// Below 0 where the matrix mirrors.
+[[nodiscard]] double determinant(const Transform& matrix);
 
 class ModelReader final : public XmlReader::Events {
  public:

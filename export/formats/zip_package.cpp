@@ -1,6 +1,7 @@
 #include "export/formats/zip_package.hpp"
 
 #include "core/cancel.hpp"
+#include "core/text.hpp"
 #include "export/formats/mesh_limits.hpp"
 
 #include <zip.h>
@@ -65,6 +66,8 @@ Result<std::string> contents_of(zip_source_t* source) {
   return bytes;
 }
 
+constexpr std::size_t kMostShown = 80;  // of a path in a message
+
 /// Lower case without a leading slash: part names of packages ignore case.
 std::string key_of(std::string_view path) {
   if (path.starts_with('/')) path.remove_prefix(1);
@@ -72,12 +75,6 @@ std::string key_of(std::string_view path) {
   for (char& c : key)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return key;
-}
-
-std::string shown_path(std::string_view path) {
-  std::string shown;
-  for (const char c : path.substr(0, 80)) shown += c >= ' ' && c <= '~' ? c : '?';
-  return shown;
 }
 
 }  // namespace
@@ -120,7 +117,7 @@ struct ZipPackage::State {
       constexpr zip_uint64_t kNeeded = ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE;
       if (zip_stat_index(archive.get(), i, 0, &stat) != 0 || (stat.valid & kNeeded) != kNeeded)
         return bad_file(name, "entry " + std::to_string(i + 1) + " of the archive is damaged");
-      const std::string path = shown_path(stat.name);
+      const std::string path = shown(stat.name, kMostShown);
       if (stat.size > kFreeZipBytes && stat.size / kMaxZipRatio > stat.comp_size)
         return bad_file(name, path + ": expected to unpack to at most " +
                                   std::to_string(kMaxZipRatio) + " times its " +
@@ -136,20 +133,21 @@ struct ZipPackage::State {
                     const std::function<Result<void>(std::string_view)>& take) const {
     const Owned<zip_file_t> file(zip_fopen_index(archive.get(), entry.index, 0));
     if (!file)
-      return bad_file(name, shown_path(path) + ": cannot unpack: " + zip_strerror(archive.get()));
+      return bad_file(name,
+                      shown(path, kMostShown) + ": cannot unpack: " + zip_strerror(archive.get()));
     std::array<char, std::size_t{1} << 16> piece;
     std::uint64_t left = entry.bytes;
     for (;;) {
       stop_if_cancelled();
       const zip_int64_t count = zip_fread(file.get(), piece.data(), piece.size());
       if (count < 0 || static_cast<std::uint64_t>(count) > left)
-        return bad_file(name, shown_path(path) + ": the archive is damaged here");
+        return bad_file(name, shown(path, kMostShown) + ": the archive is damaged here");
       if (count == 0) break;
       left -= static_cast<std::uint64_t>(count);
       if (auto taken = take({piece.data(), static_cast<std::size_t>(count)}); !taken) return taken;
     }
     if (left == 0) return {};
-    return bad_file(name, shown_path(path) + ": the archive ends early");
+    return bad_file(name, shown(path, kMostShown) + ": the archive ends early");
   }
 };
 
@@ -185,7 +183,7 @@ Result<void> ZipPackage::read(std::string_view path,
                               const std::function<Result<void>(std::string_view)>& take) const {
   const auto found = state_->entries.find(key_of(path));
   if (found == state_->entries.end())
-    return bad_file(state_->name, "expected the part " + shown_path(path) + ", found none");
+    return bad_file(state_->name, "expected the part " + shown(path, kMostShown) + ", found none");
   return state_->read(found->second, path, take);
 }
 
@@ -193,7 +191,7 @@ Result<std::string> ZipPackage::read(std::string_view path, std::uint64_t most_b
   std::string bytes;
   const auto take = [&](std::string_view piece) -> Result<void> {
     if (bytes.size() + piece.size() > most_bytes)
-      return bad_file(state_->name, shown_path(path) + ": expected at most " +
+      return bad_file(state_->name, shown(path, kMostShown) + ": expected at most " +
                                         std::to_string(most_bytes) + " bytes, found more");
     bytes += piece;
     return {};

@@ -21,7 +21,7 @@ namespace clay::solid::inline formats {
 // Decoders treat input as untrusted: own decoders for STL, OBJ, PLY and OFF; Draco's decoder behind
 // checks; 3MF by libzip and libxml2; GLB by nlohmann-json and meshoptimizer.
 
-struct DracoClaims;  // drc_claims.hpp
+struct DracoClaims;  // below
 
 enum class MeshFormat { stl_binary, stl_ascii, obj, drc, ply, off, three_mf, three_mf_model, glb };
 
@@ -85,7 +85,8 @@ Result<std::string> encode_on_finer_grids(
 /// Coordinates are written as float32 without -0: the text formats print the shortest digits that
 /// read back as the same float32, and STL normals are those of the written corners (zero if these
 /// are collinear). Requires coordinates within 1e6 mm, indices in range and at most 2^32 - 1
-/// triangles. Of a name only one line is written, of at most 200 bytes.
+/// triangles. Of a name only one line is written, of at most 200 bytes. These and the other
+/// encoders throw std::bad_alloc if memory is short; `encode_mesh` reports it as an error.
 std::string encode_stl_binary(const TriangleMesh& mesh);
 std::string encode_stl_ascii(const TriangleMesh& mesh, std::string_view solid_name);
 std::string encode_obj(const TriangleMesh& mesh, std::string_view object_name);
@@ -128,7 +129,7 @@ struct FileContents {
 };
 
 /// The mesh in any format that can be written, with the defaults of its encoder. Errors as for
-/// `encode_drc`; `bad_input` for a format that is only read.
+/// `encode_drc`; `bad_input` for a format that is only read; `io` if memory is short.
 Result<std::string> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
                                 const FileContents& contents = {});
 
