@@ -186,7 +186,7 @@ class RevolvedExport {
   Result<void> finish(ProvedSection& section, double tolerance_mm) {
     if (!options_.finish.asked()) return {};
     std::optional<double> min_wall_mm;
-    if (prepared_.limit) min_wall_mm = prepared_.limit->least_mm();
+    if (prepared_.limit) min_wall_mm = prepared_.limit->min_wall_mm;
     return stages_
         .run(
             "finish",

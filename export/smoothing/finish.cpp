@@ -15,8 +15,6 @@
 namespace clay::solid::inline smoothing {
 namespace {
 
-constexpr double kRounding = 1.0 - 1e-9;
-
 std::string mm(double value) { return fixed(value, 2) + " mm"; }
 
 tl::unexpected<Error> wrong(const std::string& part, const std::string& why) {
@@ -204,7 +202,9 @@ class Finisher {
     if (auto sound = certify(changed); !sound)
       return failure(ErrorKind::unsound, part + ": " + sound.error().message);
     const Wall wall = min_wall(changed);
-    if (wall.thickness_mm < required_mm * kRounding) return too_thin(part, required_mm, wall);
+    WallLimit required;
+    required.min_wall_mm = required_mm;
+    if (!required.met_by(wall.thickness_mm)) return too_thin(part, required_mm, wall);
     clay_mm3 = sign * (volume_of(changed) - volume_of(made_.profile));
     made_.profile = std::move(changed);
     return {};

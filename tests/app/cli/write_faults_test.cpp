@@ -28,7 +28,7 @@ Files files_in(const fs::path& folder) {
   return files;
 }
 
-struct Case {
+struct FailingCall {
   std::string name;
   std::string arguments;  ///< @ is the input folder, # the output folder
   std::vector<std::string> outputs;
@@ -37,9 +37,9 @@ struct Case {
   int signal = 0;            ///< instead of an error
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const FailingCall& c, std::ostream* out) { *out << c.name; }
 
-class WriteFaults : public testing::TestWithParam<Case> {
+class WriteFaults : public testing::TestWithParam<FailingCall> {
  protected:
   void SetUp() override {
     const std::string session = read_text(sample("cylinder.session"));
@@ -164,19 +164,20 @@ const std::string kStick = "tmpfile,links";  // FAT, as on USB drives
 
 INSTANTIATE_TEST_SUITE_P(
     Commands, WriteFaults,
-    testing::Values(Case{"Export", kExport, kMeshes},
-                    Case{"ExportOverOldFiles", kExport, kMeshes, true},
-                    Case{"ExportToAStick", kExport, kMeshes, true, kStick},
-                    Case{"ExportWithoutProc", kExport, kMeshes, true, "proc"},
-                    Case{"ExportEndedByASignal", kExport, kMeshes, true, kStick, SIGTERM},
-                    Case{"ExportOfTheSection", kSection, kDrawings},
-                    Case{"ExportOfTheSectionOverOldFiles", kSection, kDrawings, true},
-                    Case{"RepairEndedByCtrlC", kRepair, {"a.stl"}, true, {}, SIGINT},
-                    Case{"RepairToAStickEndedByCtrlC", kRepair, {"a.stl"}, true, kStick, SIGINT},
-                    Case{"DecimationEndedByCtrlC", kDecimate, {"a.stl"}, false, kStick, SIGINT},
-                    Case{"ExportWithAPage", kPage, kPageFiles}, Case{"Throw", kThrow, kPot},
-                    Case{"ThrowOverOldFiles", kThrow, kPot, true},
-                    Case{"ThrowKilled", kThrow, kPot, true, kStick, SIGKILL}),
+    testing::Values(
+        FailingCall{"Export", kExport, kMeshes},
+        FailingCall{"ExportOverOldFiles", kExport, kMeshes, true},
+        FailingCall{"ExportToAStick", kExport, kMeshes, true, kStick},
+        FailingCall{"ExportWithoutProc", kExport, kMeshes, true, "proc"},
+        FailingCall{"ExportEndedByASignal", kExport, kMeshes, true, kStick, SIGTERM},
+        FailingCall{"ExportOfTheSection", kSection, kDrawings},
+        FailingCall{"ExportOfTheSectionOverOldFiles", kSection, kDrawings, true},
+        FailingCall{"RepairEndedByCtrlC", kRepair, {"a.stl"}, true, {}, SIGINT},
+        FailingCall{"RepairToAStickEndedByCtrlC", kRepair, {"a.stl"}, true, kStick, SIGINT},
+        FailingCall{"DecimationEndedByCtrlC", kDecimate, {"a.stl"}, false, kStick, SIGINT},
+        FailingCall{"ExportWithAPage", kPage, kPageFiles}, FailingCall{"Throw", kThrow, kPot},
+        FailingCall{"ThrowOverOldFiles", kThrow, kPot, true},
+        FailingCall{"ThrowKilled", kThrow, kPot, true, kStick, SIGKILL}),
     [](const auto& test) { return test.param.name; });
 
 TEST(WriteLimits, ReportsAFileAboveItsSizeLimit) {

@@ -184,7 +184,8 @@ struct FinishedProfile {
 /// chords within `tolerance_mm`. Errors: `bad_input` for a profile of several pieces, a ring that
 /// does not fit the foot, a foot without clay above it, a fillet wider than the floor; `unsound`,
 /// with the place, if the set-back leaves a wall thinner than `min_wall_mm` or none at all, or if
-/// the foot leaves one thinner than `min_wall_mm` and than the thinnest before.
+/// the foot leaves one thinner than `min_wall_mm` and than the thinnest before, with the allowance
+/// of `WallLimit`.
 Result<FinishedProfile> finished(const Profile& profile, const Finish& finish,
                                  std::optional<double> min_wall_mm, double tolerance_mm);
 
