@@ -57,9 +57,13 @@ struct RecoverWork {
   std::size_t index = 0;  ///< index in AppState::recoverable
 };
 struct Quit {};
+/// Asks first, unless `confirmed`.
 struct DiscardRecoverable {
   std::size_t index = 0;
+  bool confirmed = false;
 };
+/// The answer to that question.
+struct DiscardAsked {};
 /// Completes the extension. Asks first if it would replace another file, unless `replace`.
 struct SaveFile {
   std::filesystem::path path;
@@ -141,7 +145,9 @@ struct TakeImport {};
 struct ShowWarning {
   std::string text;
 };
-struct CloseNotice {};
+struct CloseNotice {
+  bool state = false;  ///< the notice of a state; otherwise that of the last answer
+};
 /// Opens a menu, for the arrow keys.
 struct OpenMenu {
   std::size_t index = 0;  ///< in menus()
@@ -242,8 +248,8 @@ using ToggleHints = Toggle<&Settings::hints>;
 
 using Action = std::variant<
     RunCommand, BeginWork, BeginSample, BeginLesson, YourTurn, NextStep, ShowStep, StopShowing,
-    EndLesson, OpenFile, RecoverWork, Quit, DiscardRecoverable, SaveFile, Save, Undo, Redo,
-    GoToStroke, OtherBranch, Scrub, EndScrub, BranchHere, ShowDialog, CloseDialog, EditPath,
+    EndLesson, OpenFile, RecoverWork, Quit, DiscardRecoverable, DiscardAsked, SaveFile, Save, Undo,
+    Redo, GoToStroke, OtherBranch, Scrub, EndScrub, BranchHere, ShowDialog, CloseDialog, EditPath,
     SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, ReplaceFiles, KeepFiles,
     CancelExport, ShowExportFolder, ChooseExportFolder, ChooseProcessFile, UseProcess, EditImport,
     TakeImport, ChooseTarget, UseTarget, UseSampleTarget, ClearTarget, SetGoal, ShowWarning,

@@ -42,8 +42,7 @@ bool ViewModel::waits_for_rearm() const {
 void report(AppState& state, const Error& error) {
   state.log("error: " + error.message);
   state.last_error = error;
-  state.ui.notices.show(error.kind == ErrorKind::bad_input ? Grade::warning : Grade::fault,
-                        error.message);
+  state.ui.notices.show(Grade::error, error.message);
 }
 
 bool succeeded(AppState& state, const Result<void>& result) {

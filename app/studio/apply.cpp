@@ -40,10 +40,12 @@ const char* replaces_work(const Action& action) {
   return open != nullptr && !is_process(open->path) && !is_drawing(open->path) ? "open" : nullptr;
 }
 
-/// The folder in which file dialogs start.
-std::filesystem::path start_folder(const AppState& state) {
-  const std::string& folder = state.settings.folder;
-  return folder.empty() ? std::filesystem::path() : std::filesystem::path(folder) / "";
+/// The folder in which dialogs that open a file start: that of the last file.
+std::filesystem::path open_folder(const Settings& settings) {
+  const std::filesystem::path folder =
+      settings.recent.empty() ? std::filesystem::path(settings.folder)
+                              : std::filesystem::path(settings.recent.front()).parent_path();
+  return folder.empty() ? folder : folder / "";
 }
 
 /// Opens the desktop's file dialog, if it is installed. Not used in scripts.
@@ -90,7 +92,7 @@ struct Performer {
     const auto begun = begin.pot ? state.document.begin(begin.scene, *begin.pot)
                                  : state.document.begin(begin.scene);
     if (!succeeded(state, begun)) return;
-    state.ui.notices.close();
+    state.ui.notices.close_answer();
     if (!begin.source.empty()) remember(state.settings, begin.source);
     show_work();
     if (!begin.source.empty()) state.log("imported: " + begin.source.string());
@@ -130,7 +132,7 @@ struct Performer {
     if (is_process(open.path)) return (*this)(UseProcess{open.path});
     if (is_drawing(open.path)) return open_drawing(open.path);
     state.stroke.release();
-    state.ui.notices.close();
+    state.ui.notices.close_answer();
     const auto opened = state.document.open(open.path);
     if (!opened) return report(state, opened.error());
     if (!opened->empty()) state.ui.notices.show(Grade::warning, *opened);
@@ -152,9 +154,19 @@ struct Performer {
   }
   void operator()(const DiscardRecoverable& discard) const {
     const std::filesystem::path path = state.recoverable.at(discard.index).path;
+    if (!discard.confirmed) {
+      state.log("prompt: discard");
+      state.ui.dialog = DiscardDialog{discard.index};
+      return;
+    }
+    state.ui.dialog = GalleryDialog{};
     if (!succeeded(state, history::discard(path))) return;
     forget(discard.index);
     state.log("discarded: " + path.string());
+  }
+  void operator()(const DiscardAsked&) const {
+    if (const auto* asked = std::get_if<DiscardDialog>(&state.ui.dialog))
+      (*this)(DiscardRecoverable{asked->index, true});
   }
   void operator()(const Quit&) const { state.done = true; }
   void operator()(const SaveFile& save) const {
@@ -244,8 +256,8 @@ struct Performer {
         state.ui.dialog = SettingsDialog{};
         break;
       case DialogKind::open_file:
-        if (!open_desktop_dialog(state, FileDialog::Kind::open, start_folder(state)))
-          state.ui.dialog = OpenDialog{start_folder(state).string()};
+        if (!open_desktop_dialog(state, FileDialog::Kind::open, open_folder(state.settings)))
+          state.ui.dialog = OpenDialog{open_folder(state.settings).string()};
         break;
       case DialogKind::save_file:
         ask_for_name(std::nullopt);
@@ -261,6 +273,10 @@ struct Performer {
   }
   void operator()(const CloseDialog&) const {
     if (state.ui.shows<ReplaceDialog>()) return (*this)(KeepFiles{});
+    if (state.ui.shows<DiscardDialog>()) {
+      state.ui.dialog = GalleryDialog{};
+      return;
+    }
     close_dialog(state);
   }
   void operator()(const EditPath& edit) const {
@@ -286,10 +302,7 @@ struct Performer {
     // If the next work could not be opened, the current one remains.
     if (!state.done) state.document.keep_changes();
   }
-  void operator()(const EditExport& edit) const {
-    state.ui.exporting.choices = edit.choices;
-    (*this)(SetProcess{edit.choices.process});
-  }
+  void operator()(const EditExport& edit) const { choose_export(edit.choices); }
   void operator()(const EditPicture& edit) const {
     if (edit.file == state.ui.pictures.file) return;
     state.ui.pictures.file = edit.file;
@@ -314,7 +327,7 @@ struct Performer {
            "No file dialog is installed (zenity, kdialog): type the name of the folder", kNoteS);
   }
   void operator()(const ChooseProcessFile&) const {
-    if (!open_desktop_dialog(state, FileDialog::Kind::process, start_folder(state)))
+    if (!open_desktop_dialog(state, FileDialog::Kind::process, open_folder(state.settings)))
       note(state, Grade::warning,
            "No file dialog is installed (zenity, kdialog): drop a .process.json file on the "
            "window, or open it by name (Ctrl+O)",
@@ -342,8 +355,8 @@ struct Performer {
                            std::make_shared<const Pot>(pot), import->path});
   }
   void operator()(const ChooseTarget&) const {
-    if (!open_desktop_dialog(state, FileDialog::Kind::target, start_folder(state)))
-      state.ui.dialog = OpenDialog{start_folder(state).string(), true};
+    if (!open_desktop_dialog(state, FileDialog::Kind::target, open_folder(state.settings)))
+      state.ui.dialog = OpenDialog{open_folder(state.settings).string(), true};
   }
   void operator()(const UseTarget& use) const { set_target(read_target(use.path)); }
   void operator()(const UseSampleTarget& use) const { set_target(sample_target(use.index)); }
@@ -352,7 +365,12 @@ struct Performer {
     state.ui.notices.show(Grade::warning, warning.text);
   }
   void operator()(const OpenMenu& open) const { state.ui.open_menu = open.index; }
-  void operator()(const CloseNotice&) const { state.ui.notices.close(); }
+  void operator()(const CloseNotice& close) const {
+    if (close.state)
+      state.ui.notices.close_state();
+    else
+      state.ui.notices.close_answer();
+  }
 
   // --- Tool and wheel. ---------------------------------------------------------------------------
   void operator()(const SetToolMode& set) const {
@@ -403,7 +421,7 @@ struct Performer {
       return change_document([](Document& document) { return document.show_present(); });
     if (state.guide.demonstration() != Demonstration::none) return (*this)(StopShowing{});
     if (state.stroke.throwing() && !state.stroke.has_device()) return state.stroke.release();
-    if (!force) state.ui.notices.close();
+    if (!force) (*this)(CloseNotice{!state.ui.notices.answer()});
   }
   void operator()(const PressClay& press) const {
     if (succeeded(state, state.stroke.press(press.press)))
@@ -449,7 +467,10 @@ struct Performer {
   }
   /// The walls and the export have the same process.
   void operator()(const SetProcess& set) const {
-    state.settings.process = state.ui.exporting.choices.process = set.value;
+    state.settings.process = set.value;
+    ExportChoices choices = state.ui.exporting.choices;
+    choices.process = set.value;
+    choose_export(choices);
   }
   void operator()(const SetTheme& set) const {
     state.settings.theme = set.value;
@@ -465,6 +486,15 @@ struct Performer {
   }
 
  private:
+  /// The result is that of other choices.
+  void choose_export(const ExportChoices& choices) const {
+    ExportState& exporting = state.ui.exporting;
+    if (choices == exporting.choices) return;
+    exporting.choices = choices;
+    exporting.result.clear();
+    if (exporting.preview) exporting.problem.clear();  // that of writing
+    state.settings.process = choices.process;
+  }
   template <class Change>
   void change_document(Change change) const {
     state.stroke.release();
@@ -477,7 +507,7 @@ struct Performer {
     state.guide.end();
     choose(state.document.scene().tool, state.settings.tool);
     state.ui.dialog = NoDialog{};
-    state.scene.look(state.stroke.view(), ViewFrom::home);
+    show_from(ViewFrom::home);
     state.ui.exporting.written.clear();
     state.ui.thumbs.clear();
     state.log("work started: " + state.document.scene().name);
@@ -532,7 +562,7 @@ struct Performer {
   }
   void ask_for_name(std::optional<Action> next) const {
     // The name is shown with its folder, as for an export; a page has no folders.
-    std::filesystem::path folder = start_folder(state);
+    std::filesystem::path folder = state.settings.folder;
     if (folder.empty() && !kInPage) folder = std::filesystem::current_path();
     const std::filesystem::path path = unused_name(folder, state.document.name());
     if (!open_desktop_dialog(state, FileDialog::Kind::save, path))
@@ -552,6 +582,9 @@ void apply(AppState& state, const Action& action) {
   if (const char* reason = replaces_work(action)) {
     state.stroke.release();
     if (state.document.unsaved()) {
+      // A file that cannot be opened replaces nothing.
+      if (const auto* open = std::get_if<OpenFile>(&action))
+        if (const auto read = Document::read(open->path); !read) return report(state, read.error());
       state.ui.dialog = UnsavedDialog{action};
       state.log(std::string("prompt: ").append(reason));
       return;
@@ -564,6 +597,8 @@ bool save_document(AppState& state, const std::filesystem::path& path) {
   state.stroke.release();
   if (!succeeded(state, state.document.save(path))) return false;
   remember(state.settings, path);
+  state.settings.folder =
+      std::filesystem::path(state.settings.recent.front()).parent_path().string();
   state.host.file_written(path.string());
   state.log("saved: " + path.string());
   note(state, Grade::note, "Saved " + path.string(), kSavedNoteS);

@@ -44,6 +44,7 @@ bool can_switch(View view) {
 bool scrubbing(View view) { return view.document.scrubbing(); }
 bool asks(View view) { return view.ui.shows<UnsavedDialog>(); }
 bool asks_to_replace(View view) { return view.ui.shows<ReplaceDialog>(); }
+bool asks_to_discard(View view) { return view.ui.shows<DiscardDialog>(); }
 bool recoverable(View view) { return !view.recoverable.empty(); }
 const char* why_no_file_name(const std::string& name) {
   return name.empty() ? "the files need a name"
@@ -139,10 +140,10 @@ using Kind = DialogKind;
 // clang-format off
 const std::array kCommands = {
     C{"file.new", "New...", key(GLFW_KEY_N, kCtrl), kNone, ShowDialog{Kind::gallery}, between},
-    C{"file.new_bowl", "New bowl", kNone, kNone, BeginSample{0}, always},
-    C{"file.new_vase", "New vase", kNone, kNone, BeginSample{1}, always},
-    C{"file.new_bottle", "New bottle", kNone, kNone, BeginSample{2}, always},
-    C{"file.new_cylinder", "New cylinder", kNone, kNone, BeginSample{3}, always},
+    C{"file.new_bowl", "Throw a bowl", kNone, kNone, BeginSample{0}, always},
+    C{"file.new_vase", "Throw a vase", kNone, kNone, BeginSample{1}, always},
+    C{"file.new_bottle", "Throw a bottle", kNone, kNone, BeginSample{2}, always},
+    C{"file.new_cylinder", "Throw a cylinder", kNone, kNone, BeginSample{3}, always},
     C{"file.learn_bowl", "Throw a bowl step by step", kNone, kNone, BeginLesson{0, false}, always},
     C{"file.learn_vase", "Throw a vase step by step", kNone, kNone, BeginLesson{1, false}, always},
     C{"file.learn_bottle", "Throw a bottle step by step", kNone, kNone, BeginLesson{2, false}, always},
@@ -169,7 +170,8 @@ const std::array kCommands = {
     C{"replace.confirm", "Replace", key(GLFW_KEY_R, kCtrlShift), kNone, ReplaceFiles{}, asks_to_replace},
     C{"replace.cancel", "Cancel", kNone, kNone, KeepFiles{}, asks_to_replace},
     C{"recover.take", "Recover the unsaved work", key(GLFW_KEY_R, kCtrl), kNone, RecoverWork{0}, recoverable},
-    C{"recover.discard", "Discard the unsaved work", kNone, kNone, DiscardRecoverable{0}, recoverable},
+    C{"recover.discard", "Discard the unsaved work", kNone, kNone, DiscardRecoverable{}, recoverable},
+    C{"recover.confirm", "Discard the work", key(GLFW_KEY_D, kCtrlShift), kNone, DiscardAsked{}, asks_to_discard},
     C{"export.write", "Export the files", key(GLFW_KEY_ENTER, kCtrl), kNone, WriteExport{}, can_write, nullptr, why_no_write},
     C{"export.cancel", "Cancel the export", kNone, kNone, CancelExport{}, writing},
     C{"export.folder", "Open the folder", kNone, kNone, ShowExportFolder{}, has_written},

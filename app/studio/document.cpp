@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 namespace clay::studio {
@@ -30,10 +31,16 @@ Result<SceneSpec> scene_in(const std::string& text, const std::string& name) {
   constexpr std::array kMeshes = {".stl", ".obj", ".drc", ".ply", ".off", ".glb"};
   if (std::ranges::any_of(kMeshes,
                           [&](const char* ending) { return ends_ignoring_case(name, ending); }))
-    return failure(
-        ErrorKind::bad_input,
-        fmt::format("{}: expected {}, found a mesh; `claystack import` makes a pot of it", name,
-                    kOpened));
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected {}, found a mesh. The window opens no mesh; the "
+                               "command `claystack import` makes a pot of it in a terminal",
+                               name, kOpened));
+  const std::string_view begun = without_byte_order_mark(text);
+  const std::size_t first = begun.find_first_not_of(" \t\r\n");
+  const bool object = first != std::string_view::npos && begun[first] == '{';
+  if (!object && known_kind(text).empty())
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected {}, found {}", name, kOpened, kind_of_file(text)));
   return parse_scene(text, name).map_error([&](Error error) {
     return kind_error(std::move(error), text, name, kOpened);
   });
@@ -102,32 +109,44 @@ void Document::close() {
   if (work_ && work_->journal() != nullptr) work_->journal()->discard();
 }
 
-Result<Document::Remark> Document::open_work(const std::string& name) {
-  auto loaded = history::load(name);
-  if (!loaded) return tl::make_unexpected(loaded.error());
-  begin(std::move(loaded->work));
-  keep_file(name);
-  if (loaded->torn)
+Document::Remark Document::begin(Opened opened) {
+  replace(opened.scene, std::move(opened.work));
+  if (opened.file.empty()) return {};
+  keep_file(opened.file);
+  const std::string name = opened.file.string();
+  if (opened.torn)
     return fmt::format("{}: the last line was cut off; all lines before it were read", name);
   if (file_in_use())
     return fmt::format("{} is open in another window. Save under another name to keep both works",
                        name);
-  return Remark();
+  return {};
+}
+
+Result<Document::Opened> Document::read(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  if (is_work(name))
+    return history::load(name).map([&](history::Loaded&& loaded) {
+      SceneSpec scene = current_scene(loaded.work.record());
+      return Opened{std::move(scene), std::move(loaded.work), path, loaded.torn};
+    });
+  const auto text = read_file(path);
+  if (!text) return tl::make_unexpected(text.error());
+  if (is_pot(name) || cli::is_3mf(name))
+    return cli::pot_from(*text, name).and_then([&](Pot&& pot) {
+      const SceneSpec scene = history::scene_for(pot, path.stem().stem().string());
+      return history::Work::begin(scene, pot).map([&](history::Work&& work) {
+        return Opened{scene, std::move(work)};
+      });
+    });
+  return scene_in(*text, name).and_then([](SceneSpec&& scene) {
+    return history::Work::begin(scene).map([&](history::Work&& work) {
+      return Opened{std::move(scene), std::move(work)};
+    });
+  });
 }
 
 Result<Document::Remark> Document::open(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  if (is_work(name)) return open_work(name);
-  const auto text = read_file(path);
-  if (!text) return tl::make_unexpected(text.error());
-  auto begun =
-      is_pot(name) || cli::is_3mf(name)
-          ? cli::pot_from(*text, name).and_then([&](Pot&& pot) {
-              return begin(history::scene_for(pot, path.stem().stem().string()), pot);
-            })
-          : scene_in(*text, name).and_then([&](SceneSpec&& scene) { return begin(scene); });
-  if (!begun) return tl::make_unexpected(begun.error());
-  return Remark();
+  return read(path).map([&](Opened&& opened) { return begin(std::move(opened)); });
 }
 
 Result<void> Document::save(const std::filesystem::path& path) {

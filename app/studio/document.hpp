@@ -60,7 +60,16 @@ class Document {
   /// A remark about a file that was read, such as a cut-off last line or its use by another window;
   /// empty: none.
   using Remark = std::string;
-  /// Reads a scene, a pot or a work. On an error the document is unchanged.
+  /// What a file of a scene, a pot or a work holds.
+  struct Opened {
+    SceneSpec scene;
+    history::Work work;
+    std::filesystem::path file = {};  ///< of a work
+    bool torn = false;                ///< the last line was cut off
+  };
+  static Result<Opened> read(const std::filesystem::path& path);
+  Remark begin(Opened opened);
+  /// Both. On an error the document is unchanged.
   Result<Remark> open(const std::filesystem::path& path);
   /// Writes .work, .pot.json or .pot.cbor. Only a .work saves the document and becomes its file.
   Result<void> save(const std::filesystem::path& path);
@@ -139,7 +148,6 @@ class Document {
 
  private:
   void replace(const SceneSpec& scene, history::Work work);
-  Result<Remark> open_work(const std::string& name);
   void keep_file(const std::filesystem::path& path);
   Result<void> show_pot();
 

@@ -106,11 +106,11 @@ Result<void> run_window(const StudioOptions& options, const LogLine& log) {
   state.recoverable = history::recoverable();
   if (options.device != "none")
     state.devices = std::make_unique<DeviceWatch>(look_for(options.device, options.falcon));
-  if (!loaded.note.empty()) state.ui.notices.show(Grade::warning, loaded.note);
+  if (!loaded.note.empty()) state.ui.notices.show_state(Grade::warning, loaded.note);
   if (!options.file.empty()) apply(state, OpenFile{options.file});
   if (!state.recoverable.empty()) {
     log(fmt::format("recovery offered: {}", state.recoverable.size()));
-    if (!state.ui.shows<GalleryDialog>())
+    if (!state.ui.shows<GalleryDialog>() && !state.ui.notices.answer())
       state.ui.notices.show(Grade::note,
                             "A work was not saved when the program ended. New (Ctrl+N) lists it.",
                             0.0, "recover.take");

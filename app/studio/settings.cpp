@@ -110,9 +110,7 @@ double bite_at(double strength) noexcept {
 }
 
 void remember(Settings& settings, const std::filesystem::path& path) {
-  const std::string name = whole_name(path);
-  settings.folder = std::filesystem::path(name).parent_path().string();
-  put_first(settings.recent, name, kMostRecent);
+  put_first(settings.recent, whole_name(path), kMostRecent);
 }
 
 void remember_process(Settings& settings, const std::filesystem::path& path) {

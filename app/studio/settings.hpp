@@ -41,14 +41,13 @@ struct Settings {
   PotGoal goal;                        ///< the size and the capacity that the pot is to have
   bool hints = true;                   ///< the first-run hint has not been closed yet
   std::map<std::string, bool> open;    ///< unfolded panels by id; others have their default
-  std::string folder;                  ///< folder of the last file; empty: none yet
+  std::string folder;                  ///< of exports and saved files; empty: none yet
   std::vector<std::string> recent;     ///< files, newest first, at most kMostRecent
   double bite_mm = kUsualBiteMm;       ///< strength of the hand, kSoftestBiteMm to kFirmestBiteMm
   double pressing_mm_s = 80.0;  ///< maximum tool speed in the clay, kSlowestHand to kFastestHand
 };
 
-/// Adds a file that was opened or saved: sets the folder and puts the file first in the recent
-/// ones.
+/// Puts a file that was opened or saved first in the recent ones.
 void remember(Settings& settings, const std::filesystem::path& path);
 /// Selects a custom process file and puts it first in the list.
 void remember_process(Settings& settings, const std::filesystem::path& path);

@@ -235,14 +235,14 @@ void draw_overlays(const ViewModel& model, Actions& actions, const Layout& parts
   draw_target(model, view);
   const float verdict = draw_verdict(model, view);
   draw_marks(model, view, verdict);
+  draw_export_marks(model, view, verdict);
   draw_path(model, view);
   draw_at_tool(model, view);
   draw_pause(model, view);
-  draw_export_marks(model, view, verdict);
   draw_hint(model, actions, free);
   if (card) draw_guide(model, actions, free);
   draw_dialog(model, actions, view);
-  draw_banner(model, actions, view, verdict);
+  draw_banners(model, actions, view, verdict);
 }
 
 }  // namespace

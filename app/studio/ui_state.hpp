@@ -17,7 +17,7 @@
 
 namespace clay::studio {
 
-enum class Grade { note, warning, fault };
+enum class Grade { note, warning, error };
 
 struct Notice {
   Grade grade = Grade::note;
@@ -26,25 +26,37 @@ struct Notice {
   std::string_view command;  ///< a button runs it; empty: none
 };
 
-/// One banner at a time, the most severe first, until it is closed or expires.
+/// Two banners at most: the answer to the latest action, and a state that lasts, such as that of an
+/// arm. Neither hides the other.
 class Notices {
  public:
+  /// The latest answer replaces the one before.
   void show(Grade grade, std::string text, double until_s = 0.0, std::string_view command = {}) {
-    if (!notice_ || grade >= notice_->grade)
-      notice_ = Notice{grade, std::move(text), until_s, command};
+    answer_ = Notice{grade, std::move(text), until_s, command};
   }
-  void close() { notice_.reset(); }
-  /// Closes a notice that no longer applies.
-  void withdraw(const std::string& text) {
-    if (notice_ && notice_->text == text) notice_.reset();
+  /// A state, until it is withdrawn. The most severe one is shown.
+  void show_state(Grade grade, std::string text, double until_s = 0.0) {
+    if (!state_ || grade >= state_->grade) state_ = Notice{grade, std::move(text), until_s, {}};
+  }
+  void close_answer() { answer_.reset(); }
+  void close_state() { state_.reset(); }
+  /// Closes the notice of a state that has ended.
+  void withdraw_state(const std::string& text) {
+    if (state_ && state_->text == text) state_.reset();
   }
   void expire(double now_s) {
-    if (notice_ && notice_->until_s > 0.0 && now_s > notice_->until_s) notice_.reset();
+    for (std::optional<Notice>* notice : {&answer_, &state_})
+      if (*notice && (*notice)->until_s > 0.0 && now_s > (*notice)->until_s) notice->reset();
   }
-  [[nodiscard]] const std::optional<Notice>& shown() const noexcept { return notice_; }
+  [[nodiscard]] const std::optional<Notice>& answer() const noexcept { return answer_; }
+  [[nodiscard]] const std::optional<Notice>& state() const noexcept { return state_; }
+  /// The answer, or the state if there is none.
+  [[nodiscard]] const std::optional<Notice>& shown() const noexcept {
+    return answer_ ? answer_ : state_;
+  }
 
  private:
-  std::optional<Notice> notice_;
+  std::optional<Notice> answer_, state_;
 };
 
 // --- Dialogs: one alternative each, with its state. ----------------------------------------------
@@ -72,6 +84,10 @@ struct ReplaceDialog {
   std::optional<SaveDialog> save;  ///< what is asked for; empty: the export
   bool picture = false;            ///< the export is that of a picture
 };
+/// Asks whether to delete an unsaved work that a crash has left.
+struct DiscardDialog {
+  std::size_t index = 0;  ///< index in AppState::recoverable
+};
 struct ExportDialog {
   std::optional<ExportChoices> previewed;  ///< choices of the current preview
 };
@@ -80,9 +96,9 @@ struct PictureDialog {};
 /// A drawing, its import settings, and the resulting pot.
 using ImportDialog = ImportCard;
 
-using Dialog =
-    std::variant<NoDialog, GalleryDialog, ShortcutsDialog, UnsavedDialog, OpenDialog, SaveDialog,
-                 ExportDialog, ImportDialog, SettingsDialog, ReplaceDialog, PictureDialog>;
+using Dialog = std::variant<NoDialog, GalleryDialog, ShortcutsDialog, UnsavedDialog, OpenDialog,
+                            SaveDialog, ExportDialog, ImportDialog, SettingsDialog, ReplaceDialog,
+                            PictureDialog, DiscardDialog>;
 
 /// Choices and results of an export. They outlive the dialog, because an export continues after it
 /// is closed.

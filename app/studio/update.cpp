@@ -24,8 +24,8 @@ constexpr std::uint64_t kTicksUntilHomed = 250;
 
 /// Replaces the banner about the arm if it is still shown.
 void show_arm_notice(AppState& state, Grade grade, const std::string& text, double until_s = 0.0) {
-  state.ui.notices.withdraw(std::exchange(state.ui.arm.shown, text));
-  if (!text.empty()) state.ui.notices.show(grade, text, until_s);
+  state.ui.notices.withdraw_state(std::exchange(state.ui.arm.shown, text));
+  if (!text.empty()) state.ui.notices.show_state(grade, text, until_s);
 }
 
 /// A newly opened device replaces the mouse once the mouse has released the clay.
@@ -52,9 +52,9 @@ void update_devices(AppState& state) {
 void lose_device(AppState& state, const Error& why) {
   if (state.devices) state.devices->look_again();
   const Error error{why.kind, why.message + "; the mouse is in use now"};
-  show_arm_notice(state, Grade::fault, {});
-  state.ui.arm.shown = error.message;
-  report(state, error);
+  state.log("error: " + error.message);
+  state.last_error = error;
+  show_arm_notice(state, Grade::error, error.message);
 }
 
 /// The banner about an action at the arm stays until the user has done it.
@@ -147,13 +147,26 @@ void update_journal(AppState& state) {
     watch.retry_s = state.now_s() + kJournalRetryS;
     return;
   }
-  state.ui.notices.withdraw(watch.shown);
-  if (problem) return state.ui.notices.show(Grade::fault, watch.shown);
+  state.ui.notices.withdraw_state(watch.shown);
+  if (problem) return state.ui.notices.show_state(Grade::error, watch.shown);
   watch.shown.clear();
-  note(state, Grade::note, "Every stroke is protected against a crash again", kJournalNoteS);
+  state.ui.notices.show_state(Grade::note, "Every stroke is protected against a crash again",
+                              state.now_s() + kJournalNoteS);
 }
 
 // --- Files. --------------------------------------------------------------------------------------
+
+/// The folder of a picture, or of an export.
+void choose_folder(AppState& state, const std::string& folder) {
+  if (state.ui.shows<PictureDialog>()) {
+    PictureFile file = state.ui.pictures.file;
+    file.folder = folder;
+    return apply(state, EditPicture{file});
+  }
+  ExportChoices choices = state.ui.exporting.choices;
+  choices.folder = folder;
+  apply(state, EditExport{choices});
+}
 
 void update_file_dialog(AppState& state) {
   const FileDialog::Kind kind = state.file_dialog.kind();
@@ -173,10 +186,7 @@ void update_file_dialog(AppState& state) {
       apply(state, SaveFile{*chosen, true});  // the desktop's dialog has asked the user
       break;
     case FileDialog::Kind::folder:
-      if (state.ui.shows<PictureDialog>())
-        state.ui.pictures.file.folder = *chosen;
-      else
-        state.ui.exporting.choices.folder = *chosen;
+      choose_folder(state, *chosen);
       break;
   }
 }
@@ -209,8 +219,16 @@ void update_thumbs(AppState& state) {
   ui.thumbs_missing = missing + 1 != wanted.end();
 }
 
+/// The pot on the wheel has the problems of the export only if the export changes no wall.
+bool exports_as_thrown(const ExportChoices& choices) {
+  return choices.size == ExportSize::as_thrown && choices.foot_width_mm <= 0.0 &&
+         choices.floor_fillet_mm <= 0.0 && choices.lip_fillet_mm <= 0.0 &&
+         choices.glaze_mm <= 0.0 && choices.drain_mm <= 0.0;
+}
+
 void mark_problems(AppState& state, const Exporter::Outcome& outcome) {
-  state.ui.marks = outcome.done->marks;
+  state.ui.marks.clear();
+  if (exports_as_thrown(outcome.choices)) state.ui.marks = outcome.done->marks;
   state.ui.marked = outcome.pot;
 }
 

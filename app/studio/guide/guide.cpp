@@ -28,7 +28,8 @@ Result<void> Guide::begin(const Sample& sample, Demonstration demonstration) {
         plan_.reset();
         asked_ = false;
         progress_ = 0.0;
-        demonstration_ = demonstration;
+        shown_ = false;
+        demonstrate(demonstration);
       });
 }
 
@@ -41,7 +42,7 @@ void Guide::next() {
 
 void Guide::go_on() {
   if (!active() || finished()) return;
-  state_ = {state_.step + 1, 0, 0.0, std::move(state_.skipped)};
+  state_ = {state_.step + 1, 0, 0.0, std::move(state_.skipped), std::move(state_.left_out)};
   plan_.reset();
   asked_ = false;
   progress_ = 0.0;
@@ -79,7 +80,10 @@ void Guide::receive(LessonPlan plan) {
   const strokes::Stroke& stroke = script_->strokes[state_.step];
   const bool sponge = stroke.kind == strokes::StrokeKind::lip;  // one stroke does it
   const bool tried = state_.tries >= stroke.passes + (sponge ? 0 : kSpareTries);
-  if (there || tried || plan.path.empty()) return go_on();
+  if (there || tried || plan.path.empty()) {
+    if (state_.tries == 0) state_.left_out.insert(state_.step);
+    return go_on();
+  }
   progress_ =
       state_.start_mm2 > 0.0 ? std::clamp(1.0 - plan.left_mm2 / state_.start_mm2, 0.0, 1.0) : 0.0;
   new_step_ = true;

@@ -34,7 +34,10 @@ class Guide {
   /// The user goes on to the next step.
   void next();
   /// Plays the stroke of the step, or those of all steps that are left.
-  void demonstrate(Demonstration what) { demonstration_ = what; }
+  void demonstrate(Demonstration what) {
+    demonstration_ = what;
+    shown_ = shown_ || what == Demonstration::all;
+  }
 
   /// Once a frame. Between strokes the next one is planned, and a step ends when the clay is there.
   void update(const Document& document, const StrokeController& stroke);
@@ -48,6 +51,8 @@ class Guide {
   /// Whether the user has left out this step.
   [[nodiscard]] bool skipped(std::size_t step) const { return state_.skipped.contains(step); }
   [[nodiscard]] std::size_t skipped_steps() const noexcept { return state_.skipped.size(); }
+  /// Whether the pot needed no stroke in this step.
+  [[nodiscard]] bool left_out(std::size_t step) const { return state_.left_out.contains(step); }
   [[nodiscard]] const strokes::Stroke& stroke(std::size_t step) const {
     return script_->strokes.at(step);
   }
@@ -59,6 +64,8 @@ class Guide {
   /// How far the clay has come in this step, from 0 to 1.
   [[nodiscard]] double progress() const noexcept { return progress_; }
   [[nodiscard]] Demonstration demonstration() const noexcept { return demonstration_; }
+  /// Whether the window, not the user, has thrown the pot.
+  [[nodiscard]] bool shown() const noexcept { return shown_; }
   /// The plan of a step that has just begun; returned once.
   [[nodiscard]] bool take_new_step() { return std::exchange(new_step_, false); }
   [[nodiscard]] bool busy() const { return active() && planner_.busy(); }
@@ -66,9 +73,9 @@ class Guide {
  private:
   struct State {
     std::size_t step = 0;
-    int tries = 0;                       // strokes in this step
-    double start_mm2 = 0.0;              // left at its beginning
-    std::set<std::size_t> skipped = {};  // steps before this one
+    int tries = 0;                                      // strokes in this step
+    double start_mm2 = 0.0;                             // left at its beginning
+    std::set<std::size_t> skipped = {}, left_out = {};  // steps before this one
   };
   void go_on();
   void follow(history::NodeId node);
@@ -88,6 +95,7 @@ class Guide {
   double progress_ = 0.0;
   render::PotView seen_;  // of `progress_`
   Demonstration demonstration_ = Demonstration::none;
+  bool shown_ = false;
   LessonPlanner planner_;
 };
 

@@ -46,19 +46,22 @@ void draw_work_settings(const ViewModel& model, Actions& actions) {
   form_row("Process");
   std::string process = settings.process;
   if (choose_process(model, "None", process, actions)) actions.emplace_back(SetProcess{process});
-  form_row("Folder");
+  form_row("Output folder");
   std::string folder = settings.folder;
   if (ImGui::InputText("##folder", &folder)) actions.emplace_back(SetFolder{folder});
   form_row("First steps");
   bool hints = settings.hints;
-  if (ImGui::Checkbox("Show below the pot", &hints)) actions.emplace_back(SetHints{hints});
+  if (ImGui::Checkbox("Show in the view", &hints)) actions.emplace_back(SetHints{hints});
 }
 
 /// A field for a file name. Enter or the button emits `done`.
 template <class Done>
 void draw_path(const std::string& path, const char* help, const char* button,
                const ViewModel& model, Actions& actions) {
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  // After a failed attempt the dialog is still open: the name can be corrected at once.
+  ImGuiStorage& kept = *ImGui::GetStateStorage();
+  const ImGuiID tried = ImGui::GetID("tried");
+  if (ImGui::IsWindowAppearing() || kept.GetBool(tried)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(kToEdge);
   std::string typed = path;
   const bool entered = ImGui::InputText("##path", &typed, ImGuiInputTextFlags_EnterReturnsTrue);
@@ -66,6 +69,7 @@ void draw_path(const std::string& path, const char* help, const char* button,
   faint_text(model.colours(), help);
   const bool clicked = main_button(button, model.colours());
   if ((clicked || entered) && !typed.empty()) actions.emplace_back(Done{typed});
+  kept.SetBool(tried, clicked || entered);
   ImGui::SameLine();
   if (ImGui::Button("Cancel (Esc)")) actions.emplace_back(CloseDialog{});
 }
@@ -128,6 +132,19 @@ void draw(const ReplaceDialog& dialog, const ViewModel& model, Actions& actions,
   if (main_button("Cancel (Esc)", model.colours())) actions.emplace_back(KeepFiles{});
   ImGui::SameLine();
   if (ImGui::Button("Replace (Ctrl+Shift+R)")) actions.emplace_back(RunCommand{"replace.confirm"});
+  ImGui::End();
+}
+
+void draw(const DiscardDialog& dialog, const ViewModel& model, Actions& actions,
+          const ViewRect& rect) {
+  begin_dialog("##discard", rect, 38.0f);
+  dialog_title(model, "Discard this work?");
+  wrapped_text(text_of(model.recoverable[dialog.index]));
+  wrapped_text("It was not saved, and is deleted.");
+  ImGui::Spacing();
+  if (main_button("Keep (Esc)", model.colours())) actions.emplace_back(CloseDialog{});
+  ImGui::SameLine();
+  if (ImGui::Button("Discard (Ctrl+Shift+D)")) actions.emplace_back(RunCommand{"recover.confirm"});
   ImGui::End();
 }
 

@@ -228,22 +228,9 @@ void draw_figures(const ViewModel& model, const ExportFigures& figures) {
                           length_text(figures.moved_at_mm, unit)));
 }
 
-/// The height of both together stays the same, so that the dialog keeps its height: the problems
-/// first, the figures scroll in the rest. Returns the height that the problems take [px].
-float draw_problems(const ExportFigures& figures, const Palette& colours) {
-  const float top = ImGui::GetCursorPosY();
-  for (const std::string& problem : figures.problems) problem_text(problem, colours.warning);
-  return ImGui::GetCursorPosY() - top;
-}
-
-/// Progress, figures or the problem.
+/// Progress, problems and figures, or why there are none.
 void draw_preview(const ViewModel& model) {
   const ExportState& exporting = model.ui.exporting;
-  constexpr float kHeightEm = 9.5f, kLeastEm = 4.0f;
-  const float em = ImGui::GetFontSize();
-  const bool shown = exporting.preview && exporting.problem.empty();
-  const float problems = shown ? draw_problems(*exporting.preview, model.colours()) : 0.0f;
-  ImGui::BeginChild("##preview", {0.0f, std::max(kLeastEm * em, kHeightEm * em - problems)}, true);
   const bool running = model.export_running.has_value();
   if (model.writing())
     faint_text(model.colours(), "Writing: " + model.export_stage);
@@ -251,10 +238,12 @@ void draw_preview(const ViewModel& model) {
     wrapped_text(exporting.problem, model.colours().fault);
   else if (running)
     faint_text(model.colours(), "Computing: " + model.export_stage);
-  if (shown) draw_figures(model, *exporting.preview);
-  if (!exporting.preview && !running && exporting.problem.empty())
+  else if (!exporting.preview)
     faint_text(model.colours(), "No mesh file is chosen");
-  ImGui::EndChild();
+  if (!exporting.preview || !exporting.problem.empty()) return;
+  for (const std::string& problem : exporting.preview->problems)
+    problem_text(problem, model.colours().warning);
+  draw_figures(model, *exporting.preview);
 }
 
 std::string replaced_text(const ExportChoices& choices) {
@@ -305,17 +294,28 @@ void draw_buttons(const ViewModel& model, Actions& actions) {
 }  // namespace
 
 void draw(const ExportDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
-  begin_dialog("##export", rect, 44.0f);
+  constexpr float kBesideEm = 64.0f, kBelowEm = 44.0f, kLeastBesideEm = 54.0f, kPreviewEm = 22.0f;
+  const float em = ImGui::GetFontSize();
+  // In a narrow window the preview is the end of the list.
+  const bool beside = ImGui::GetIO().DisplaySize.x >= kLeastBesideEm * em;
+  begin_dialog("##export", rect, beside ? kBesideEm : kBelowEm);
   dialog_title(model, "Export");
-  begin_body(rect);
+  begin_body(rect, beside ? -kPreviewEm * em : 0.0f);
   ExportChoices choices = model.ui.exporting.choices;
   draw_formats(model, choices);
   form_place(choices.name, choices.folder, actions);
   draw_choices(model, choices, actions);
   if (choices != model.ui.exporting.choices) actions.emplace_back(EditExport{choices});
   ImGui::Spacing();
-  draw_preview(model);
+  if (!beside) draw_preview(model);
   end_body();
+  if (beside) {
+    const float height = ImGui::GetItemRectSize().y;
+    ImGui::SameLine();
+    ImGui::BeginChild("##preview", {0.0f, height}, true, ImGuiWindowFlags_NavFlattened);
+    draw_preview(model);
+    ImGui::EndChild();
+  }
   draw_buttons(model, actions);
   ImGui::End();
 }

@@ -111,11 +111,15 @@ std::string time_text(std::chrono::system_clock::time_point when) {
   return fmt::format("{:%d %b %H:%M}", fmt::localtime(std::chrono::system_clock::to_time_t(when)));
 }
 
+}  // namespace
+
 std::string text_of(const history::Recoverable& work) {
   return fmt::format("{}, {}: {} stroke{}, {:.0f} s{}", time_text(work.when), work.scene,
                      work.strokes, work.strokes == 1 ? "" : "s", work.seconds,
                      work.running ? ", the last one incomplete" : "");
 }
+
+namespace {
 
 /// Unsaved works left by programs that crashed.
 void draw_recoverable(const ViewModel& model, Actions& actions) {

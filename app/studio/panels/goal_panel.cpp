@@ -3,6 +3,7 @@
 #include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
+#include "app/studio/samples.hpp"
 
 #include <fmt/format.h>
 
@@ -26,6 +27,16 @@ bool slider(const char* label, double& value, double most, const char* format, c
   return true;
 }
 
+/// The command that chose this target: that of its sample, or of a file.
+std::string_view command_of(const Target* target) {
+  if (target == nullptr) return "goal.none";
+  for (const Command& command : commands())
+    if (const auto* sample = std::get_if<UseSampleTarget>(&command.action);
+        sample != nullptr && samples().at(sample->index).title == target->name)
+      return command.id;
+  return "goal.file";
+}
+
 void choose_target(const ViewModel& model, Actions& actions) {
   constexpr std::array<std::string_view, 6> kChoices = {
       "goal.none", "goal.bowl", "goal.vase", "goal.bottle", "goal.cylinder", "goal.file"};
@@ -33,8 +44,12 @@ void choose_target(const ViewModel& model, Actions& actions) {
   ImGui::TextUnformatted("Target profile");
   ImGui::SetNextItemWidth(kToEdge);
   if (!ImGui::BeginCombo("##target", target != nullptr ? target->name.c_str() : "None")) return;
-  for (const std::string_view id : kChoices)
-    if (ImGui::Selectable(find_command(id)->title)) actions.emplace_back(RunCommand{id});
+  const std::string_view present = command_of(target);
+  for (const std::string_view id : kChoices) {
+    if (ImGui::Selectable(find_command(id)->title, id == present))
+      actions.emplace_back(RunCommand{id});
+    if (id == present) ImGui::SetItemDefaultFocus();
+  }
   ImGui::EndCombo();
 }
 

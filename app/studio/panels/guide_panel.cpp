@@ -21,15 +21,11 @@ constexpr ImGuiWindowFlags kCard =
 constexpr const char* kCardId = "##guide";
 constexpr float kCardEm = 30.0f, kDotEm = 0.9f;
 
-const char* name_of_tool(ToolMode mode) {
-  return mode == ToolMode::pinch    ? "Tool: two fingers"
-         : mode == ToolMode::trim   ? "Tool: trimming tool"
-         : mode == ToolMode::smooth ? "Tool: sponge"
-                                    : "Tool: ball";
-}
+/// The name in the header of the panel of the tool.
+std::string text_of_tool(ToolMode mode) { return fmt::format("Tool: {}", name_of(mode)); }
 
-/// One dot for each step. A full dot is a step that is done or in progress; a hollow one was
-/// skipped or comes later.
+/// One dot for each step. A full dot is a step that is done or in progress; a hollow one had no
+/// stroke or comes later.
 void draw_steps(const Guide& guide, const Palette& colours) {
   const float em = ImGui::GetFontSize(), radius = 0.22f * em;
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -37,7 +33,7 @@ void draw_steps(const Guide& guide, const Palette& colours) {
   for (std::size_t i = 0; i < guide.steps(); ++i) {
     const ImVec2 middle(at.x + radius + static_cast<float>(i) * kDotEm * em, at.y + 0.5f * em);
     const ImVec4& colour = i < guide.step() ? colours.good : colours.accent;
-    if (i <= guide.step() && !guide.skipped(i))
+    if (i <= guide.step() && !guide.skipped(i) && !guide.left_out(i))
       draw->AddCircleFilled(middle, radius, ImGui::GetColorU32(colour));
     else
       draw->AddCircle(middle, radius, ImGui::GetColorU32(colours.faint));
@@ -57,11 +53,21 @@ void draw_title(const ViewModel& model, const char* text) {
   ImGui::PopFont();
 }
 
+/// The steps just before the present one that needed no stroke; empty: none.
+std::string left_out_text(const Guide& guide) {
+  std::string names;
+  for (std::size_t i = guide.step(); i > 0 && guide.left_out(i - 1); --i)
+    names = guide.stroke(i - 1).name + (names.empty() ? "" : ", ") + names;
+  return names.empty() ? names : fmt::format("Left out, the pot needs no change: {}", names);
+}
+
 void draw_present_step(const ViewModel& model, Actions& actions) {
   const Guide& guide = model.guide;
   const Palette& colours = model.colours();
   const strokes::Stroke& stroke = guide.stroke(guide.step());
   draw_title(model, stroke.name.c_str());
+  if (const std::string left_out = left_out_text(guide); !left_out.empty())
+    faint_text(colours, left_out);
   wrapped_text(stroke.hint);
   const LessonPlan* plan = guide.plan();
   if (plan != nullptr && !plan->problem.empty())
@@ -80,8 +86,9 @@ void draw_present_step(const ViewModel& model, Actions& actions) {
   same_line_if_room("End the guide");
   if (ImGui::Button("End the guide")) actions.emplace_back(EndLesson{});
   if (plan == nullptr) return;
-  same_line_if_room(name_of_tool(plan->mode));
-  ImGui::TextColored(colours.faint, "%s", name_of_tool(plan->mode));
+  const std::string tool = text_of_tool(plan->mode);
+  same_line_if_room(tool.c_str());
+  ImGui::TextColored(colours.faint, "%s", tool.c_str());
 }
 
 void draw_fallen(const ViewModel& model, Actions& actions) {
@@ -104,8 +111,9 @@ void draw_finish(const ViewModel& model, Actions& actions) {
                 .append("Export the pot for printing, or go on shaping it as you like.")
                 .c_str());
   if (main_button("Export...", model.colours())) actions.emplace_back(RunCommand{"file.export"});
-  same_line_if_room("Throw it yourself");
-  if (ImGui::Button("Throw it yourself")) actions.emplace_back(YourTurn{});
+  const char* again = guide.shown() ? "Throw it yourself" : "Throw it again";
+  same_line_if_room(again);
+  if (ImGui::Button(again)) actions.emplace_back(YourTurn{});
   same_line_if_room("End the guide");
   if (ImGui::Button("End the guide")) actions.emplace_back(EndLesson{});
 }

@@ -53,11 +53,11 @@ std::vector<ScaleText> texts_of_scale(const PotCheck& check, const ImVec2& bar, 
          length_text(map.top_mm * step / kSteps, unit) +
              (step == kSteps && !narrow ? " or more" : "")});
   if (check.limit && !narrow)
-    texts.push_back(
-        {{0.0f, bar.y + 0.9f * em},
-         wrapped(fmt::format("Hatched red: below {}, {}",
-                             length_text(check.limit->min_wall_mm, unit), check.limit->process),
-                 kNoteEm * em)});
+    texts.push_back({{0.0f, bar.y + 0.9f * em},
+                     wrapped(fmt::format("Hatched red: below {}, {}",
+                                         length_text(check.limit->min_wall_mm, unit),
+                                         process_title(check.limit->process)),
+                             kNoteEm * em)});
   return texts;
 }
 
@@ -96,11 +96,18 @@ void draw_scale(const PotCheck& check, const ViewRect& rect, float top_px, Lengt
     draw->AddText({low.x + text.at.x, low.y + text.at.y}, ink, text.text.c_str());
 }
 
+/// The pixel of a place on the pot, which stands on its rim while its foot is trimmed.
+std::optional<glm::vec2> pixel_on_pot(const ViewModel& model, glm::dvec2 place_mm) {
+  if (model.settings.tool.mode == ToolMode::trim_foot)
+    place_mm.y = model.stroke.view().height_mm - place_mm.y;
+  return model.scene.pixel_of(place_mm);
+}
+
 /// A circle around the thinnest place, with its thickness.
 void mark_thinnest(const ViewModel& model, const PotCheck& check, ImDrawList* draw) {
   const float em = ImGui::GetFontSize();
   const glm::dvec2 middle = 0.5 * (glm::abs(check.thinnest_from) + glm::abs(check.thinnest_to));
-  const auto at = model.scene.pixel_of(middle);
+  const auto at = pixel_on_pot(model, middle);
   if (!at || !model.scene.rect().holds(*at)) return;
   const ImVec4 colour =
       check.thin() ? model.colours().warning : ImGui::GetStyleColorVec4(ImGuiCol_Text);
@@ -114,8 +121,8 @@ void mark_fault(const ViewModel& model, double y_mm, ImDrawList* draw) {
   const ImVec4 colour = model.colours().fault;
   float widest = 0.0f;
   for (const render::Row& row : model.stroke.view().rows) widest = std::max(widest, row.outer_mm);
-  const auto left = model.scene.pixel_of({-1.2 * static_cast<double>(widest), y_mm});
-  const auto right = model.scene.pixel_of({1.2 * static_cast<double>(widest), y_mm});
+  const auto left = pixel_on_pot(model, {-1.2 * static_cast<double>(widest), y_mm});
+  const auto right = pixel_on_pot(model, {1.2 * static_cast<double>(widest), y_mm});
   if (!left || !right) return;
   draw->AddLine({left->x, left->y}, {right->x, right->y}, ImGui::GetColorU32(colour),
                 0.15f * ImGui::GetFontSize());
@@ -178,7 +185,7 @@ void draw_export_marks(const ViewModel& model, const ViewRect& rect, float top_p
   const float em = ImGui::GetFontSize();
   float top = top_px + 1.2f * em;
   for (const Mark& mark : model.ui.marks) {
-    const auto at = model.scene.pixel_of(mark.place_mm);
+    const auto at = pixel_on_pot(model, mark.place_mm);
     if (!at || !rect.holds(*at)) continue;
     draw_mark(model, rect, mark, *at, top);
     top += 6.0f * em;

@@ -267,11 +267,14 @@ void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size
   ImGui::PopStyleVar(2);
 }
 
-void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect, float top_px) {
-  const auto& notice = model.ui.notices.shown();
-  if (!notice) return;
+namespace {
+
+/// Returns its lower edge, or `top_px` if it is not shown.
+float draw_notice(const ViewModel& model, const std::optional<Notice>& notice,
+                  const CloseNotice& close, Actions& actions, const ViewRect& rect, float top_px) {
+  if (!notice) return top_px;
   // A note does not cover a dialog.
-  if (notice->grade == Grade::note && !model.ui.shows<NoDialog>()) return;
+  if (notice->grade == Grade::note && !model.ui.shows<NoDialog>()) return top_px;
   const float pad = ImGui::GetFontSize();
   const float width = std::min(rect.size_px.x - 2.0f * pad, 40.0f * ImGui::GetFontSize());
   ImGui::SetNextWindowPos(
@@ -282,11 +285,11 @@ void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect,
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   const ImVec4 colour = colour_of(notice->grade, model.colours());
   ImGui::PushStyleColor(ImGuiCol_Border, colour);
-  ImGui::Begin("##banner", nullptr,
+  ImGui::Begin(close.state ? "##state" : "##answer", nullptr,
                kBar | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
   const char* grade = notice->grade == Grade::note      ? "Note"
                       : notice->grade == Grade::warning ? "Warning"
-                                                        : "Fault";
+                                                        : "Error";
   ImGui::TextColored(colour, "%s", grade);
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("Close").x -
                   2.0f * ImGui::GetStyle().FramePadding.x);
@@ -295,12 +298,22 @@ void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect,
   if (const Command* command = find_command(notice->command); command != nullptr)
     if (ImGui::Button(command->title)) {
       actions.emplace_back(RunCommand{command->id});
-      actions.emplace_back(CloseNotice{});
+      actions.emplace_back(close);
     }
+  const float foot = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;
   ImGui::End();
   ImGui::PopStyleColor(2);
   ImGui::PopStyleVar(2);
-  if (closed) actions.emplace_back(CloseNotice{});
+  if (closed) actions.emplace_back(close);
+  return foot;
+}
+
+}  // namespace
+
+void draw_banners(const ViewModel& model, Actions& actions, const ViewRect& rect, float top_px) {
+  const Notices& notices = model.ui.notices;
+  top_px = draw_notice(model, notices.state(), CloseNotice{true}, actions, rect, top_px);
+  (void)draw_notice(model, notices.answer(), CloseNotice{false}, actions, rect, top_px);
 }
 
 void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect) {

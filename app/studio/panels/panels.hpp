@@ -7,6 +7,7 @@
 #include "app/studio/scene_view.hpp"
 #include "app/studio/view_model.hpp"
 
+#include <string>
 #include <string_view>
 
 namespace clay::studio {
@@ -40,7 +41,7 @@ void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, g
 float draw_menu(const ViewModel& model, Actions& actions);
 [[nodiscard]] float status_height();
 void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size_px);
-void draw_banner(const ViewModel& model, Actions& actions, const ViewRect& rect, float top_px);
+void draw_banners(const ViewModel& model, Actions& actions, const ViewRect& rect, float top_px);
 void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect);
 /// Draws over the view: figures at the tool, how hard the hand pulls, and the floor to keep.
 void draw_at_tool(const ViewModel& model, const ViewRect& rect);
@@ -81,7 +82,11 @@ void draw_dialog(const ViewModel& model, Actions& actions, const ViewRect& rect)
 void draw(const NoDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const GalleryDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const ShortcutsDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
+/// "22 Nov 14:05, bowl: 3 strokes, 20 s".
+[[nodiscard]] std::string text_of(const history::Recoverable& work);
 void draw(const ReplaceDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
+void draw(const DiscardDialog& dialog, const ViewModel& model, Actions& actions,
+          const ViewRect& rect);
 void draw(const UnsavedDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const OpenDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
 void draw(const SaveDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);

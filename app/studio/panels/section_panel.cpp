@@ -18,7 +18,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr float kLeastHeightEm = 8.0f, kMostHeightEm = 14.0f;
+constexpr float kLeastHeightEm = 13.0f;
 constexpr std::array kParts = {"Half", "Full"};
 
 /// From the profile's plane (rho, y) [mm] to pixels.
@@ -223,13 +223,13 @@ void draw_match_legend(const Palette& colours, LengthUnit unit) {
   part(colours.fault, "farther", true);
 }
 
-/// As high as wide, or the rest of the column, so that the column scrolls only if it must.
+/// The rest of the column, so that it scrolls only if it must; at most twice as high as wide.
 float plot_height_em(int lines) {
   const float em = ImGui::GetFontSize(), below = ImGui::GetTextLineHeightWithSpacing();
   const float room = ImGui::GetContentRegionAvail().y - static_cast<float>(lines) * below -
                      3.0f * ImGui::GetStyle().ItemSpacing.y;
   return std::clamp(room / em, kLeastHeightEm,
-                    std::min(kMostHeightEm, ImGui::GetContentRegionAvail().x / em));
+                    std::max(kLeastHeightEm, 2.0f * ImGui::GetContentRegionAvail().x / em));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,13 @@ Section gamepad_section() {
   return section;
 }
 
+/// Both keys of a command that has two.
+std::string keys_of(const Command& command) {
+  std::string keys = text_of(command.chord);
+  if (command.second_chord.key != 0) keys += ", " + text_of(command.second_chord);
+  return keys;
+}
+
 /// Commands that are in no menu belong to a dialog.
 Section section_of(const Menu* menu) {
   Section section{menu != nullptr ? menu->title : "Dialogs", {}};
@@ -50,7 +58,7 @@ Section section_of(const Menu* menu) {
     for (const Menu& other : menus())
       if (command.id.starts_with(other.prefix)) its = &other;
     if (its == menu && command.chord.key != 0)
-      section.rows.push_back({text_of(command.chord), command.title});
+      section.rows.push_back({keys_of(command), command.title});
   }
   return section;
 }
@@ -64,27 +72,25 @@ std::vector<Section> all_sections() {
 
 using Columns = std::vector<std::vector<Section>>;
 
-/// Splits the sections, in their order, into columns of at most `most_lines`.
-Columns columns_up_to(const std::vector<Section>& sections, std::size_t most_lines) {
-  Columns columns;
-  std::size_t lines = most_lines;
-  for (const Section& section : sections) {
-    const std::size_t more = section.rows.size() + 2;  // its title, and the gap below
-    if (lines + more > most_lines) {
-      columns.emplace_back();
-      lines = 0;
-    }
-    columns.back().push_back(section);
-    lines += more;
-  }
-  return columns;
-}
-
-/// As low as possible.
+/// Columns of nearly equal height: each section, the longest first, goes to the shortest column.
 Columns columns_of(const std::vector<Section>& sections, std::size_t count) {
+  std::vector<const Section*> by_length;
+  for (const Section& section : sections) by_length.push_back(&section);
+  std::ranges::stable_sort(by_length, std::greater(),
+                           [](const Section* section) { return section->rows.size(); });
+  std::vector<std::vector<const Section*>> parts(count);
+  std::vector<std::size_t> lines(count);
+  for (const Section* section : by_length) {
+    const auto shortest = static_cast<std::size_t>(std::ranges::min_element(lines) - lines.begin());
+    parts[shortest].push_back(section);
+    lines[shortest] += section->rows.size() + 2;  // its title, and the gap below
+  }
+  // In the order of the menus.
+  for (auto& part : parts) std::ranges::sort(part);
+  std::ranges::sort(parts);
   Columns columns;
-  for (std::size_t most_lines = 1; columns.empty() || columns.size() > count; ++most_lines)
-    columns = columns_up_to(sections, most_lines);
+  for (const auto& part : parts)
+    for (columns.emplace_back(); const Section* section : part) columns.back().push_back(*section);
   return columns;
 }
 

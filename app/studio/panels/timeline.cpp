@@ -44,7 +44,8 @@ std::string tooltip_of(const ViewModel& model, history::NodeId node) {
   return fmt::format(
       "Stroke {}: {}{}, {:.1f} s{}{}", node, name_of(tool.mode), shape, stroke.seconds,
       stroke.volume_mm3
-          ? fmt::format(", then {:.1f} ml of clay in the pot", 1e-3 * *stroke.volume_mm3)
+          ? fmt::format(", then {} of clay in the pot",
+                        mass_text(1e-3 * *stroke.volume_mm3 * model.document.pot().density_g_cm3))
           : std::string(),
       stroke.changed == false ? ", no contact" : "");
 }

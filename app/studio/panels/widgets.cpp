@@ -231,9 +231,16 @@ const Material* choose_material(const Material& shown) {
 }
 
 void value_row(const Palette& colours, const char* name, const std::string& value) {
-  ImGui::TextColored(colours.faint, "%s", name);
+  const float left = ImGui::GetCursorPosX();
+  const float gap = 0.5f * ImGui::GetFontSize();
+  const float name_end = left + ImGui::CalcTextSize(name).x + gap;
   const float right = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x;
-  ImGui::SameLine(right);
+  ImGui::TextColored(colours.faint, "%s", name);
+  // A value that does not fit beside the name is below it.
+  if (right >= name_end)
+    ImGui::SameLine(right);
+  else
+    ImGui::SetCursorPosX(std::max(left, right));
   ImGui::TextUnformatted(value.c_str());
 }
 
@@ -302,13 +309,14 @@ void begin_dialog(const char* id, const ViewRect& rect, float width_em) {
   dim_around(low.y, ImGui::GetIO().DisplaySize.y - status_height());
 }
 
-void begin_body(const ViewRect& rect) {
+void begin_body(const ViewRect& rect, float width_px) {
   constexpr float kButtonsEm = 6.0f;
   const float room = std::max(4.0f * ImGui::GetFontSize(), rect.size_px.y - ImGui::GetCursorPosY() -
                                                                kButtonsEm * ImGui::GetFontSize());
   // Its height in the frame before.
   const float height = ImGui::GetStateStorage()->GetFloat(ImGui::GetID("body"), room);
-  ImGui::BeginChild("##body", {0.0f, std::min(height, room)});
+  ImGui::BeginChild("##body", {width_px, std::min(height, room)}, false,
+                    ImGuiWindowFlags_NavFlattened);
 }
 
 void end_body() {

@@ -78,7 +78,8 @@ void problem_text(const std::string& problem, const ImVec4& colour);
 void wrapped_text(std::string_view text, const ImVec4& colour);
 void wrapped_text(std::string_view text);
 void faint_text(const Palette& colours, const std::string& text);
-/// Name at the left, value at the right edge of the column.
+/// Name at the left, value at the right edge of the column, below the name if it does not fit
+/// beside.
 void value_row(const Palette& colours, const char* name, const std::string& value);
 
 /// Opacity of the ground of texts over the view.
@@ -91,8 +92,9 @@ void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImV
 void begin_dialog(const char* id, const ViewRect& rect, float width_em);
 
 /// The part of a dialog between its title and its buttons. Where the view is too low for all of it,
-/// it scrolls, so that the buttons stay in sight.
-void begin_body(const ViewRect& rect);
+/// it scrolls, so that the buttons stay in sight. Arrow keys go through its controls. `width_px` 0:
+/// that of the dialog.
+void begin_body(const ViewRect& rect, float width_px = 0.0f);
 void end_body();
 
 /// A list for choosing `process`. Returns true if it has changed. `none`: label for no process.

@@ -139,6 +139,7 @@ TEST_F(ActionsTest, GalleryStaysOpenWithoutAWork) {
 }
 
 TEST_F(ActionsTest, ActionsThatReplaceAnUnsavedWorkAskFirst) {
+  ASSERT_TRUE(state.document.save(folder.file("a.work")));
   change();
   state.recoverable.emplace_back();
   const Action replacing[] = {BeginWork{small_scene(), nullptr, {}}, BeginSample{0},
@@ -154,13 +155,41 @@ TEST_F(ActionsTest, ActionsThatReplaceAnUnsavedWorkAskFirst) {
   }
 }
 
+TEST_F(ActionsTest, AnUnsavedWorkIsDeletedOnlyAfterAQuestion) {
+  for (const char* name : {"a.journal", "b.journal"}) {
+    test::write_text(folder.file(name), "x");
+    state.recoverable.emplace_back().path = folder.file(name);
+  }
+  apply(state, DiscardRecoverable{1});
+  ASSERT_TRUE(state.ui.shows<DiscardDialog>());
+  apply(state, Back{});
+  EXPECT_TRUE(state.ui.shows<GalleryDialog>());
+  EXPECT_TRUE(std::filesystem::exists(folder.file("b.journal")));
+  EXPECT_EQ(state.recoverable.size(), 2u);
+  apply(state, DiscardRecoverable{1});
+  apply(state, DiscardAsked{});
+  EXPECT_FALSE(std::filesystem::exists(folder.file("b.journal")));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("a.journal")));
+  EXPECT_EQ(state.recoverable.size(), 1u);
+}
+
 TEST_F(ActionsTest, DiscardingContinuesAndAFailedOpenKeepsTheWork) {
   change();
-  apply(state, OpenFile{folder.file("none.work")});
+  test::write_text(folder.file("a.txt"), "hello\n");
+  for (const char* name : {"none.work", "a.txt"}) {
+    apply(state, OpenFile{folder.file(name)});
+    EXPECT_TRUE(state.ui.shows<NoDialog>()) << name << ": nothing to ask";
+    ASSERT_TRUE(state.ui.notices.shown());
+    EXPECT_NE(state.ui.notices.shown()->text.find(name), std::string::npos);
+    EXPECT_EQ(state.ui.notices.shown()->grade, Grade::error);
+  }
+  ASSERT_TRUE(state.document.save(folder.file("a.pot.json")));
+  apply(state, OpenFile{folder.file("a.pot.json")});
+  ASSERT_TRUE(state.ui.shows<UnsavedDialog>());
+  std::filesystem::remove(folder.file("a.pot.json"));
   apply(state, DiscardAndContinue{});
   EXPECT_EQ(strokes(), 1u);
-  EXPECT_TRUE(state.document.unsaved()) << "the file could not be opened";
-  EXPECT_TRUE(state.ui.notices.shown());
+  EXPECT_TRUE(state.document.unsaved()) << "the file is gone";
   apply(state, BeginSample{1});
   apply(state, DiscardAndContinue{});
   EXPECT_EQ(strokes(), 0u);
@@ -261,6 +290,52 @@ TEST_F(ActionsTest, ProposesAFreeName) {
   }
 }
 
+TEST_F(ActionsTest, OpeningAFileLeavesTheFolderOfExports) {
+  state.settings.folder = "/exports";
+  test::write_text(folder.file("lump.scene.json"),
+                   test::read_text(test::sample("vase.scene.json")));
+  apply(state, OpenFile{folder.file("lump.scene.json")});
+  ASSERT_EQ(state.document.scene().name, "vase");
+  EXPECT_EQ(state.settings.folder, "/exports");
+  apply(state, ShowDialog{DialogKind::open_file});
+  EXPECT_EQ(std::filesystem::path(std::get<OpenDialog>(state.ui.dialog).path).parent_path(),
+            folder.path());
+  apply(state, ShowDialog{DialogKind::export_files});
+  EXPECT_EQ(state.ui.exporting.choices.folder, "/exports");
+  apply(state, SaveFile{folder.file("a.work")});
+  EXPECT_EQ(state.settings.folder, folder.path()) << "what is written stays together";
+}
+
+/// The top of the target stays in sight.
+TEST_F(ActionsTest, ANewLumpHasRoomForTheTarget) {
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state, UseSampleTarget{2});
+  const double target_mm = state.ui.target->view.height_mm;
+  apply(state, BeginSample{0});
+  ASSERT_LT(state.stroke.view().height_mm, 0.6 * target_mm);
+  EXPECT_GT(state.scene.pixel_of({0.0, target_mm}).value().y, 0.0f);
+}
+
+TEST_F(ActionsTest, TheBannerAnswersTheLatestAction) {
+  const auto text = [this] {
+    const auto& notice = state.ui.notices.shown();
+    return notice ? notice->text : std::string();
+  };
+  apply(state, SaveFile{folder.file("none/a.work")});
+  EXPECT_NE(text().find("none/a.work"), std::string::npos) << text();
+  EXPECT_EQ(state.ui.notices.shown()->grade, Grade::error);
+  apply(state, SaveFile{folder.file("a.stl")});
+  EXPECT_NE(text().find("a.stl"), std::string::npos) << text();
+  state.ui.notices.show_state(Grade::warning, "home the arm");
+  apply(state, SaveFile{folder.file("a.work")});
+  EXPECT_EQ(text(), "Saved " + folder.file("a.work"));
+  EXPECT_EQ(state.ui.notices.state()->text, "home the arm") << "no answer hides it";
+  apply(state, Back{});
+  EXPECT_EQ(text(), "home the arm");
+  apply(state, Back{});
+  EXPECT_EQ(text(), "");
+}
+
 TEST_F(ActionsTest, AFullDiskShowsABannerUntilStrokesAreProtectedAgain) {
   setenv("XDG_STATE_HOME", folder.path().c_str(), 1);
   state.document.keep_journals();
@@ -280,7 +355,7 @@ TEST_F(ActionsTest, AFullDiskShowsABannerUntilStrokesAreProtectedAgain) {
   change();
   wait(0.1);
   ASSERT_TRUE(state.ui.notices.shown());
-  EXPECT_EQ(state.ui.notices.shown()->grade, Grade::fault);
+  EXPECT_EQ(state.ui.notices.shown()->grade, Grade::error);
   EXPECT_NE(state.ui.notices.shown()->text.find("A crash would lose strokes"), std::string::npos);
   wait(10.0);
   wait(0.1);

@@ -1,6 +1,7 @@
 #!/bin/sh
 # declined_under_xvfb.sh PROGRAM FOLDER: the journal of a killed window is not recovered. If it is
-# ignored, it stays and is offered again; its button discards it permanently.
+# ignored, it stays and is offered again; its button, and the answer to a question, delete
+# it.
 set -u
 . "$(dirname "$0")/under_xvfb_start.sh"
 journals() { ls "$folder/state/claystack/recovery"; }
@@ -27,6 +28,9 @@ cmp "$folder/state/claystack/recovery/$left" "$folder/before" || fail "expected 
 start_window
 grep -q "recovery offered: 1" "$log" || fail "expected the offer again"
 xdotool mousemove --window "$window" 848 228 sleep 0.2 click 1
+until_line "prompt: discard"
+[ "$(journals)" = "$left" ] || fail "expected a question before $left is deleted"
+xdotool key --window "$window" ctrl+shift+d
 until_line "discarded: .*$left"
 [ -z "$(journals)" ] || fail "expected no journal, found: $(journals)"
 close_window

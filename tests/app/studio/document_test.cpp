@@ -46,6 +46,14 @@ TEST_F(DocumentTest, NamesTheFilesThatItOpensAndTheImport) {
   }
   EXPECT_NE(document.open(folder.file("a.stl")).error().message.find("claystack import"),
             std::string::npos);
+  write_text(folder.file("a.txt"), "hello\n");
+  const std::string text = document.open(folder.file("a.txt")).error().message;
+  EXPECT_NE(text.find("found text that begins with 'hello'"), std::string::npos) << text;
+  EXPECT_EQ(text.find("syntax error"), std::string::npos) << text;
+  write_text(folder.file("a.scene.json"), "\n {\"tool\": }\n");
+  EXPECT_NE(document.open(folder.file("a.scene.json")).error().message.find("a.scene.json:2"),
+            std::string::npos)
+      << "a damaged scene names the line";
   EXPECT_EQ(pot(), before);
 }
 

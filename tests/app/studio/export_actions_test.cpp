@@ -50,6 +50,49 @@ TEST_F(ActionsTest, AnExportThatFailsALimitIsAWarning) {
   EXPECT_EQ(exporting.result.find("failed"), std::string::npos) << exporting.result;
 }
 
+TEST_F(ActionsTest, TheOutcomeIsThatOfTheChoices) {
+  apply(state, ShowDialog{DialogKind::export_files});
+  ExportChoices choices = state.ui.exporting.choices;
+  choices.folder = folder.path().string();
+  apply(state, EditExport{choices});
+  const auto write = [this] {
+    apply(state, WriteExport{true});
+    update(state);
+    return state.ui.exporting.result;
+  };
+  ASSERT_NE(write(), "") << state.ui.exporting.problem;
+  apply(state, EditExport{choices});
+  EXPECT_NE(state.ui.exporting.result, "") << "nothing has changed";
+  choices.report = true;
+  apply(state, EditExport{choices});
+  EXPECT_EQ(state.ui.exporting.result, "");
+  ASSERT_NE(write(), "");
+  apply(state, SetProcess{"porcelain"});
+  EXPECT_EQ(state.ui.exporting.result, "");
+}
+
+/// The pot is too thin for any limit. Its foot ring, an overhang, is not in the pot on the wheel.
+TEST_F(ActionsTest, MarksAreThoseOfThePotOnTheWheel) {
+  const auto marks = [this](double min_wall_mm, double foot_width_mm) {
+    apply(state, ShowDialog{DialogKind::export_files});
+    ExportChoices choices = state.ui.exporting.choices;
+    choices.process = foot_width_mm > 0.0 ? "fdm" : "";
+    choices.min_wall_mm = min_wall_mm;
+    choices.foot_width_mm = foot_width_mm;
+    apply(state, EditExport{choices});
+    update(state);
+    EXPECT_TRUE(state.ui.exporting.preview) << state.ui.exporting.problem;
+    if (state.ui.exporting.preview) {
+      EXPECT_FALSE(state.ui.exporting.preview->marks.empty());
+    }
+    apply(state, CloseDialog{});
+    return view_model(state).has_marks();
+  };
+  EXPECT_TRUE(marks(500.0, 0.0));
+  EXPECT_FALSE(marks(0.0, 5.0));
+  EXPECT_TRUE(marks(500.0, 0.0));
+}
+
 TEST_F(ActionsTest, ANameOfAFolderExportsNothingAndSaysWhy) {
   const Command& write = *find_command("export.write");
   for (const DialogKind kind : {DialogKind::export_files, DialogKind::picture}) {

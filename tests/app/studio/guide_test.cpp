@@ -179,6 +179,27 @@ TEST_F(Lesson, AStepIsSkippedIfItHasNoStroke) {
   EXPECT_EQ(state.guide.skipped_steps(), 1u);
 }
 
+/// On a finished pot, as far as the sample needs no stroke there.
+TEST_F(Lesson, AStepWithoutAChangeIsLeftOut) {
+  const Sample& sample = samples()[kCylinder];
+  apply(state, BeginWork{scene_of(sample).value(),
+                         std::make_shared<const Pot>(finished_pot(sample).value()),
+                         {}});
+  ASSERT_TRUE(state.guide.begin(sample, Demonstration::none));
+  std::size_t left_out = 0;
+  while (!state.guide.finished()) {
+    frames(20);
+    if (state.guide.finished()) break;
+    EXPECT_FALSE(state.guide.left_out(state.guide.step()));
+    apply(state, NextStep{});
+  }
+  for (std::size_t i = 0; i < state.guide.steps(); ++i) {
+    EXPECT_NE(state.guide.left_out(i), state.guide.skipped(i)) << i;
+    if (state.guide.left_out(i)) ++left_out;
+  }
+  EXPECT_GT(left_out, 0u);
+}
+
 /// Skipping to the end is not the end of the way back.
 TEST_F(Lesson, UndoGoesBackFromTheEnd) {
   state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});

@@ -92,7 +92,7 @@ TEST_F(Panels, DrawingEmitsNoAction) {
     draw_column(model, actions, Column::context, {760.0f, 20.0f}, {240.0f, 660.0f});
     draw_hint(model, actions, kView);
     draw_dialog(model, actions, kView);
-    draw_banner(model, actions, kView, 40.0f);
+    draw_banners(model, actions, kView, 40.0f);
   };
   const Dialog dialogs[] = {NoDialog{},       GalleryDialog{}, ShortcutsDialog{}, UnsavedDialog{},
                             OpenDialog{},     SaveDialog{},    ExportDialog{},    ImportDialog{},
@@ -147,6 +147,40 @@ TEST_F(Panels, EnterSavesUnderTheTypedName) {
   const Actions entered = frame(dialog);
   ASSERT_EQ(entered.size(), 1u);
   EXPECT_EQ(std::get<SaveFile>(entered[0]).path, "a.workx");
+  // It could not be saved: the dialog stays, and the name can be typed at once.
+  io.KeysDown[257] = false;
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(frame(dialog).empty());
+  io.AddInputCharacter('y');
+  const Actions again = frame(dialog);
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_TRUE(std::holds_alternative<EditPath>(again[0]));
+}
+
+/// The list of choices is no stop between the arrow keys and its controls.
+TEST_F(Panels, TheKeyboardStartsInTheFirstControlOfTheExport) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  io.KeyMap[ImGuiKey_Space] = 32;
+  io.KeyMap[ImGuiKey_RightArrow] = 262;
+  apply(state, ShowDialog{DialogKind::export_files});
+  const std::vector<solid::MeshFormat> first = state.ui.exporting.choices.meshes;
+  const auto dialog = [](const ViewModel& model, Actions& actions) {
+    draw_dialog(model, actions, kView);
+  };
+  const auto press = [&](int key) {
+    Actions all;
+    for (const bool down : {true, false, false}) {
+      io.KeysDown[key] = down;
+      for (Action& action : frame(dialog)) all.push_back(std::move(action));
+    }
+    return all;
+  };
+  for (int i = 0; i < 3; ++i) (void)frame(dialog);
+  EXPECT_TRUE(press(262).empty());
+  Actions toggled = press(32);
+  ASSERT_EQ(toggled.size(), 1u);
+  ASSERT_TRUE(std::holds_alternative<EditExport>(toggled[0]));
+  EXPECT_NE(std::get<EditExport>(toggled[0]).choices.meshes, first);
 }
 
 TEST_F(Panels, OnlyTheOpenDialogIsDrawn) {
