@@ -14,7 +14,8 @@ constexpr std::size_t kStatus = 13;
 constexpr std::size_t kUnused = 14;
 constexpr std::size_t kLast = kFrameBytes - 1;
 
-constexpr unsigned kHoming = 0x01, kGreen = 0x02, kBlue = 0x04, kRed = 0x08;
+constexpr unsigned kHoming = 0x01, kGreen = 0x02,
+                   kRed = 0x08;       // 0x04 is blue, which no state shows
 constexpr unsigned kTopHomed = 0x10;  // the bits of right and left follow
 constexpr unsigned kStateBits = 0x7F;
 
