@@ -111,7 +111,7 @@ TEST(Usage, ErrorsNameTheOptionTheExpectedAndTheFound) {
       {"export a b --tolerance 1m",
        "--tolerance: expected a length from 1e-05 to 10 mm (mm, cm, in), found 1m\n"},
       {"export a b --glaze-allowance 1.1cm",
-       "--glaze-allowance: expected a length from 0 to 10 mm (mm, cm, in), found 1.1cm\n"},
+       "--glaze-allowance: expected 0 or a length from 0.001 to 10 mm (mm, cm, in), found 1.1cm\n"},
       {"export a b --foot 60mmx6ftx4mm", "such as 60x6x4 or 6mmx4mm, found 60mmx6ftx4mm\n"},
       {"throw a --at one", "--at: expected a whole number from 0 to 4294967295, found one"},
       {"throw a b", "unexpected argument b\n"},
