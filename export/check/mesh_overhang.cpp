@@ -100,13 +100,12 @@ class ClayBelowMesh {
 
   [[nodiscard]] double height(const glm::dvec3& place) const { return place.z - bed_; }
 
-  /// The least slope of a line from the place down to clay or to the bed, if it is at most
-  /// kSteepestHeld.
-  [[nodiscard]] double slope(const glm::dvec3& place) const {
+  /// The least slope of a line from the place down to clay or to the bed, if it is below `most`.
+  [[nodiscard]] double slope(const glm::dvec3& place, double most) const {
     if (height(place) <= kOverhangDepthMm) return 0.0;
-    double least = kUnheld;
+    double least = most;
     tree_.for_each_near([&](const BoxTree::Box& box) { return entry(place, box); },
-                        [&] { return std::min(least, kSteepestHeld); },
+                        [&] { return least; },
                         [&](std::span<const std::uint32_t> triangles) {
                           for (const std::uint32_t t : triangles)
                             least = std::min(least, slope(place, t));
@@ -152,6 +151,7 @@ std::vector<UndersidePart<glm::dvec3>> undersides(const TriangleMesh& mesh) {
     }
   std::vector<UndersidePart<glm::dvec3>> parts;
   if (down.empty()) return parts;
+  parts.reserve(kPlaces);
   const SurfaceSamples samples(mesh, std::move(down), kPlaces);
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const glm::dvec3 normal = doubled_area(mesh, samples.triangle(i));
@@ -167,8 +167,12 @@ std::vector<UndersidePart<glm::dvec3>> undersides(const TriangleMesh& mesh) {
 std::optional<MeshOverhang> steepest_overhang(const TriangleMesh& mesh) {
   if (mesh.triangles.empty() || !readable(mesh)) return std::nullopt;
   const ClayBelowMesh clay(mesh);
-  const auto steepest =
-      steepest_part(undersides(mesh), [&](const glm::dvec3& place) { return clay.slope(place); });
+  using Part = UndersidePart<glm::dvec3>;
+  const auto steepest = steepest_part(undersides(mesh), [&](const Part& part, const auto& found) {
+    const double most = std::min(part.slope, kSteepestHeld);
+    const double held = clay.slope(part.place, most);
+    found({held < most ? held : part.slope, part.area_mm2, part.place});
+  });
   if (!steepest) return MeshOverhang{};
   return MeshOverhang{std::atan(steepest->slope) * 180.0 / std::numbers::pi, steepest->place,
                       clay.height(steepest->place)};

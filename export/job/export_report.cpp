@@ -115,7 +115,10 @@ std::optional<Problem> narrow_drain(const ExportReport& report) {
   const double drain_mm = report.prepared.drain_mm;
   if (drain_mm == 0.0 || drain_mm >= kLeastDrainMm) return std::nullopt;
   return Problem{
-      fmt::format("drain hole of {:g} mm: it may close below {:g} mm", drain_mm, kLeastDrainMm),
+      fmt::format(
+          "drain hole of {:g} mm: expected at least {:g} mm, because a printer or glaze may "
+          "close a narrower one",
+          drain_mm, kLeastDrainMm),
       std::nullopt, report.process.limits && report.process.limits->fired, ProblemKind::drain,
       drain_mm};
 }

@@ -53,19 +53,27 @@ class ClayBelow {
     }
   }
 
-  /// The least slope of a line from the place down to clay or to the bed.
-  [[nodiscard]] double slope(const ProfilePoint& place) const {
+  /// The least slope of a line from the place down to clay or to the bed, if it is below `most`.
+  [[nodiscard]] double slope(const ProfilePoint& place, double most) const {
     const double low = place.y - kOverhangDepthMm;
     if (low <= bed_) return 0.0;
-    double least = kUnheld;
+    double least = most;
     for (std::size_t b = band(low); b <= band(place.y); ++b)
-      for (const std::size_t i : bands_[b]) least = std::min(least, slope(place, edges_[i], low));
+      for (const std::size_t i : bands_[b])
+        if (beside(place, edges_[i]) <= least * kOverhangDepthMm)
+          least = std::min(least, slope(place, edges_[i], low));
     return least;
   }
 
  private:
   [[nodiscard]] std::size_t band(double y) const {
     return static_cast<std::size_t>((y - bed_) / band_mm_);
+  }
+
+  /// How far an edge is from the vertical line through the place [mm].
+  static double beside(const ProfilePoint& place, const FaceLine& edge) {
+    const auto [inner, outer] = std::minmax(edge.from.rho, edge.to.rho);
+    return std::max({inner - place.rho, place.rho - outer, 0.0});
   }
 
   /// Along a straight edge the slope is least at an end, or 0 where it passes below the place.
@@ -87,26 +95,35 @@ class ClayBelow {
   std::vector<std::vector<std::size_t>> bands_;
 };
 
-/// Of a polygon that runs counterclockwise, the edges that run away from the axis, in pieces.
-std::vector<UndersidePart<FaceLine>> undersides(const std::vector<FaceLine>& edges) {
-  const auto faces_down = [](const FaceLine& edge) { return edge.to.rho > edge.from.rho; };
-  double length = 0.0;
-  for (const FaceLine& edge : edges)
-    if (faces_down(edge)) length += edge.length();
-  const double spacing = std::max(kSpacingMm, length / kMostPlaces);
-  std::vector<UndersidePart<FaceLine>> parts;
+using Underside = UndersidePart<FaceLine>;
+
+/// Of a polygon that runs counterclockwise, the edges that run away from the axis.
+std::vector<Underside> undersides(const std::vector<FaceLine>& edges) {
+  std::vector<Underside> faces;
   for (const FaceLine& edge : edges) {
-    if (!faces_down(edge)) continue;
-    const double rise = std::abs(edge.to.y - edge.from.y),
-                 count = std::ceil(edge.length() / spacing);
+    if (!(edge.to.rho > edge.from.rho)) continue;
+    const double rise = std::abs(edge.to.y - edge.from.y);
     const double slope = rise > 0.0 ? (edge.to.rho - edge.from.rho) / rise : kUnheld;
-    for (double i = 0.0; i < count; ++i) {
-      const FaceLine piece{edge.at(i / count), edge.at((i + 1.0) / count)};
-      parts.push_back(
-          {slope, std::numbers::pi * (piece.from.rho + piece.to.rho) * piece.length(), piece});
-    }
+    const double area = std::numbers::pi * (edge.from.rho + edge.to.rho) * edge.length();
+    faces.push_back({slope, area, edge});
   }
-  return parts;
+  return faces;
+}
+
+/// Pieces of a face, each with the slope of the end that is farther from clay: outside the outer
+/// one, in a bore the inner one.
+template <class Found>
+void examine(const Underside& face, double spacing_mm, const ClayBelow& clay, const Found& found) {
+  const double count = std::ceil(face.place.length() / spacing_mm);
+  const double most = std::min(face.slope, kSteepestHeld);
+  double from_slope = clay.slope(face.place.from, most);
+  for (double i = 0.0; i < count; ++i) {
+    const FaceLine piece{face.place.at(i / count), face.place.at((i + 1.0) / count)};
+    const double to_slope = clay.slope(piece.to, most), held = std::max(from_slope, to_slope);
+    found({held < most ? held : face.slope,
+           std::numbers::pi * (piece.from.rho + piece.to.rho) * piece.length(), piece});
+    from_slope = to_slope;
+  }
 }
 
 }  // namespace
@@ -115,10 +132,13 @@ Overhang steepest_overhang(const Profile& profile) {
   const std::vector<FaceLine> edges = edges_of(profile);
   if (edges.empty()) return {};
   const ClayBelow clay(edges);
-  // The end that is farther from clay: outside the outer one, in a bore the inner one.
-  const auto steepest = steepest_part(undersides(edges), [&](const FaceLine& piece) {
-    return std::max(clay.slope(piece.from), clay.slope(piece.to));
-  });
+  std::vector<Underside> faces = undersides(edges);
+  double length_mm = 0.0;
+  for (const Underside& face : faces) length_mm += face.place.length();
+  const double spacing_mm = std::max(kSpacingMm, length_mm / kMostPlaces);
+  const auto steepest = steepest_part(
+      std::move(faces),
+      [&](const Underside& face, const auto& found) { examine(face, spacing_mm, clay, found); });
   if (!steepest) return {};
   return {std::atan(steepest->slope) * 180.0 / std::numbers::pi, steepest->place.at(0.5)};
 }

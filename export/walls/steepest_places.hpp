@@ -20,32 +20,36 @@ struct UndersidePart {
   double slope = 0.0;  ///< tangent of the angle from the vertical, infinite if level
   double area_mm2 = 0.0;
   Place place;
-  [[nodiscard]] bool operator<(const UndersidePart& other) const { return slope < other.slope; }
+  std::size_t order = 0;  ///< of parts with the same slope, the first comes first on every platform
+  [[nodiscard]] bool operator<(const UndersidePart& other) const {
+    return slope < other.slope || (slope == other.slope && order > other.order);
+  }
 };
 
 /// The part at which the steepest ones together reach kOverhangAreaMm2; empty if all are smaller.
-/// Parts have the slopes of their faces. `held(place)` returns the least slope of a line down to
-/// clay, infinite if no clay holds the place. It is called only for parts whose faces are
-/// steeper than the result.
-template <class Place, class Held>
+/// Faces have their own slopes. `examine(face, found)` calls `found(part)` for each part of a face;
+/// parts are at most as steep as it. Only faces steeper than the result are examined.
+template <class Place, class Examine>
 std::optional<UndersidePart<Place>> steepest_part(std::vector<UndersidePart<Place>> faces,
-                                                  const Held& held) {
+                                                  const Examine& examine) {
+  std::size_t order = 0;
+  for (UndersidePart<Place>& face : faces) face.order = order++;
   std::priority_queue<UndersidePart<Place>> steepest(std::less<UndersidePart<Place>>(),
                                                      std::move(faces));
   std::priority_queue<UndersidePart<Place>> examined;
   double area_mm2 = 0.0;
   while (!steepest.empty() || !examined.empty()) {
-    if (steepest.empty() || (!examined.empty() && !(examined.top() < steepest.top()))) {
+    if (steepest.empty() || (!examined.empty() && !(examined.top().slope < steepest.top().slope))) {
       area_mm2 += examined.top().area_mm2;
       if (area_mm2 >= kOverhangAreaMm2) return examined.top();
       examined.pop();
       continue;
     }
-    UndersidePart<Place> part = steepest.top();
+    examine(steepest.top(), [&](UndersidePart<Place> part) {
+      part.order = order++;
+      examined.push(part);
+    });
     steepest.pop();
-    if (const double slope = held(part.place); slope <= kSteepestHeld)
-      part.slope = std::min(part.slope, slope);
-    examined.push(part);
   }
   return std::nullopt;
 }

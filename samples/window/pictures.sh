@@ -28,13 +28,17 @@ sed -e 's/"rings": [0-9]*/"rings": 100000/' -e 's/"ring_height_mm": [0-9.]*/"rin
 sed -e 's/"rings": [0-9]*/"rings": 1/' -e 's/"ring_height_mm": [0-9.]*/"ring_height_mm": 4/' \
   -e 's/"outer_radius_mm": [0-9.]*/"outer_radius_mm": 120/' samples/vase.scene.json >"$pots/plate.scene.json"
 
+# The scripts name files below samples; what they export stays in FOLDER.
+ln -sfn "$PWD/samples" "$out/samples"
+cd "$out"
+
 # picture NAME SCRIPT [FILE]
 picture() {
   [ "$wanted" = "  " ] || case $wanted in *" $1 "*) ;; *) return 0 ;; esac
   for theme in $themes; do
     for look in $looks; do
       size=${look%x*} scale=${look##*x}
-      rm -f "$pots"/*.3mf  # of the picture before: it would ask whether to replace it
+      rm -f "$out"/*.3mf  # of the picture before: it would ask whether to replace it
       # The scripts use window coordinates at scale 1.
       awk -v s="$scale" '$1 == "move" { $2 *= s; $3 *= s } 1' "samples/window/$2.script" >"$out/script"
       "$program" studio ${3:+"$3"} --script "$out/script" --screenshot "$out/$1-$theme-$size-$scale.png" \

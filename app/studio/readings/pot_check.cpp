@@ -31,7 +31,7 @@ std::optional<solid::ProcessLimits> limits_of(const std::string& process, const 
   return std::nullopt;
 }
 
-const char* text_of(solid::KeptFor reason) {
+const char* kept_text(solid::KeptFor reason) {
   switch (reason) {
     case solid::KeptFor::wall:
       return "steps kept: smoothing would make the wall too thin";
@@ -52,7 +52,7 @@ void take_remarks(const solid::ExportReport& report, PotCheck& check) {
           {cavity.bottom_mm, cavity.top_mm,
            fmt::format("closed cavity of {:.1f} ml: add a drain hole", 1e-3 * cavity.volume_mm3)});
   for (const solid::KeptSteps& kept : report.section.smoothed.guard)
-    check.remarks.push_back({kept.from_mm, kept.to_mm, text_of(kept.reason)});
+    check.remarks.push_back({kept.from_mm, kept.to_mm, kept_text(kept.reason)});
 }
 
 solid::MakerNumbers numbers_of(const solid::ExportReport& report, double shrinkage) {
@@ -224,7 +224,7 @@ std::string vessel_fault_text(const PotForm& form, LengthUnit unit) {
   return {};
 }
 
-std::string text_of(const solid::Problem& problem, const PotCheck& check, LengthUnit unit) {
+std::string problem_line(const solid::Problem& problem, const PotCheck& check, LengthUnit unit) {
   const std::string process = check.limit ? process_title(check.limit->process) : "";
   const double y_mm = problem.at ? problem.at->y : 0.0;
   switch (problem.kind) {
@@ -271,7 +271,8 @@ std::string ready_text(const PotCheck& check, LengthUnit unit) {
   const bool ready = check.ready();
   for (const solid::Problem& problem : check.problems)
     if (problem.fails != ready)
-      return (ready ? "Check before printing: " : "Not ready: ") + text_of(problem, check, unit);
+      return (ready ? "Check before printing: " : "Not ready: ") +
+             problem_line(problem, check, unit);
   if (const std::string fault = vessel_fault_text(check.form, unit); !fault.empty())
     return "Check before printing: " + fault;
   return check.verdict() == Verdict::lump ? "Solid clay" : "Ready to print";

@@ -436,7 +436,7 @@ TEST(ExportDrain, OfLessThanTwoMillimetresMayClose) {
   const auto drained = [&](const std::string& options) {
     return claystack("export " + pot + " " + folder.file("box.stl") + " --drain " + options);
   };
-  const std::string narrow = "drain hole of 0.001 mm: it may close below 2 mm";
+  const std::string narrow = "drain hole of 0.001 mm: expected at least 2 mm";
   const Ran fired = drained("0.001 --process stoneware");
   EXPECT_EQ(fired.status, 1) << fired.err;
   EXPECT_NE(fired.err.find(narrow), std::string::npos) << fired.err;

@@ -1,0 +1,285 @@
+// Actions on the work, its file, and the lesson.
+
+#include "app/studio/performer.hpp"
+
+#include "app/history/pot_scene.hpp"
+#include "app/studio/commands.hpp"
+#include "app/studio/new_scene.hpp"
+#include "app/studio/output_dialogs.hpp"
+#include "app/studio/panels/widgets.hpp"
+#include "app/studio/samples.hpp"
+#include "claystack/core/atomic_file.hpp"
+#include "core/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace clay::studio {
+namespace {
+
+/// A name without an extension is that of a work.
+std::filesystem::path with_extension(std::filesystem::path path) {
+  if (path.has_filename() && !path.has_extension()) path += ".work";
+  return path;
+}
+
+/// NAME.work in the folder, or NAME-2.work and so on: the first that is free.
+std::filesystem::path unused_name(const std::filesystem::path& folder, const std::string& name) {
+  std::string stem = std::filesystem::path(name).stem().string();
+  if (stem.empty()) stem = "pot";
+  std::error_code ignored;
+  for (int n = 1;; ++n) {
+    const auto path = folder / (n == 1 ? stem + ".work" : fmt::format("{}-{}.work", stem, n));
+    if (!std::filesystem::exists(path, ignored)) return path;
+  }
+}
+
+}  // namespace
+
+bool is_process(const std::filesystem::path& path) {
+  return ends_ignoring_case(path.string(), ".process.json");
+}
+
+void Performer::operator()(const RunCommand& command) const {
+  const Command* found = find_command(command.id);
+  if (found != nullptr) (void)run(*found, state);
+}
+
+void Performer::operator()(const BeginWork& begin) const {
+  state.stroke.release();
+  const auto begun =
+      begin.pot ? state.document.begin(begin.scene, *begin.pot) : state.document.begin(begin.scene);
+  if (!succeeded(state, begun)) return;
+  state.ui.notices.close_answer();
+  if (!begin.source.empty()) remember(state.settings, begin.source);
+  show_work();
+  if (!begin.source.empty()) state.log("imported: " + begin.source.string());
+}
+
+void Performer::operator()(const BeginSample& sample) const {
+  auto scene = scene_of(samples().at(sample.index));
+  if (!scene) return;
+  // New works have a finger; the session of the sample was thrown without one.
+  if (scene->clay) scene->clay->finger_mm = history::kFingerMm;
+  (*this)(BeginWork{*scene, nullptr, {}});
+}
+
+void Performer::operator()(const BeginLesson& lesson) const {
+  (*this)(BeginSample{lesson.index});
+  start_lesson(lesson.index, lesson.show ? Demonstration::all : Demonstration::none);
+}
+
+void Performer::operator()(const YourTurn&) const {
+  if (!state.guide.active()) return;
+  (*this)(GoToStroke{0});
+  start_lesson(state.guide.sample(), Demonstration::none);
+}
+
+void Performer::operator()(const NextStep&) const {
+  if (state.guide.active()) state.guide.next();
+}
+
+void Performer::operator()(const ShowStep&) const {
+  if (state.guide.active()) state.guide.demonstrate(Demonstration::step);
+}
+
+void Performer::operator()(const StopShowing&) const {
+  if (state.guide.demonstration() == Demonstration::none) return;
+  state.guide.demonstrate(Demonstration::none);
+  state.stroke.release();
+}
+
+void Performer::operator()(const EndLesson&) const {
+  (*this)(StopShowing{});
+  state.guide.end();
+}
+
+void Performer::operator()(const OpenFile& open) const {
+  if (is_process(open.path)) return (*this)(UseProcess{open.path});
+  if (is_drawing(open.path)) return open_drawing(open.path);
+  state.stroke.release();
+  state.ui.notices.close_answer();
+  const auto opened = state.document.open(open.path);
+  if (!opened) return report(state, opened.error());
+  if (!opened->empty()) state.ui.notices.show(Grade::warning, *opened);
+  remember(state.settings, open.path);
+  show_own_wheel();
+  show_work();
+  state.log("opened: " + open.path.string());
+}
+
+void Performer::operator()(const RecoverWork& recover) const {
+  const std::filesystem::path path = state.recoverable.at(recover.index).path;
+  state.stroke.release();
+  auto work = history::recover(path);
+  if (!work) return report(state, work.error());
+  forget(recover.index);
+  state.document.begin(std::move(*work));
+  show_own_wheel();
+  show_work();
+  state.log("recovered: " + path.string());
+}
+
+void Performer::operator()(const DiscardRecoverable& discard) const {
+  const std::filesystem::path path = state.recoverable.at(discard.index).path;
+  if (!discard.confirmed) {
+    state.log("prompt: discard");
+    state.ui.dialog = DiscardDialog{discard.index};
+    return;
+  }
+  state.ui.dialog = GalleryDialog{};
+  if (!succeeded(state, history::discard(path))) return;
+  forget(discard.index);
+  state.log("discarded: " + path.string());
+}
+
+void Performer::operator()(const DiscardAsked&) const {
+  if (const auto* asked = std::get_if<DiscardDialog>(&state.ui.dialog))
+    (*this)(DiscardRecoverable{asked->index, true});
+}
+
+void Performer::operator()(const Quit&) const { state.done = true; }
+
+void Performer::operator()(const SaveFile& save) const {
+  const std::filesystem::path path = with_extension(save.path);
+  const std::optional<Action> next = after_saving();
+  const bool confirmed = save.replace && path == save.path;
+  if (!confirmed && state.document.replaces_other(path)) {
+    state.log("prompt: replace");
+    const std::string reason = !state.document.has_file(path)
+                                   ? " exists. It holds another work or pot."
+                               : state.document.file_in_use() ? " is open in another window."
+                                                              : " was changed by another program.";
+    state.ui.dialog =
+        ReplaceDialog{path.filename().string() + reason, SaveDialog{path.string(), next}};
+    return;
+  }
+  if (!save_document(state, path)) {
+    if (state.ui.shows<ReplaceDialog>()) (*this)(KeepFiles{});
+    return;
+  }
+  close_dialog(state);
+  // Not if only a pot was saved, because a pot file keeps no strokes.
+  if (next && !state.document.unsaved()) apply(state, *next);
+}
+
+void Performer::operator()(const ReplaceFiles&) const {
+  const auto* asked = std::get_if<ReplaceDialog>(&state.ui.dialog);
+  if (asked == nullptr) return;
+  if (asked->save) return (*this)(SaveFile{asked->save->path, true});
+  back_to_export(*asked);
+  (*this)(WriteExport{true});
+}
+
+void Performer::operator()(const KeepFiles&) const {
+  const auto* asked = std::get_if<ReplaceDialog>(&state.ui.dialog);
+  if (asked == nullptr) return;
+  if (!asked->save) return back_to_export(*asked);
+  Dialog before = *asked->save;
+  state.ui.dialog = std::move(before);
+}
+
+void Performer::operator()(const Save&) const {
+  if (state.document.file().empty())
+    ask_for_name(std::nullopt);
+  else
+    (*this)(SaveFile{state.document.file()});
+}
+
+void Performer::operator()(const Undo&) const {
+  change_document([](Document& document) { return document.undo(); });
+}
+
+void Performer::operator()(const Redo&) const {
+  change_document([](Document& document) { return document.redo(); });
+}
+
+void Performer::operator()(const GoToStroke& go) const {
+  if (go.logged) state.log(fmt::format("timeline: {}", go.node));
+  change_document([&](Document& document) { return document.go_to(go.node); });
+}
+
+void Performer::operator()(const OtherBranch&) const {
+  state.stroke.release();
+  if (const auto node = state.document.other_branch()) (*this)(GoToStroke{*node});
+}
+
+void Performer::operator()(const Scrub& scrub) const {
+  state.stroke.release();
+  if (succeeded(state, state.document.scrub(scrub.node, scrub.seconds))) state.stroke.hold_back();
+}
+
+void Performer::operator()(const EndScrub&) const {
+  const auto& moment = state.document.moment();
+  if (!moment) return;
+  state.log(fmt::format("timeline: {} at {:.3f} s", moment->node, moment->seconds));
+  note(state, Grade::note,
+       fmt::format("{:.1f} s into stroke {}: Ctrl+Shift+B, or a press on the clay, continues "
+                   "from here as a branch; Esc goes back",
+                   moment->seconds, moment->node),
+       8.0);
+}
+
+void Performer::operator()(const BranchHere&) const {
+  change_document([](Document& document) { return document.branch_here(); });
+}
+
+void Performer::show_work() const {
+  state.stroke.begin_work();
+  state.guide.end();
+  choose(state.document.scene().tool, state.settings.tool);
+  state.ui.dialog = NoDialog{};
+  show_from(ViewFrom::home);
+  state.ui.exporting.written.clear();
+  state.ui.thumbs.clear();
+  state.log("work started: " + state.document.scene().name);
+}
+
+void Performer::show_own_wheel() const {
+  state.settings.wheel_rpm = std::clamp(state.document.wheel_rpm(), kSlowestRpm, kFastestRpm);
+}
+
+void Performer::start_lesson(std::size_t sample, Demonstration demonstration) const {
+  const auto begun = state.guide.begin(samples().at(sample), demonstration);
+  if (!succeeded(state, begun)) return;
+  // The verdict of a first pot is that for the usual printer.
+  if (state.settings.process.empty()) (*this)(SetProcess{"fdm"});
+  state.scene.cut = render::Cut::half;  // the path in the bore is in sight
+  state.scene.look(state.stroke.view(), ViewFrom::lesson);
+}
+
+std::optional<Action> Performer::after_saving() const {
+  if (const auto* save = std::get_if<SaveDialog>(&state.ui.dialog)) return save->next;
+  if (const auto* asked = std::get_if<ReplaceDialog>(&state.ui.dialog); asked && asked->save)
+    return asked->save->next;
+  const auto* unsaved = std::get_if<UnsavedDialog>(&state.ui.dialog);
+  return unsaved != nullptr && unsaved->saving ? std::optional(unsaved->next) : std::nullopt;
+}
+
+void Performer::forget(std::size_t index) const {
+  state.recoverable.erase(state.recoverable.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
+void Performer::open_drawing(const std::filesystem::path& path) const {
+  auto bytes = read_file(path);
+  if (!bytes) return report(state, bytes.error());
+  ImportDialog import;
+  import.path = path;
+  import.bytes = std::move(*bytes);
+  reload(import);
+  state.ui.dialog = std::move(import);
+  state.log("drawing: " + path.string());
+}
+
+void Performer::ask_for_name(std::optional<Action> next) const {
+  // The name is shown with its folder, as for an export; a page has no folders.
+  std::filesystem::path folder = state.settings.folder;
+  if (folder.empty() && !kInPage) folder = std::filesystem::current_path();
+  const std::filesystem::path path = unused_name(folder, state.document.name());
+  if (!open_desktop_dialog(state, FileDialog::Kind::save, path))
+    state.ui.dialog = SaveDialog{path.string(), std::move(next)};
+}
+
+}  // namespace clay::studio
