@@ -138,8 +138,9 @@ ExportFigures figures_of(const solid::ExportReport& report, const solid::ExportO
   for (const solid::FileReport& file : report.files)
     if (file.kind == solid::FileKind::mesh) figures.meshes.push_back({file.format, file.bytes});
   std::vector<solid::Problem> problems = solid::problems_of(report);
-  const auto warnings = std::ranges::stable_partition(problems, &solid::Problem::fails);
-  figures.failed = static_cast<std::size_t>(warnings.begin() - problems.begin());
+  const auto warnings = std::stable_partition(problems.begin(), problems.end(),
+                                              [](const solid::Problem& one) { return one.fails; });
+  figures.failed = static_cast<std::size_t>(warnings - problems.begin());
   for (const solid::Problem& problem : problems) {
     figures.problems.push_back(problem.text);
     figures.closed_cavity |= problem.kind == solid::ProblemKind::cavity;

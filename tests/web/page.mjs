@@ -82,8 +82,8 @@ async function throwAndExport(browser) {
   await page.says('checked: proved', 4);
   await chord(page, 'KeyE', 'Control');
   await page.says('export previewed');
-  await page.mouse.click(404, 104);  // STL
-  await page.mouse.click(660, 137);  // Pot
+  await page.mouse.click(330, 108);  // STL
+  await page.mouse.click(607, 174);  // Pot
   await pause(1500);
   await picture(page, 'export');
   await chord(page, 'Enter', 'Control');
