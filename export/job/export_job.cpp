@@ -29,22 +29,17 @@ namespace {
 
 using Progress = std::function<void(std::string_view)>;
 
-Result<PreparedPot> prepared(const Pot& pot, const ExportOptions& options) {
-  if (!(options.tolerance_mm > 0.0))
-    return failure(ErrorKind::bad_input, "tolerance: expected more than 0 mm, found " +
-                                             nine_digit_text(options.tolerance_mm) + " mm");
-  return prepare(pot, options);
-}
-
 Result<ExportReport> run_prepared(const PreparedPot& pot, const std::vector<Output>& outputs,
                                   const ExportOptions& options, const Progress& progress) {
   return pot.pot.collapse ? export_collapsed(pot, outputs, options, progress)
                           : export_revolved(pot, outputs, options, progress);
 }
 
-/// The result of `work`, or the error of a cancelled job.
+/// The result of `work`, or the error of options out of range or of a cancelled job. Every entry
+/// passes through here.
 template <class Work>
 auto guarded(const ExportOptions& options, Work work) -> decltype(work()) {
+  if (auto valid = check_ranges(options); !valid) return tl::make_unexpected(valid.error());
   const CancelScope scope(options.cancelled ? &options.cancelled : nullptr);
   const auto stopped = [&](const std::string& why) {
     return named(decltype(work())(failure(ErrorKind::io, "export stopped: " + why)),
@@ -171,7 +166,7 @@ class FilesExport {
     stop_if_cancelled();
     if (!solid && !asks(FileKind::section)) return list_files({});
     if (asks(FileKind::wall_table)) options_.wall_spacing_mm = kWallTableSpacingMm;
-    const auto pot = named(prepared(pot_, options_), options_.source);
+    const auto pot = named(prepare(pot_, options_), options_.source);
     if (!pot) return tl::make_unexpected(pot.error());
     if (solid) {
       auto report = run_prepared(*pot, outputs(), options_, progress_);
@@ -315,7 +310,7 @@ Result<FileRequest> file_request(const std::string& path) {
 Result<ExportReport> run_export(const Pot& pot, const std::vector<Output>& outputs,
                                 const ExportOptions& options, const Progress& progress) {
   return guarded(options, [&] {
-    return named(prepared(pot, options), options.source).and_then([&](const PreparedPot& ready) {
+    return named(prepare(pot, options), options.source).and_then([&](const PreparedPot& ready) {
       return run_prepared(ready, outputs, options, progress);
     });
   });

@@ -203,8 +203,9 @@ std::string text_of(const MetGoal& met) {
 
 Result<GoalReport> scaled_to(const Pot& pot, const Goal& goal, const ExportOptions& options) {
   // The request alone is at fault, and not the pot.
-  if (auto checked = check_aims(aims_of(goal), goal, options); !checked)
-    return tl::make_unexpected(checked.error());
+  const auto checked =
+      check_ranges(options).and_then([&] { return check_aims(aims_of(goal), goal, options); });
+  if (!checked) return tl::make_unexpected(checked.error());
   return named(GoalSearch(pot, goal, options).run(), options.source);
 }
 

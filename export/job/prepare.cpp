@@ -31,26 +31,6 @@ WideQuanta crown_of(const ClayStack& stack, const Ring& larger_top) {
   return std::min(times(larger_top.volume(), part), larger_top.volume() - 1);
 }
 
-/// Float32 does not separate the points of a smaller part, and the set-back is made within the
-/// tolerance.
-Result<void> check_parts(const ExportOptions& options) {
-  constexpr double kSmallestMm = 1e-3, kOfTolerance = 0.1;
-  const Finish& finish = options.finish;
-  const auto check = [](const char* part, double mm, double least_mm) -> Result<void> {
-    if (mm == 0.0 || mm >= least_mm) return {};
-    return failure(ErrorKind::bad_input, std::string(part) + ": expected 0, or at least " +
-                                             nine_digit_text(least_mm) + " mm, found " +
-                                             nine_digit_text(mm) + " mm");
-  };
-  return check("floor fillet", finish.floor_fillet_mm, kSmallestMm)
-      .and_then(
-          [&] { return check("lip fillet", options.lip_fillet_mm.value_or(0.0), kSmallestMm); })
-      .and_then([&] {
-        return check("glaze allowance", finish.glaze_mm,
-                     std::max(kSmallestMm, kOfTolerance * options.tolerance_mm));
-      });
-}
-
 /// Number of rings below the bottom of the uppermost closed cavity; 0 if there is none.
 std::size_t rings_to_drill(const ClayStack& stack) {
   std::size_t rings = 0;
@@ -88,10 +68,8 @@ Result<Pot> scaled(const Pot& pot, double radius_factor, double height_factor) {
 }
 
 Result<Pot> enlarged(const Pot& pot, double shrinkage) {
-  if (!(shrinkage >= 0.0 && shrinkage <= kMostShrinkage))
-    return failure(ErrorKind::bad_input, "shrinkage: expected 0 to " +
-                                             nine_digit_text(kMostShrinkage) + ", found " +
-                                             nine_digit_text(shrinkage));
+  if (auto valid = check_range(kShrinkageRange, shrinkage); !valid)
+    return tl::make_unexpected(valid.error());
   if (shrinkage == 0.0) return pot;
   const double factor = enlargement(shrinkage);
   return scaled(pot, factor, factor)
@@ -135,8 +113,7 @@ Result<PreparedPot> prepare(const Pot& pot, const ExportOptions& options) {
     return failure(ErrorKind::bad_input, "drain: expected a standing pot, found a collapsed one");
   ClayFigures clay = options.clay;
   clay.shrinkage = options.shrinkage;
-  return check_parts(options)
-      .and_then([&] { return enlarged(pot, options.shrinkage); })
+  return enlarged(pot, options.shrinkage)
       .and_then([&](Pot larger) {
         clay.density_g_cm3 = larger.density_g_cm3;
         return clay.check().map([&] { return std::move(larger); });

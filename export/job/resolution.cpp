@@ -25,13 +25,6 @@ Extent extent_of(const Profile& profile) {
   return extent;
 }
 
-Result<std::size_t> forced_segments(std::size_t segments) {
-  if (segments >= kMinSegments && segments <= kMaxSegments) return segments;
-  return failure(ErrorKind::bad_input, "segments: expected " + std::to_string(kMinSegments) +
-                                           " to " + std::to_string(kMaxSegments) + ", found " +
-                                           std::to_string(segments));
-}
-
 Result<std::size_t> segments_within(const Profile& profile, double tolerance_mm, double reach_mm) {
   const Extent extent = extent_of(profile);
   // The vertices lie slightly outside the radius; the factor 2 covers that.
@@ -49,7 +42,7 @@ Result<std::size_t> segments_within(const Profile& profile, double tolerance_mm,
 
 Result<std::size_t> choose_segments(const Profile& profile, double tolerance_mm,
                                     const ExportOptions& options, double reach_mm) {
-  return (options.segments ? forced_segments(*options.segments)
+  return (options.segments ? Result<std::size_t>(*options.segments)
                            : segments_within(profile, tolerance_mm, reach_mm))
       .and_then([&](std::size_t segments) -> Result<std::size_t> {
         const std::size_t triangles = triangle_count(profile, segments);

@@ -97,10 +97,11 @@ Balance balance(double centre_mm, double foot_diameter_mm) noexcept {
 
 std::string in_percent(double part) { return nine_digit_text(100.0 * part) + " %"; }
 
-Result<void> check_part(std::string_view name, double value, double below) {
-  if (value >= 0.0 && value < below) return {};
-  return failure(ErrorKind::bad_input, std::string(name) + ": expected 0 to below " +
-                                           in_percent(below) + ", found " + in_percent(value));
+/// NaN is not within any limits.
+Result<void> check_part(std::string_view name, double value, double most) {
+  if (value >= 0.0 && value <= most) return {};
+  return failure(ErrorKind::bad_input, std::string(name) + ": expected 0 % to " + in_percent(most) +
+                                           ", found " + in_percent(value));
 }
 
 /// Visits the lines from the brim down the bore, each by its ends in reverse order. Returns whether
@@ -147,14 +148,14 @@ Result<void> ClayFigures::check() const {
     return failure(ErrorKind::bad_input,
                    "density: expected more than 0 and less than 100 g/cm3, found " +
                        nine_digit_text(density_g_cm3));
-  return check_part("shrinkage", shrinkage, 1.0)
-      .and_then([&] { return check_part("water", water, 1.0); })
-      .and_then([&] { return check_part("loss on ignition", ignition_loss, 1.0); })
+  return check_part("shrinkage", shrinkage, kMostShrinkage)
+      .and_then([&] { return check_part("water", water, kMostWeightLoss); })
+      .and_then([&] { return check_part("loss on ignition", ignition_loss, kMostWeightLoss); })
       .and_then([&]() -> Result<void> {
         const double drying = drying_shrinkage.value_or(0.0);
         if (drying >= 0.0 && drying <= shrinkage) return {};
         return failure(ErrorKind::bad_input,
-                       "drying shrinkage: expected at most the shrinkage in total, " +
+                       "drying shrinkage: expected 0 % to the shrinkage in total, " +
                            in_percent(shrinkage) + ", found " + in_percent(drying));
       });
 }

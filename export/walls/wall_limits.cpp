@@ -119,6 +119,34 @@ const WallLimit& ProcessLimits::wall_for(double size_sum_mm) const noexcept {
   return limit == walls.end() ? walls.back() : *limit;
 }
 
+Result<void> ProcessLimits::check() const {
+  const auto wrong = [](const std::string& what) {
+    return failure(ErrorKind::bad_input, "process: expected " + what);
+  };
+  struct Number {
+    const char* what;
+    double value;
+    Range range;
+  };
+  std::vector<Number> numbers;
+  double smaller = 0.0;
+  for (const WallLimit& wall : walls) {
+    if (!(wall.up_to_size_sum_mm > smaller)) return wrong("walls by increasing size");
+    smaller = wall.up_to_size_sum_mm;
+    numbers.push_back({"walls", wall.min_wall_mm, kWallMm});
+  }
+  if (walls.empty()) return wrong("at least one wall, found none");
+  if (overhang) numbers.push_back({"an overhang", overhang->max_deg, kOverhangDeg});
+  if (edges) numbers.push_back({"radii of edges", edges->min_radius_mm, kWallMm});
+  if (size)
+    for (const double mm : {size->width_mm, size->depth_mm, size->height_mm})
+      numbers.push_back({"sizes", mm, kSizeMm});
+  for (const auto& [what, value, range] : numbers)
+    if (!range.holds(value))
+      return wrong(std::string(what) + " " + range.text() + ", found " + number_text(value));
+  return {};
+}
+
 Result<ProcessLimits> process_named(std::string_view name) {
   for (const ProcessLimits& process : built_in())
     if (name.size() == process.name.size() && ends_ignoring_case(name, process.name))

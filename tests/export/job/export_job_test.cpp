@@ -123,7 +123,7 @@ TEST(RunExport, RefusesOptionsThatCannotBeMet) {
     options.tolerance_mm = tolerance;
     EXPECT_TRUE(refused(exported(pot, {}, options), ErrorKind::bad_input, "tolerance"));
   }
-  options.tolerance_mm = 1e-9;
+  options.tolerance_mm = 1e-5;
   EXPECT_TRUE(
       refused(exported(pot, {}, options), ErrorKind::bad_input, "tolerance: expected at least"));
   options = {};

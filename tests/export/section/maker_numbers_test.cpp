@@ -170,9 +170,9 @@ TEST(MakerNumbers, RefuseFiguresOutOfRange) {
   EXPECT_TRUE(clay.check());
   clay.drying_shrinkage = 0.2;
   ASSERT_FALSE(clay.check());
-  EXPECT_NE(clay.check().error().message.find(
-                "expected at most the shrinkage in total, 10 %, found 20 %"),
-            std::string::npos);
+  EXPECT_NE(
+      clay.check().error().message.find("expected 0 % to the shrinkage in total, 10 %, found 20 %"),
+      std::string::npos);
   clay = {};
   clay.water = 1.0;
   EXPECT_FALSE(clay.check());

@@ -7,6 +7,7 @@
 #include "claystack/export/fallen.hpp"
 #include "claystack/export/formats.hpp"
 #include "claystack/export/maker.hpp"
+#include "claystack/export/option_ranges.hpp"
 #include "claystack/export/proof.hpp"
 #include "claystack/export/section.hpp"
 #include "claystack/export/smoothing.hpp"
@@ -25,9 +26,6 @@ namespace clay::solid::inline job {
 
 // ---- shrinkage -----------------------------------------------------------------------
 // Clay shrinks in drying and firing, so the files are enlarged to give the piece its final size.
-
-/// The largest accepted shrinkage, as a fraction of each length.
-inline constexpr double kMostShrinkage = 0.5;
 
 /// The factor on lengths that compensates a shrinkage s: 1 / (1 - s).
 [[nodiscard]] constexpr double enlargement(double shrinkage) noexcept {
@@ -79,6 +77,7 @@ Result<GoalReport> scaled_to(const Pot& pot, const Goal& goal, const ExportOptio
 
 // ---- request -------------------------------------------------------------------------
 
+/// `check_ranges` refuses numbers out of their range before an export begins.
 struct ExportOptions {
   /// Maximum chordal error along the profile and around the axis, and vertex error of Draco.
   double tolerance_mm = 0.02;

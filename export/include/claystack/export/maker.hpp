@@ -13,6 +13,11 @@ namespace clay::solid::inline section {
 
 // ---- clay ----------------------------------------------------------------------------
 
+/// The largest accepted shrinkage, as a fraction of each length.
+inline constexpr double kMostShrinkage = 0.5;
+/// The largest accepted loss of water, and on ignition, as a fraction of the weight.
+inline constexpr double kMostWeightLoss = 0.9;
+
 /// Planning figures of a clay. Clays differ: weigh and measure a test tile.
 struct ClayFigures {
   double density_g_cm3 = 1.9;  ///< as thrown
@@ -23,7 +28,7 @@ struct ClayFigures {
   double water = 0.20;          ///< fraction of the thrown weight lost in drying
   double ignition_loss = 0.09;  ///< fraction of the dry weight lost in firing
 
-  /// Errors (bad_input) name the figure that is out of range, or a drying shrinkage above the
+  /// Errors (bad_input) name the figure that is out of range; a drying shrinkage is at most the
   /// total.
   [[nodiscard]] Result<void> check() const;
 };

@@ -186,7 +186,12 @@ struct ProcessLimits {
   std::optional<SizeLimit> size;
   std::optional<EdgeLimit> edges;
 
+  /// Requires at least one wall.
   [[nodiscard]] const WallLimit& wall_for(double size_sum_mm) const noexcept;
+
+  /// Of limits that a program made: the rules of a process file. Errors (bad_input) name the number
+  /// that is out of range.
+  [[nodiscard]] Result<void> check() const;
 };
 
 inline constexpr std::array<std::string_view, 5> kProcessNames{"fdm", "sla", "earthenware",
