@@ -1,6 +1,7 @@
 #include "app/cli/mesh_input.hpp"
 
 #include "app/cli/memory_room.hpp"
+#include "app/cli/remedies.hpp"
 #include "claystack/core/atomic_file.hpp"
 
 #include <fmt/format.h>
@@ -78,6 +79,15 @@ Result<std::uint64_t> MeshFile::whole_triangles() const {
 }
 
 Result<TriangleMesh> MeshFile::read(const MeshWork& work, const solid::ReadOptions& options) {
+  auto mesh = decoded(work, options).map_error([&](const Error& error) {
+    return Error{error.kind, with_options(error.message, path_.size())};
+  });
+  if (options.notes != nullptr)
+    for (std::string& note : *options.notes) note = with_options(std::move(note));
+  return mesh;
+}
+
+Result<TriangleMesh> MeshFile::decoded(const MeshWork& work, const solid::ReadOptions& options) {
   if (!stream_)
     return whole_triangles()
         .and_then([&](std::uint64_t triangles) {

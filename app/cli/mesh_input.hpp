@@ -40,12 +40,13 @@ class MeshFile {
 
   /// Once only. Before memory is allocated for the triangles, their number is read from the file or
   /// estimated; an error of kind `io` if mesh and work do not fit: "NAME: checking about 20000000
-  /// triangles needs ...".
+  /// triangles needs ...". Errors and notes name the options that help.
   Result<solid::TriangleMesh> read(const MeshWork& work, const solid::ReadOptions& options = {});
 
  private:
   MeshFile(std::string path, solid::MeshFormat format) : path_(std::move(path)), format_(format) {}
   [[nodiscard]] Result<std::uint64_t> whole_triangles() const;
+  Result<solid::TriangleMesh> decoded(const MeshWork& work, const solid::ReadOptions& options);
 
   std::string path_;
   solid::MeshFormat format_;

@@ -17,7 +17,7 @@ void WallOptions::add_to(CLI::App& command) {
 }
 
 Result<void> WallOptions::load() {
-  demand_ = {min_wall_mm_, std::nullopt};
+  demand_ = {min_wall_mm_, std::nullopt, "--min-wall"};
   if (process_.empty()) return {};
   return solid::read_process(process_)
       .map([&](solid::ProcessLimits process) { demand_.process = std::move(process); })

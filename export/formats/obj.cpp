@@ -173,7 +173,7 @@ class ObjReader {
   void read_short_face(std::size_t line) {
     if (!options_.repair)
       return scanner_.fail("expected a face of at least 3 corners, found " +
-                           std::to_string(corners_.size()) + "; check --repair leaves it out");
+                           std::to_string(corners_.size()) + "; " + kByRepair + " leaves it out");
     if (short_faces_++ == 0) short_face_line_ = line;
   }
 
@@ -230,10 +230,9 @@ class ObjReader {
                                " with a slash at the end of a corner, or on several lines: "
                                "PrusaSlicer does not read such faces");
     if (refused_faces_ > 0)
-      note(refused_face_line_,
-           counted(refused_faces_, "face") +
-               " of more than 4 corners: PrusaSlicer refuses such a file; check "
-               "--repair writes triangles");
+      note(refused_face_line_, counted(refused_faces_, "face") +
+                                   " of more than 4 corners: PrusaSlicer refuses such a file; " +
+                                   kByRepair + " writes triangles");
   }
 
   TextScanner scanner_;

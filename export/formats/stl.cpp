@@ -88,7 +88,8 @@ class StlTextReader {
   /// The file may have been cut off between two facets.
   bool end_without_word() {
     if (!options_.repair)
-      scanner_.fail("expected facet or endsolid, found the end of the file; --repair reads the " +
+      scanner_.fail("expected facet or endsolid, found the end of the file; " +
+                    std::string(kByRepair) + " reads the " +
                     counted(mesh_.triangles.size(), "facet") + " that are there");
     else if (options_.notes != nullptr)
       options_.notes->push_back("line " + std::to_string(scanner_.line()) +
@@ -160,7 +161,8 @@ tl::unexpected<Error> no_stl(std::string_view head, std::uint64_t bytes, std::st
                               std::to_string(head.size()) + " bytes");
   auto wrong = wrong_size(bytes, load_u32(head.data() + kHeaderBytes), name);
   if (bytes >= stl::file_bytes(1))
-    wrong.value().message += "; --repair reads the whole facets that are there";
+    wrong.value().message +=
+        std::string("; ").append(kByRepair).append(" reads the whole facets that are there");
   return wrong;
 }
 

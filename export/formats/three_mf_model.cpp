@@ -245,8 +245,9 @@ void ModelReader::add_triangle(XmlReader& reader, const XmlElement& element) {
   if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
     if (options_.repair) return void(++twice_);
     return reader.fail(
-        "expected a triangle of three vertices, found one that uses a vertex twice; check --repair "
-        "leaves it out");
+        std::string("expected a triangle of three vertices, found one that uses a vertex twice; ")
+            .append(kByRepair)
+            .append(" leaves it out"));
   }
   if (element.attributes.size() > 3) check_property(reader, element);
   if (++stored_triangles_ > kMaxTriangles)

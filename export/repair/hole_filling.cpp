@@ -168,18 +168,19 @@ tl::unexpected<Error> wide_opening(const Patch& patch) {
         ErrorKind::unsound,
         "expected a surface with an inside and an outside, found one with a single side, "
         "as a Moebius strip, " +
-            place + ": it is a surface without a wall. --thicken MM gives it one");
+            place + ": it is a surface without a wall; " + kThickening + " gives it one");
   if (patch.ring)
-    return failure(ErrorKind::unsound,
-                   "expected small holes, found an opening between two borders in one plane, one "
-                   "around the other, " +
-                       place +
-                       ": the mesh may be a wall without its rim, which --cap closes by a ring "
-                       "between the borders, or a surface without a wall, which --thicken MM gives "
-                       "one");
+    return failure(
+        ErrorKind::unsound,
+        "expected small holes, found an opening between two borders in one plane, one "
+        "around the other, " +
+            place + ": the mesh may be a wall without its rim, which " + kCapping +
+            " closes by a ring between the borders, or a surface without a wall, which " +
+            kThickening + " gives one");
   return failure(ErrorKind::unsound, "expected small holes, found an opening " + place +
-                                         ": the mesh may be a surface without a wall. "
-                                         "--thicken MM gives it one, --cap closes it by a cap");
+                                         ": the mesh may be a surface without a wall; " +
+                                         kThickening + " gives it one, " + kCapping +
+                                         " closes it by a cap");
 }
 
 }  // namespace
@@ -207,7 +208,7 @@ Result<FilledHoles> fill_holes(Surface& surface, Openings openings) {
 
 tl::unexpected<Error> unfilled(const FilledHole& hole) {
   const std::string found = "found one of " + counted(hole.edges, "edge") + ", " +
-                            size_and_place(hole) + "; --wrap MM makes a new surface";
+                            size_and_place(hole) + "; " + kWrapping + " makes a new surface";
   if (hole.edges > kMaxHoleEdges)
     return failure(ErrorKind::unsound, "expected holes of at most " +
                                            std::to_string(kMaxHoleEdges) + " edges, " + found);

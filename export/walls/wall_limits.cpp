@@ -193,7 +193,7 @@ bool SizeLimit::fits(const glm::dvec3& size_mm) const noexcept {
 
 std::optional<WallLimit> WallDemand::for_size(double size_sum_mm) const {
   std::optional<WallLimit> limit;
-  if (min_wall_mm) limit = WallLimit{kAnySize, *min_wall_mm, "--min-wall", {}};
+  if (min_wall_mm) limit = WallLimit{kAnySize, *min_wall_mm, min_wall_source, {}};
   if (!process) return limit;
   const WallLimit& asked = process->wall_for(size_sum_mm);
   return limit && limit->min_wall_mm >= asked.min_wall_mm ? limit : asked;

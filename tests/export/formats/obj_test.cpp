@@ -241,7 +241,7 @@ TEST(Obj, ReadsAFaceOnALongLine) {
 TEST(Obj, LeavesOutFacesOfTwoCornersForRepairs) {
   const std::string text = kSquare + "f 1 2\nf 1 2 3\nf 3\n";
   EXPECT_EQ(obj_message(text),
-            "pot.obj:5: expected a face of at least 3 corners, found 2; check --repair leaves it "
+            "pot.obj:5: expected a face of at least 3 corners, found 2; a repair leaves it "
             "out");
   std::vector<std::string> notes;
   const auto mesh = decode_obj(text, "pot.obj", {.repair = true, .notes = &notes});

@@ -133,7 +133,7 @@ TEST(Stl, SizeDistinguishesBinaryFromText) {
   bytes += '\0';
   EXPECT_EQ(message_of(bytes),
             "pot.stl: expected 2084 bytes of binary STL for the 40 facets it counts, found 2085 "
-            "bytes; --repair reads the whole facets that are there");
+            "bytes; a repair reads the whole facets that are there");
 }
 
 TEST(Stl, IgnoresBinaryNormalsAndAttributes) {
@@ -298,7 +298,7 @@ TEST(Stl, RepairsTextWithoutEndsolid) {
   const std::string whole = encode_stl_ascii(tetrahedron(), "pot");
   const std::string cut = whole.substr(0, whole.rfind("endsolid"));
   EXPECT_EQ(decode_stl(cut, "pot.stl").error().message,
-            "pot.stl:29: expected facet or endsolid, found the end of the file; --repair reads the "
+            "pot.stl:29: expected facet or endsolid, found the end of the file; a repair reads the "
             "4 facets that are there");
   std::vector<std::string> notes;
   EXPECT_EQ(decode_stl(cut, "pot.stl", {.repair = true, .notes = &notes}).value(),
@@ -329,7 +329,7 @@ TEST(Stl, RefusesBinaryOfAnyOtherSize) {
   EXPECT_EQ(
       message_of(whole + "x"),
       "pot.stl: expected 284 bytes of binary STL for the 4 facets it counts, found 285 bytes; "
-      "--repair reads the whole facets that are there");
+      "a repair reads the whole facets that are there");
   for (const std::uint32_t count : {0u, 3u, 5u, 0xFFFFFFFFu}) {
     std::string bytes = whole;
     overwrite(bytes, 80, count);

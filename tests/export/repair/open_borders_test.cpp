@@ -221,7 +221,8 @@ TEST(OpenBorders, TwoWallsOfAPipeAreJoinedByRingsOnRequest) {
   for (const TriangleMesh& open : {walls, turned(walls)}) {
     const auto refused = repair_mesh(open);
     ASSERT_FALSE(refused);
-    for (const char* part : {"one around the other", "--cap closes by a ring", "--thicken MM"})
+    for (const char* part :
+         {"one around the other", "capping closes by a ring", "which thickening gives one"})
       EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
     const auto capped = repair_mesh(open, {.cap_openings = true});
     ASSERT_TRUE(capped) << capped.error().message;

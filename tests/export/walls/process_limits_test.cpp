@@ -32,6 +32,15 @@ TEST(ProcessLimits, WallsGrowWithTheObject) {
   EXPECT_EQ(sla.wall_for(1e6).min_wall_mm, 3.0);
 }
 
+/// The library has no options: a command gives the name of its own.
+TEST(ProcessLimits, ARequestedWallHasTheSourceThatTheCallerNames) {
+  WallDemand demand;
+  demand.min_wall_mm = 3.0;
+  EXPECT_EQ(demand.for_size(100.0).value().asked_by(), "requested minimum wall");
+  demand.min_wall_source = "--min-wall";
+  EXPECT_EQ(demand.for_size(100.0).value().asked_by(), "--min-wall");
+}
+
 constexpr const char* kWorkshop = R"({"schema": "claystack-process-1", "name": "workshop",
   "walls": [{"up_to_size_sum_mm": 300, "min_wall_mm": 2.5, "source": "our own trials"},
             {"up_to_size_sum_mm": 600, "min_wall_mm": 4, "source": "our own trials"}]})";

@@ -154,6 +154,9 @@ Result<std::string> pack_3mf(const ModelPart& model, const FileContents& content
 /// meshoptimizer also needs a triangle at every point. `bad_input` for an unknown material.
 Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& contents);
 
+/// What messages call `ReadOptions::repair`, and the repair of the mesh that follows.
+inline constexpr const char* kByRepair = "a repair";
+
 /// Input that a reader accepts beyond its format.
 struct ReadOptions {
   /// Binary STL whose size differs from what its count requires: the whole facets that are there.

@@ -54,6 +54,11 @@ struct RepairOptions {
   std::function<bool()> cancelled = {};
 };
 
+/// What messages call the settings that help: `thicken_mm`, `cap_openings` and `wrap_mm`.
+inline constexpr const char* kThickening = "thickening";
+inline constexpr const char* kCapping = "capping";
+inline constexpr const char* kWrapping = "wrapping";
+
 /// A wall that was made around an open surface.
 struct ThickenedWall {
   double asked_mm = 0.0;

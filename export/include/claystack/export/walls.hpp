@@ -213,6 +213,8 @@ Result<ProcessLimits> read_process(const std::string& name);
 struct WallDemand {
   std::optional<double> min_wall_mm;
   std::optional<ProcessLimits> process;
+  /// The source of `min_wall_mm` in reports, such as an option of a command.
+  std::string min_wall_source = "requested minimum wall";
 
   /// For an object whose width, depth and height add up to this: the larger of both figures. Empty
   /// without requirements.
