@@ -1,0 +1,200 @@
+#include "app/cli/export_request.hpp"
+
+#include "app/cli/memory_room.hpp"
+#include "app/cli/output_files.hpp"
+#include "app/cli/pot_copy.hpp"
+#include "app/cli/pot_input.hpp"
+#include "app/cli/usage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace clay::cli {
+namespace {
+
+using solid::FileKind;
+using solid::FileRequest;
+using solid::MeshFormat;
+
+solid::Smoothing smoothing_of(std::string_view name) {
+  for (const auto mode : {solid::Smoothing::fair, solid::Smoothing::exact})
+    if (solid::name_of(mode) == name) return mode;
+  return solid::Smoothing::none;
+}
+
+constexpr std::array kGlbMeshes{std::pair{"draco", solid::GlbMesh::draco},
+                                std::pair{"meshopt", solid::GlbMesh::meshopt},
+                                std::pair{"core", solid::GlbMesh::core}};
+
+solid::GlbMesh glb_mesh_of(std::string_view name) {
+  return std::ranges::find(kGlbMeshes, name,
+                           [](const auto& mesh) { return std::string_view(mesh.first); })
+      ->second;
+}
+
+Result<void> check_names(const ExportCommand& command, const Console& console) {
+  std::vector<OutputFile> outputs;
+  for (const std::string& path : command.outputs) outputs.push_back({path});
+  outputs.push_back({command.request.report_path, {".html", ".json"}});
+  if (command.request.certificates)
+    for (const std::string& path : command.outputs) outputs.push_back({path + ".certificate.json"});
+  return check_outputs(outputs, {command.pot, command.walls.process()}, console);
+}
+
+bool is_pot(const FileRequest& file) { return file.kind == FileKind::given; }
+bool is_step(const FileRequest& file) { return file.kind == FileKind::step; }
+bool is_mesh(const FileRequest& file) { return file.kind == FileKind::mesh; }
+bool is_solid(const FileRequest& file) { return is_mesh(file) || is_step(file); }
+bool is_made(const FileRequest& file) { return !is_pot(file); }
+template <MeshFormat... Formats>
+bool is_format(const FileRequest& file) {
+  return is_mesh(file) && ((file.format == Formats) || ...);
+}
+
+/// An option and the files on which it has an effect.
+struct FileOption {
+  bool given;
+  std::string_view name, kind;
+  bool (*fits)(const FileRequest&);
+};
+
+/// Options of the solid that do not change a copy of the pot.
+constexpr std::array kSolidOptions{"--segments", "--max-triangles", "--verify",
+                                   "--measure-left-out"};
+/// Options of the section, by which a goal scales the pot.
+constexpr std::array kSectionOptions{"--tolerance",  "--smooth", "--smooth-length",
+                                     "--lip-fillet", "--drain",  "--pieces"};
+
+/// The options of the solid and the section that need a file other than a copy of the pot.
+std::vector<FileOption> made_options(const ExportCommand& command) {
+  std::vector<FileOption> options;
+  const auto add = [&](const char* name) {
+    options.push_back({command.given(name), name, "a mesh or its section", is_made});
+  };
+  std::ranges::for_each(kSolidOptions, add);
+  if (!command.has_goal()) std::ranges::for_each(kSectionOptions, add);
+  return options;
+}
+
+/// Refuses options that contradict each other. The export refuses them too, but names no option.
+Result<void> check_pairs(const ExportCommand& command) {
+  const solid::ExportOptions& options = command.request.options;
+  const auto refuse = [](const std::string& text) { return failure(ErrorKind::bad_input, text); };
+  for (const auto& [name, mm] : {std::pair("--smooth-length", options.smooth_length_mm),
+                                 {"--lip-fillet", options.lip_fillet_mm}})
+    if (mm.value_or(0.0) > 0.0 && command.smooth != "fair")
+      return refuse(fmt::format("{}: expected --smooth fair, found {}", name, command.smooth));
+  const double drying = options.clay.drying_shrinkage.value_or(0.0);
+  if (drying > options.shrinkage)
+    return refuse(
+        fmt::format("--drying-shrinkage: expected at most --shrinkage, {:g}%, found {:g}%",
+                    100.0 * options.shrinkage, 100.0 * drying));
+  if (command.goal.fired && command.has_goal() && options.shrinkage == 0.0)
+    return tl::make_unexpected(no_effect_without("--fired", "--shrinkage"));
+  return {};
+}
+
+/// Refuses options that have no effect on any of the requested files.
+Result<void> check_options(const ExportCommand& command) {
+  const solid::ExportOptions& options = command.request.options;
+  const bool unscaled = !command.has_goal();
+  constexpr std::string_view kFinish = "--foot, --floor-fillet and --glaze-allowance";
+  std::vector<FileOption> known{
+      FileOption{command.precision_mm.has_value(), "--precision", "a pot", is_pot},
+      FileOption{command.request.certificates, "--certificate", "a mesh", is_mesh},
+      FileOption{unscaled && options.shrinkage > 0.0, "--shrinkage", "a mesh or its section",
+                 is_made},
+      FileOption{unscaled && options.finish.asked(), kFinish, "a mesh or its section", is_made},
+      FileOption{command.walls.asked(), "--min-wall and --process", "a solid", is_solid},
+      FileOption{command.step.has_value(), "--step", "a .step", is_step},
+      FileOption{command.glb.has_value(), "--glb", "a .glb", is_format<MeshFormat::glb>},
+      FileOption{options.wall_map, "--wall-map", "a .glb or a .3mf",
+                 is_format<MeshFormat::glb, MeshFormat::three_mf>},
+      FileOption{command.material.has_value(), "--material", "a .glb", is_format<MeshFormat::glb>},
+      FileOption{command.ascii, "--ascii", "an .stl", is_format<MeshFormat::stl_ascii>},
+      FileOption{options.normals, "--normals", "an .obj", is_format<MeshFormat::obj>}};
+  std::ranges::copy(made_options(command), std::back_inserter(known));
+  for (const FileOption& option : known)
+    if (option.given && std::ranges::none_of(command.request.files, option.fits))
+      return failure(ErrorKind::bad_input,
+                     fmt::format("{}: expected {} among the files to write, found none",
+                                 option.name, option.kind));
+  constexpr solid::ClayFigures kUsual;
+  for (const auto& [name, given] :
+       {std::pair("--drying-shrinkage", options.clay.drying_shrinkage.value_or(0.0) > 0.0),
+        {"--water", options.clay.water != kUsual.water},
+        {"--ignition-loss", options.clay.ignition_loss != kUsual.ignition_loss}})
+    if (given && options.shrinkage == 0.0)
+      return tl::make_unexpected(no_effect_without(name, "--shrinkage"));
+  return check_pairs(command);
+}
+
+/// Standard output gets a binary STL, as from `check -o -`.
+Result<FileRequest> file_of(const std::string& path, bool ascii) {
+  if (path == "-")
+    return FileRequest{path, FileKind::mesh,
+                       ascii ? MeshFormat::stl_ascii : MeshFormat::stl_binary};
+  if (pot_encoding_of(path)) return FileRequest{path, FileKind::given};
+  return solid::file_request(path)
+      .map([&](FileRequest file) {
+        if (ascii && file.kind == FileKind::mesh && file.format == MeshFormat::stl_binary)
+          file.format = MeshFormat::stl_ascii;
+        return file;
+      })
+      .map_error([](const Error& error) {
+        return Error{error.kind, error.message + ", .pot.json or .pot.cbor for the pot"};
+      });
+}
+
+/// Files that take long to send or to slice are announced before they are written.
+std::function<void(const std::string&, std::size_t, std::uint64_t)> warning_of_size(
+    const Console& console, solid::Smoothing smoothing) {
+  return
+      [&console, smoothing](const std::string& name, std::size_t triangles, std::uint64_t bytes) {
+        constexpr std::uint64_t kLargeBytes = 50'000'000;
+        if (bytes < kLargeBytes) return;
+        const bool fair = smoothing == solid::Smoothing::fair;
+        console.warn(
+            fmt::format("{}: about {:.0f} MB, {} triangles; {} or --max-triangles makes it "
+                        "smaller",
+                        name, 1e-6 * static_cast<double>(bytes), triangles,
+                        fair ? "a larger --tolerance" : "--smooth fair"));
+      };
+}
+
+}  // namespace
+
+Result<void> complete_request(ExportCommand& command, const Console& console) {
+  if (auto loaded = command.walls.load(); !loaded) return loaded;
+  for (const std::string& path : command.outputs) {
+    auto file = file_of(path, command.ascii);
+    if (!file) return tl::make_unexpected(file.error());
+    command.request.files.push_back(std::move(*file));
+  }
+  if (auto names = check_names(command, console); !names) return names;
+  solid::ExportOptions& options = command.request.options;
+  options.smoothing = smoothing_of(command.smooth);
+  if (command.step == "lines") options.step_walls = solid::StepWalls::lines;
+  if (command.glb) options.glb = glb_mesh_of(*command.glb);
+  options.material = command.material.value_or(options.material);
+  options.full_verification = command.verify == "full";
+  options.finish.glaze_mm = command.glaze_mm * solid::enlargement(options.shrinkage);
+  options.walls = command.walls.demand();
+  options.name = std::filesystem::path(command.pot).stem().stem().string();
+  options.source = command.pot;
+  options.announce_size = warning_of_size(console, options.smoothing);
+  options.expect_memory = [](std::uint64_t bytes) { return expect_room("writing meshes", bytes); };
+  return check_options(command);
+}
+
+}  // namespace clay::cli
