@@ -1,7 +1,6 @@
 // The limits on a mesh that are not about its soundness: its walls, its size, its undersides.
 
 #include "app/cli/check.hpp"
-#include "app/cli/export_report.hpp"
 #include "core/text.hpp"
 
 #include "claystack/export/repair.hpp"

@@ -1,5 +1,5 @@
 #include "app/cli/check.hpp"
-#include "app/cli/export_report.hpp"
+#include "app/cli/export_json.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
-#include "app/cli/export_report.hpp"
+#include "app/cli/export_json.hpp"
 #include "app/cli/export_request.hpp"
+#include "app/cli/export_text.hpp"
 #include "app/cli/memory_room.hpp"
 #include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"

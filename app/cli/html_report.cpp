@@ -1,6 +1,6 @@
 #include "app/cli/html_report.hpp"
 
-#include "app/cli/export_report.hpp"
+#include "app/cli/export_figures.hpp"
 #include "app/cli/maker_table.hpp"
 #include "core/base64.hpp"
 #include "core/colour_scale.hpp"

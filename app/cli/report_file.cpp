@@ -1,6 +1,6 @@
 #include "app/cli/report_file.hpp"
 
-#include "app/cli/export_report.hpp"
+#include "app/cli/export_json.hpp"
 #include "app/cli/html_report.hpp"
 #include "app/cli/packed_pot.hpp"
 #include "core/text.hpp"
