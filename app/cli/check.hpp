@@ -118,6 +118,34 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command,
 Result<Verdict> check_mesh_file(solid::MeshFormat format, const CheckCommand& command,
                                 const Console& console, std::optional<std::string> input = {});
 
+/// An error of kind `io`, in advance, for a mesh that needs more memory than available.
+Result<solid::MeshReport> report_on(const solid::TriangleMesh& mesh);
+
+/// A file and the mesh that a reader finds in it.
+struct WrittenMesh {
+  std::string bytes;
+  solid::TriangleMesh mesh;
+  solid::MeshReport report;
+};
+
+/// Repairs and decimates `mesh` if requested, checks the contents of the resulting file, and writes
+/// it as `command.out`. `found` is the report on the mesh. Errors: `unsound` if the mesh cannot be
+/// repaired, or if the file would be worse than it.
+Result<WrittenMesh> repair_and_write(const solid::TriangleMesh& mesh,
+                                     const solid::MeshReport& found, const CheckCommand& command,
+                                     RepairSummary& summary, Progress& progress);
+
+/// Cavities of the mesh, and the parts of the file besides the mesh: a pot, a certificate, claims.
+Result<void> check_contents(std::string_view bytes, const solid::TriangleMesh& mesh,
+                            solid::MeshFormat format, const CheckCommand& command,
+                            Verdict& verdict);
+
+/// Empty if no certificate is checked.
+Result<std::optional<solid::SolidCertificate>> read_certificate(const CheckCommand& command);
+/// Compares all bytes of the file with `verdict.certificate`.
+Result<void> check_certificate(std::string_view bytes, solid::MeshFormat format,
+                               const CheckCommand& command, Verdict& verdict);
+
 /// The body that a printer makes of a mesh: of shells that a slicer unites, their union, because a
 /// surface inside of another shell bounds no wall.
 struct PrintedBody {
