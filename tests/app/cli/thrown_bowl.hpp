@@ -17,4 +17,13 @@ class ThrownBowl : public testing::Test {
   std::string pot = folder.file("bowl.pot.json");
 };
 
+/// The sample bowl, and its export as an STL.
+class ExportedBowl : public ThrownBowl {
+ protected:
+  [[nodiscard]] Ran run(const std::string& options) const {
+    return claystack("export " + pot + " " + stl + " " + options);
+  }
+  std::string stl = folder.file("bowl.stl");
+};
+
 }  // namespace clay::test
