@@ -75,6 +75,9 @@ constexpr std::array kSolidOptions{"--segments", "--max-triangles", "--verify",
 constexpr std::array kSectionOptions{"--tolerance",  "--smooth", "--smooth-length",
                                      "--lip-fillet", "--drain",  "--pieces"};
 
+/// Options of the figures of drying and firing.
+constexpr std::array kFiringOptions{"--drying-shrinkage", "--water", "--ignition-loss"};
+
 /// The options of the solid and the section that need a file other than a copy of the pot.
 std::vector<FileOption> made_options(const ExportCommand& command) {
   std::vector<FileOption> options;
@@ -129,12 +132,8 @@ Result<void> check_options(const ExportCommand& command) {
       return failure(ErrorKind::bad_input,
                      fmt::format("{}: expected {} among the files to write, found none",
                                  option.name, option.kind));
-  constexpr solid::ClayFigures kUsual;
-  for (const auto& [name, given] :
-       {std::pair("--drying-shrinkage", options.clay.drying_shrinkage.value_or(0.0) > 0.0),
-        {"--water", options.clay.water != kUsual.water},
-        {"--ignition-loss", options.clay.ignition_loss != kUsual.ignition_loss}})
-    if (given && options.shrinkage == 0.0)
+  for (const char* name : kFiringOptions)
+    if (command.given(name) && options.shrinkage == 0.0)
       return tl::make_unexpected(no_effect_without(name, "--shrinkage"));
   return check_pairs(command);
 }

@@ -46,7 +46,10 @@ TEST_F(ExportSize, AShrinkageIsAPercentage) {
 }
 
 TEST_F(ExportSize, RefusesFiguresOfFiringWithoutAShrinkage) {
-  for (const std::string option : {"--water 15%", "--ignition-loss 5%", "--drying-shrinkage 4%"}) {
+  // The second of each pair is what applies without the option.
+  for (const std::string option :
+       {"--water 15%", "--water 20%", "--ignition-loss 5%", "--ignition-loss 9%",
+        "--drying-shrinkage 4%", "--drying-shrinkage 0%"}) {
     const Ran alone = run(option);
     EXPECT_EQ(alone.status, 2);
     EXPECT_NE(alone.err.find(option.substr(0, option.find(' ')) + ": expected --shrinkage too"),
