@@ -17,7 +17,7 @@ namespace {
 
 using DevicePointer = std::unique_ptr<falcon::HapticDevice>;
 
-Result<DevicePointer> open_simulated(const falcon::SimulatedSettings& settings) {
+falcon::DeviceResult<DevicePointer> open_simulated(const falcon::SimulatedSettings& settings) {
   auto simulated = falcon::make_simulated_falcon(settings);
   if (!simulated) return tl::make_unexpected(simulated.error());
   if (auto opened = simulated->device->open(); !opened) return tl::make_unexpected(opened.error());
@@ -57,17 +57,17 @@ void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings) {
       ->capture_default_str();
 }
 
-Result<DevicePointer> open_chosen(const std::string& which, const falcon::FalconSettings& settings,
-                                  const falcon::SimulatedSettings& simulated) {
+falcon::DeviceResult<DevicePointer> open_chosen(const std::string& which,
+                                                const falcon::FalconSettings& settings,
+                                                const falcon::SimulatedSettings& simulated) {
   if (which == "simulated") return open_simulated(simulated);
 #ifdef CLAYSTACK_USB
-  auto device = falcon::open_device(which, {.falcon = settings, .space_mouse = {}});
-  if (!device) return tl::make_unexpected(device.error());
-  return std::move(*device);
+  return falcon::open_device(which, {.falcon = settings, .space_mouse = {}});
 #else
   (void)settings;
-  return failure(ErrorKind::bad_input,
-                 which + ": expected simulated, since this program was built without USB devices");
+  return falcon::device_failure(
+      falcon::DeviceFault::bad_setting,
+      which + ": expected simulated, since this program was built without USB devices");
 #endif
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // Selects the device and reports its errors.
 
-#include "claystack/core/result.hpp"
 #include "claystack/falcon/device.hpp"
 #include "claystack/falcon/sim.hpp"
 
@@ -27,7 +26,7 @@ void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings);
 
 /// Opens the device. `simulated` is made with the given settings; the others need the USB parts
 /// built in.
-Result<std::unique_ptr<falcon::HapticDevice>> open_chosen(
+falcon::DeviceResult<std::unique_ptr<falcon::HapticDevice>> open_chosen(
     const std::string& which, const falcon::FalconSettings& falcon,
     const falcon::SimulatedSettings& simulated);
 

@@ -69,9 +69,14 @@ void print_entry(const Entry& entry, const Console& console) {
     console.print(std::string("  ") + servo::kHomingAdvice);
 }
 
-Result<void> list(const falcon::DeviceSettings& settings, const Console& console) {
+/// The exit status of a command that ends with this error.
+int report_device(const falcon::DeviceError& error) {
+  return report(error, {{"problem", problem_json(error)}});
+}
+
+int list(const falcon::DeviceSettings& settings, const Console& console) {
   auto found = falcon::list_devices();
-  if (!found) return tl::make_unexpected(found.error());
+  if (!found) return report_device(found.error());
   Json json = {{"devices", Json::array()}};
   for (falcon::ListedDevice& device : *found) {
     const Entry entry = looked_at(std::move(device), settings);
@@ -81,21 +86,20 @@ Result<void> list(const falcon::DeviceSettings& settings, const Console& console
   if (found->empty())
     console.print("no device is connected; a Falcon is listed even without its power supply");
   if (console.json) print_json(json);
-  return {};
+  return kDone;
 }
 
-Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& settings,
-                  const Console& console) {
+int show(const DevicesOptions& options, const falcon::DeviceSettings& settings,
+         const Console& console) {
   auto device = open_chosen(options.device.empty() ? "auto" : options.device, settings.falcon,
                             falcon::simulated_and_loaded());
-  if (!device) return tl::make_unexpected(device.error());
+  if (!device) return report_device(device.error());
   falcon::HapticDevice& open = **device;
   if (options.monitor) {
     const auto mapping = servo::Mapping::build(options.mapping);
-    if (!mapping) return tl::make_unexpected(by_option(mapping.error()));
-    if (auto watched = watch(open, options.seconds, *mapping, console); !watched)
-      return tl::make_unexpected(watched.error());
-    return {};
+    if (!mapping) return report(by_option(mapping.error()));
+    const auto watched = watch(open, options.seconds, *mapping, console);
+    return watched ? kDone : report_device(watched.error());
   }
   open.write({});
   const falcon::DeviceState state = open.read(100'000).state;
@@ -110,7 +114,7 @@ Result<void> show(const DevicesOptions& options, const falcon::DeviceSettings& s
                 {"force_limit_n", info.force_limit_n},
                 {"half_workspace_mm", info.half_workspace_mm.x},
                 {"rate_hz", info.rate_hz}});
-  return {};
+  return kDone;
 }
 
 }  // namespace
@@ -140,8 +144,7 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
     falcon::DeviceSettings settings;
     settings.falcon = options->falcon;
     const bool one = options->monitor || !options->device.empty();
-    const auto done = one ? show(*options, settings, console) : list(settings, console);
-    exit = done ? kDone : report(done.error());
+    exit = one ? show(*options, settings, console) : list(settings, console);
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <string>
 
 namespace clay::test {
 namespace {
@@ -19,6 +20,19 @@ TEST(Devices, ReturnsFourForAMissingDevice) {
   const auto run = claystack("devices usb:250-7");
   EXPECT_EQ(run.status, 4);
   EXPECT_NE(run.err.find("usb:250-7: no such device"), std::string::npos) << run.err;
+}
+
+TEST(Devices, PrintsFaultAndRemedyOfADeviceThatDoesNotOpen) {
+  const auto run = claystack("devices usb:250-7 --json");
+  EXPECT_EQ(run.status, 4);
+  const auto json = run.json();
+  const auto& problem = json.at("problem");
+  EXPECT_EQ(problem.at("fault"), "not_found");
+  EXPECT_EQ(problem.at("what"), "usb:250-7: no such device is connected");
+  const auto remedy = problem.at("remedy").get<std::string>();
+  EXPECT_NE(remedy.find("without its power supply"), std::string::npos) << remedy;
+  EXPECT_EQ(json.at("kind"), "device");
+  EXPECT_EQ(json.at("error"), "usb:250-7: no such device is connected; " + remedy);
 }
 
 TEST(Devices, RefusesAnUnknownKind) {
