@@ -317,9 +317,12 @@ void begin_body(const ViewRect& rect, float width_px) {
   const float height = ImGui::GetStateStorage()->GetFloat(ImGui::GetID("body"), room);
   ImGui::BeginChild("##body", {width_px, std::min(height, room)}, false,
                     ImGuiWindowFlags_NavFlattened);
+  ImGui::BeginGroup();
 }
 
 void end_body() {
+  // Its last item may have had another spacing below it than that subtracted here.
+  ImGui::EndGroup();
   const float height = ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y;
   ImGui::EndChild();
   ImGui::GetStateStorage()->SetFloat(ImGui::GetID("body"), height);

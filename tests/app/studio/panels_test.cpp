@@ -14,6 +14,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace clay::studio {
@@ -193,6 +194,24 @@ TEST_F(Panels, OnlyTheOpenDialogIsDrawn) {
   (void)frame(dialog);
   EXPECT_TRUE(ImGui::FindWindowByName("##unsaved")->Active);
   EXPECT_FALSE(ImGui::FindWindowByName("##settings")->Active);
+}
+
+TEST_F(Panels, ADialogThatFitsHasNoScrollbar) {
+  constexpr ViewRect kLarge{{0.0f, 0.0f}, {1280.0f, 744.0f}};
+  ImGui::GetIO().DisplaySize = {1280.0f, 800.0f};
+  const auto dialog = [&](const ViewModel& model, Actions& actions) {
+    draw_dialog(model, actions, kLarge);
+  };
+  apply(state, ShowDialog{DialogKind::shortcuts});
+  for (int i = 0; i < 4; ++i) (void)frame(dialog);
+  const ImVector<ImGuiWindow*>& windows = GImGui->Windows;
+  const auto body = std::find_if(windows.begin(), windows.end(), [](const ImGuiWindow* window) {
+    return std::string_view(window->Name).starts_with("##shortcuts/##body");
+  });
+  ASSERT_NE(body, windows.end());
+  EXPECT_LT((*body)->Size.y, kLarge.size_px.y) << "it fits";
+  EXPECT_FALSE((*body)->ScrollbarY);
+  EXPECT_EQ((*body)->ScrollMax.y, 0.0f);
 }
 
 /// The middle of a logarithmic slider is the geometric mean of its ends, whatever the unit.
