@@ -392,7 +392,7 @@ Result<SampledWall> sampled_wall(const TriangleMesh& mesh, std::size_t samples,
 } catch (const std::bad_alloc&) {
   return failure(ErrorKind::io, "wall not measured: not enough memory");
 } catch (const std::exception& e) {
-  return failure(ErrorKind::unsound, std::string("wall not measured: ") + e.what());
+  return failure(ErrorKind::io, std::string("wall not measured: ") + e.what());
 }
 
 }  // namespace clay::solid::inline check

@@ -17,6 +17,7 @@
 #include <glm/geometric.hpp>
 #include <new>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -113,6 +114,8 @@ class Union {
     });
   } catch (const std::bad_alloc&) {
     throw;  // further attempts would fail in the same way
+  } catch (const std::logic_error& e) {
+    return failure(ErrorKind::io, std::string("union failed: ") + e.what());  // in CGAL
   } catch (const std::exception& e) {
     return failure(ErrorKind::unsound, std::string("the union: ") + e.what());
   }

@@ -83,7 +83,7 @@ Result<EncodedDraco> encode_on_grid(const TriangleMesh& mesh, const std::vector<
   draco::EncoderBuffer buffer;
   const draco::Status status = encoder.EncodeToBuffer(&buffer);
   if (!status.ok()) {
-    return failure(ErrorKind::unsound, "cannot write .drc: Draco: " + status.error_msg_string());
+    return failure(ErrorKind::io, "cannot write .drc: Draco: " + status.error_msg_string());
   }
   // Edgebreaker silently drops triangles that use one vertex twice.
   const std::size_t dropped = mesh.triangles.size() - encoder.num_encoded_faces();
@@ -165,7 +165,7 @@ Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& se
 } catch (const std::bad_alloc&) {
   return failure(ErrorKind::io, "cannot write .drc: not enough memory");
 } catch (const std::exception& error) {
-  return failure(ErrorKind::unsound, std::string("cannot write .drc: ") + error.what());
+  return failure(ErrorKind::io, std::string("cannot write .drc: ") + error.what());
 }
 
 Result<EncodedDraco> encode_draco(const TriangleMesh& mesh, const DracoSettings& settings,
@@ -191,7 +191,7 @@ Result<EncodedDraco> encode_draco(const TriangleMesh& mesh, const DracoSettings&
 } catch (const std::bad_alloc&) {
   return failure(ErrorKind::io, "cannot encode with Draco: not enough memory");
 } catch (const std::exception& error) {
-  return failure(ErrorKind::unsound, std::string("cannot encode with Draco: ") + error.what());
+  return failure(ErrorKind::io, std::string("cannot encode with Draco: ") + error.what());
 }
 
 Result<TriangleMesh> decode_drc(std::string_view bytes, std::string_view name) {

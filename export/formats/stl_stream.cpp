@@ -106,8 +106,8 @@ struct Stretch {
 };
 
 tl::unexpected<Error> differs(std::size_t facet) {
-  return failure(ErrorKind::unsound, "stl_binary as written: facet " + std::to_string(facet + 1) +
-                                         ": found corners that are not those of the solid");
+  return failure(ErrorKind::io, "stl_binary as written: facet " + std::to_string(facet + 1) +
+                                    ": found corners that are not those of the solid");
 }
 
 Result<void> verify_stretch(const RevolveLayout& rule, const Stretch& stretch,
@@ -140,9 +140,9 @@ Result<void> verify_count(const RevolveLayout& rule, const FileStore& store) {
       .and_then([&]() -> Result<void> {
         const std::uint32_t count = load_u32(prologue.data() + stl::kHeaderBytes);
         if (count == rule.triangles()) return {};
-        return failure(ErrorKind::unsound, "stl_binary as written: expected " +
-                                               std::to_string(rule.triangles()) +
-                                               " facets, found " + std::to_string(count));
+        return failure(ErrorKind::io, "stl_binary as written: expected " +
+                                          std::to_string(rule.triangles()) + " facets, found " +
+                                          std::to_string(count));
       });
 }
 

@@ -119,15 +119,15 @@ class RevolvedExport {
     Design design;
     design.size.tolerance_mm = tolerance_mm;
     return smooth(design.section, min_wall_mm, tolerance_mm)
+        .and_then([&] { return check_pieces(design.section.shapes(), options_.allow_pieces); })
         .and_then([&] { return finish(design.section, tolerance_mm); })
         .and_then([&] {
           return stages_.run("certificate", [&] { return certify(design.section.profile()); });
         })
         .and_then([&](const PlanarCertificate& planar) {
           design.section.planar = planar;
-          return check_pieces(design.section.shapes(), options_.allow_pieces);
+          return choose_segments(design.section.profile(), tolerance_mm, options_);
         })
-        .and_then([&] { return choose_segments(design.section.profile(), tolerance_mm, options_); })
         .map([&](std::size_t segments) {
           design.size.segments = segments;
           design.size.triangles = triangle_count(design.section.profile(), segments);

@@ -177,14 +177,22 @@ Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& opt
   return resolve_intersections(*closed, Reversed::accepted, report.repaired, stage);
 }
 
-/// Exceptions of the library become errors.
-Result<TriangleMesh> repaired_or_error(const TriangleMesh& soup, const RepairOptions& options,
-                                       RepairedMesh& report, StageReport& stage) try {
-  return repaired(soup, options, report, stage);
+/// A repair, and whether a wrap may succeed where it did not.
+struct RepairAttempt {
+  Result<TriangleMesh> mesh;
+  bool wrap_may_help = false;
+};
+
+/// Exceptions of the library become errors. It may fail on a mesh that it can wrap.
+RepairAttempt attempted(const TriangleMesh& soup, const RepairOptions& options,
+                        RepairedMesh& report, StageReport& stage) try {
+  auto mesh = repaired(soup, options, report, stage);
+  const bool unsound = !mesh && mesh.error().kind == ErrorKind::unsound;
+  return {std::move(mesh), unsound};
 } catch (const std::bad_alloc&) {
   throw;  // a wrap needs more memory
 } catch (const std::exception& e) {
-  return failure(ErrorKind::unsound, std::string("repair failed: ") + e.what());
+  return {failure(ErrorKind::io, std::string("repair failed: ") + e.what()), true};
 }
 
 TriangleMesh usable(TriangleMesh mesh) {
@@ -206,8 +214,8 @@ Result<RepairedMesh> repair_unsound(const TriangleMesh& mesh, const RepairOption
   if (soup.triangles.empty()) return nothing_left();
   if (auto quick = expect_quick_wraps(soup, options); !quick)
     return tl::make_unexpected(quick.error());
-  auto sound = repaired_or_error(soup, options, result, stage);
-  if (!sound && sound.error().kind == ErrorKind::unsound && options.wrap_mm) {
+  auto [sound, wrap_may_help] = attempted(soup, options, result, stage);
+  if (wrap_may_help && options.wrap_mm) {
     result = {};
     stage.begin("wrapping");
     result.wrapped_mm = options.wrap_mm;
@@ -242,7 +250,7 @@ auto guarded(const RepairOptions& options, const Work& work) -> decltype(work())
 } catch (const std::bad_alloc&) {
   return failure(ErrorKind::io, "repair stopped: not enough memory");
 } catch (const std::exception& e) {
-  return failure(ErrorKind::unsound, std::string("repair failed: ") + e.what());
+  return failure(ErrorKind::io, std::string("repair failed: ") + e.what());
 } catch (const Cancelled&) {
   // Without `cancelled`, an enclosing job decides the cancellation.
   if (!options.cancelled) throw;

@@ -73,9 +73,10 @@ Result<DecimatedMesh> decimate_closed(const TriangleMesh& mesh, std::size_t max_
   collapse_edges(half_edges, max_triangles, collapsed);
   DecimatedMesh result{remaining(half_edges, mesh), 0.0};
   if (result.mesh.triangles.size() > max_triangles)
-    return failure(ErrorKind::unsound, "expected at most " + std::to_string(max_triangles) +
-                                           " triangles, found no edge that may collapse below " +
-                                           std::to_string(result.mesh.triangles.size()));
+    return failure(ErrorKind::bad_input,
+                   "expected a limit of at least " + std::to_string(result.mesh.triangles.size()) +
+                       " triangles, below which no edge of this mesh may collapse, found " +
+                       std::to_string(max_triangles));
   if (progress) progress(kCollapseShare);
   // The vertices of the result lie on the mesh: they are some of its vertices.
   result.max_error_mm = distance_to_surface(mesh.points, result.mesh);
@@ -105,7 +106,7 @@ Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_t
 } catch (const std::bad_alloc&) {
   return failure(ErrorKind::io, "decimation stopped: not enough memory");
 } catch (const std::exception& e) {
-  return failure(ErrorKind::unsound, std::string("decimation failed: ") + e.what());
+  return failure(ErrorKind::io, std::string("decimation failed: ") + e.what());
 } catch (const Cancelled&) {
   // Without `cancelled`, an enclosing job decides the cancellation.
   if (!options.cancelled) throw;

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 namespace clay::solid {
 namespace {
@@ -284,6 +285,14 @@ TEST(SampledWall, IsDeterministic) {
   EXPECT_EQ(once.place, again.place);
   EXPECT_EQ(once.triangle, again.triangle);
   EXPECT_EQ(once.oblique, again.oblique);
+}
+
+TEST(SampledWall, ReportsAFailureOfTheLibraryAsIo) {
+  const auto wall =
+      sampled_wall(cube(1.0), 10, 1'000'000, [](std::size_t) { throw std::runtime_error("odd"); });
+  ASSERT_FALSE(wall);
+  EXPECT_EQ(wall.error().kind, ErrorKind::io);
+  EXPECT_EQ(wall.error().message, "wall not measured: odd");
 }
 
 TEST(SampledWall, RefusesAMeshWithoutArea) {

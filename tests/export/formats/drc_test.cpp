@@ -1,4 +1,5 @@
 #include "claystack/export/formats.hpp"
+#include "core/cancel.hpp"
 #include "tests/export/fallen/peer_program.hpp"
 #include "tests/export/solid/mesh_generators.hpp"
 #include "tests/fuzz/sample_meshes.hpp"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 namespace clay::solid {
 namespace {
@@ -19,6 +21,16 @@ namespace {
 using samples::largest_move;
 using samples::tetrahedron;
 using samples::torus;
+
+/// An exception in the middle of the work, as Draco may throw one, is no fault of the mesh.
+TEST(Drc, ReportsAFailureOfTheLibraryAsIo) {
+  const CancelScope::Question odd = []() -> bool { throw std::runtime_error("odd"); };
+  const CancelScope scope(&odd);
+  const auto bytes = encode_drc(torus(60, 60), {});
+  ASSERT_FALSE(bytes);
+  EXPECT_EQ(bytes.error().kind, ErrorKind::io);
+  EXPECT_EQ(bytes.error().message, "cannot write .drc: odd");
+}
 
 RC_GTEST_PROP(Drc, KeepsTheErrorLimit, ()) {
   TriangleMesh mesh = torus(*rc::gen::inRange(3u, 12u), *rc::gen::inRange(3u, 8u));

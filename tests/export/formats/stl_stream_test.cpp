@@ -83,6 +83,7 @@ TEST(VerifyStl, DetectsEveryFlippedBitOfACorner) {
       bad[84 + 50 * facet + byte] ^= 1;
       const auto verdict = verify_stl(rule, TamperedStore(bad));
       ASSERT_FALSE(verdict);
+      EXPECT_EQ(verdict.error().kind, ErrorKind::io);
       EXPECT_EQ(verdict.error().message, "stl_binary as written: facet " +
                                              std::to_string(facet + 1) +
                                              ": found corners that are not those of the solid");

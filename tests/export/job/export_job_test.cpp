@@ -214,6 +214,16 @@ TEST(RunExport, PiecesOnlyWhenAllowed) {
             "the second");
 }
 
+TEST(RunExport, APotInPiecesFailsTheSameCheckWithAndWithoutAFinish) {
+  const Pot pot = pot_of(stack_of(2.0, {{10, 0}, {10, 0}, {30, 20}}));
+  ExportOptions options;
+  options.finish.glaze_mm = 0.5;
+  EXPECT_TRUE(refused(exported(pot, {}, options), ErrorKind::unsound, "rings 1 and 2"));
+  options.allow_pieces = true;
+  EXPECT_TRUE(refused(exported(pot, {}, options), ErrorKind::bad_input,
+                      "finish: expected one piece, found 2"));
+}
+
 TEST(RunExport, WallsLostInFloat32AreRefusedWithThePlace) {
   // Half an ulp of float32 at 73 mm is 3.8e-6 mm; the doubles still tell the radii apart.
   const Pot pot = pot_of(stack_of(5.0, {{73.0, 73.0 - 1e-6}}));

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cstddef>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -79,6 +80,24 @@ TEST(RepairJob, NamesMissingMemory) {
     EXPECT_EQ(result.error().message, "repair stopped: not enough memory");
   }
   EXPECT_GT(stopped, 8U);
+}
+
+/// An exception in the middle of the work, as CGAL may throw one. It does not follow that the mesh
+/// cannot be wrapped.
+TEST(RepairJob, ReportsAFailureOfTheLibraryAsIoUnlessAWrapSucceeds) {
+  const TriangleMesh mesh = tangled_balls();
+  RepairOptions options;
+  options.progress = [](std::string_view stage, double) {
+    if (stage == "filling holes") throw std::runtime_error("odd");
+  };
+  const auto failed = repair_mesh(mesh, options);
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().kind, ErrorKind::io);
+  EXPECT_EQ(failed.error().message, "repair failed: odd");
+  options.wrap_mm = 1.0;
+  const auto wrapped = repair_mesh(mesh, options);
+  ASSERT_TRUE(wrapped) << wrapped.error().message;
+  EXPECT_EQ(wrapped->wrapped_mm, 1.0);
 }
 
 TEST(RepairJob, ReportsStagesAndTheirShares) {

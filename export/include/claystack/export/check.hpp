@@ -87,7 +87,7 @@ inline constexpr std::size_t kMostWallSamples = 10'000'000;
 ///
 /// Uses CGAL's exact predicates. Errors of kind `bad_input`: no triangle with area, a point that is
 /// not finite, an index out of range, or `samples` outside 1 to kMostWallSamples; of kind `io`: not
-/// enough memory; of kind `unsound`: the library failed.
+/// enough memory, or the library failed.
 Result<SampledWall> sampled_wall(const TriangleMesh& mesh, std::size_t samples,
                                  std::size_t most_steps,
                                  const std::function<void(std::size_t)>& progress = {});

@@ -91,8 +91,9 @@ struct RepairedMesh {
 ///   in an edge or a point are pulled apart.
 /// Triangles that take part in none of this keep their points, their first corner and their order;
 /// so do the points. A sound mesh is returned unchanged.
-/// Deterministic. Half-edges, holes and exact numbers are CGAL's. Error (kind `unsound`): the
-/// reason why no sound mesh was found, or the library failed.
+/// Deterministic. Half-edges, holes and exact numbers are CGAL's. Errors of kind `unsound`: the
+/// reason why no sound mesh was found; `bad_input`: a wall or wrap that would take too long; `io`:
+/// not enough memory, cancelled, or the library failed.
 Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options = {});
 /// The same for a mesh that check_mesh found unsound.
 Result<RepairedMesh> repair_unsound_mesh(const TriangleMesh& mesh,

@@ -93,8 +93,9 @@ inline constexpr std::size_t kFewestTriangles = 4;
 /// Reduces to at most `max_triangles` by collapsing edges in the order of OpenMesh's error quadrics
 /// (Garland, Heckbert, "Surface simplification using quadric error metrics"); no collapse may flip
 /// a face. A mesh within the limit is returned unchanged. Walls may come to intersect: check the
-/// result. Errors of kind `unsound`: the mesh is not a closed, oriented manifold, or no further
-/// edge can collapse (the message holds the number reached); `bad_input`: a limit below 4.
+/// result. Errors of kind `unsound`: the mesh is not a closed, oriented manifold; `bad_input`: a
+/// limit below 4, or below what this mesh can reach (the message holds that number); `io`: not
+/// enough memory, cancelled, or the library failed.
 Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_triangles,
                                const DecimateOptions& options = {});
 
