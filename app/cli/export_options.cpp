@@ -33,12 +33,10 @@ Result<double> part_of(const std::string& text, double most) {
   return 0.01 * percent;
 }
 
-constexpr double kMostSmoothMm = 1e4;
-
 /// "9mm", "9", "0"; "tool": empty.
 Result<std::optional<double>> smooth_length_of(const std::string& text) {
   if (text == "tool") return std::optional<double>();
-  return length_of(text, 0.0, kMostSmoothMm)
+  return length_of(text, solid::kSmoothLengthRange.lowest, solid::kSmoothLengthRange.highest)
       .map([](double mm) { return std::optional<double>(mm); })
       .map_error([](const Error& error) {
         return Error{error.kind, error.message + "; or tool"};
@@ -77,7 +75,6 @@ void add_part(CLI::App& sub, ExportCommand& command, const std::string& name, do
 
 /// Figures for weights and capacities.
 void add_clay_options(CLI::App& sub, ExportCommand& command) {
-  constexpr double kMost = 0.9;
   begin_group(sub, "Shrinkage, weight and capacity");
   add_part(sub, command, "--shrinkage", solid::kMostShrinkage,
            "Shrinkage in drying and firing, in percent of each length, such as 12%: the files are "
@@ -88,16 +85,16 @@ void add_clay_options(CLI::App& sub, ExportCommand& command) {
            [](solid::ExportOptions& options) -> double& {
              return options.clay.drying_shrinkage.emplace();
            });
-  add_part(sub, command, "--water", kMost,
+  add_part(sub, command, "--water", solid::kMostWeightLoss,
            "Water that leaves in drying, in percent of the weight as thrown (default: 20%)",
            [](solid::ExportOptions& options) -> double& { return options.clay.water; });
-  add_part(sub, command, "--ignition-loss", kMost,
+  add_part(sub, command, "--ignition-loss", solid::kMostWeightLoss,
            "Loss in firing, in percent of the dry weight (default: 9%)",
            [](solid::ExportOptions& options) -> double& { return options.clay.ignition_loss; });
   add_length(sub, "--fill-line", command.request.options.fill_line_mm,
              "Fill line for the capacity, below the brim of the finished pot, fired and glazed "
              "[mm]; with --holds the capacity is up to this line",
-             0.0, 1e4)
+             solid::kFillLineRange.lowest, solid::kFillLineRange.highest)
       ->capture_default_str();
 }
 
@@ -171,22 +168,22 @@ void add_solid_options(CLI::App& sub, ExportCommand& command) {
   begin_group(sub, "Surface");
   add_length(sub, "--tolerance", command.request.options.tolerance_mm,
              "Maximum chordal error, vertex error in .drc and distance of curves in .step [mm]",
-             1e-5, 10.0)
+             solid::kToleranceRange.lowest, solid::kToleranceRange.highest)
       ->capture_default_str();
   add_smoothing_options(sub, command);
   sub.add_option("--segments", command.request.options.segments,
                  "Facets around the axis (default: chosen from the tolerance)")
-      ->check(in_whole_range(3, 1 << 20));
+      ->check(in_whole_range(solid::kMinSegments, solid::kMaxSegments));
   sub.add_option(
          "--max-triangles", command.request.options.max_triangles,
          "Maximum number of triangles (default: no limit); facets may then exceed the tolerance")
-      ->check(in_whole_range(8, 20'000'000));
+      ->check(in_whole_range(solid::kFewestOfPot, solid::kMaxTriangles));
   begin_group(sub, "Finish");
   add_finish_options(sub, command.request.options, command.glaze_mm);
   add_length(sub, "--drain", command.request.options.drain_mm,
              "Diameter of a hole along the axis that opens closed cavities, as thrown [mm] "
              "(default: none)",
-             1e-3, 1e4);
+             solid::kDrainRange.lowest, solid::kDrainRange.highest);
 }
 
 /// Requirements on the solid, and their proof.

@@ -15,8 +15,6 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-constexpr double kLargestMm = 1e4;
-
 /// "60x6x4": diameter, width and depth; "6x4": width and depth. A unit at the end, "6x4cm", applies
 /// to all sizes that have no unit.
 Result<solid::FootRing> foot_of(const std::string& text) {
@@ -30,7 +28,8 @@ Result<solid::FootRing> foot_of(const std::string& text) {
     const std::size_t end = part.find_last_not_of(' ');
     const bool bare = end != std::string::npos && (part[end] == '.' || is_digit(part[end]));
     if (bare) part += last.substr(unit);
-    if (const auto size = length_of(part, kSmallestPartMm, kLargestMm)) sizes.push_back(*size);
+    if (const auto size = length_of(part, kSmallestPartMm, solid::kLongestMm))
+      sizes.push_back(*size);
   }
   const bool all = sizes.size() == parts.size() && !text.ends_with('x');
   if (all && sizes.size() == 2) return solid::FootRing{sizes[0], sizes[1], std::nullopt};
@@ -38,7 +37,7 @@ Result<solid::FootRing> foot_of(const std::string& text) {
   return failure(ErrorKind::bad_input,
                  fmt::format("expected DIAMETERxWIDTHxDEPTH or WIDTHxDEPTH, each a length from "
                              "{:g} to {:g} mm, such as 60x6x4 or 6mmx4mm, found {}",
-                             kSmallestPartMm, kLargestMm, text));
+                             kSmallestPartMm, solid::kLongestMm, text));
 }
 
 }  // namespace
@@ -60,16 +59,17 @@ void add_finish_options(CLI::App& command, solid::ExportOptions& options, double
   add_part_length(command, "--floor-fillet", options.finish.floor_fillet_mm,
                   "Radius where the wall meets the floor inside, filled with clay, as thrown [mm] "
                   "(default: none)",
-                  1e3);
+                  solid::kFloorFilletRange.highest);
   add_part_length(command, "--lip-fillet", options.lip_fillet_mm,
                   "Radius of the fillet at both edges of the lip, as thrown [mm] (default: that of "
                   "--process; else none)",
-                  1e3);
+                  solid::kLipFilletRange.highest);
   add_part_length(command, "--glaze-allowance", glaze_mm,
                   "Thickness of the glaze, fired: every face but the foot is set back by it, so "
                   "that the fired and glazed pot has the size of the pot; at least a tenth of "
                   "--tolerance [mm] (default: 0)",
-                  10.0);
+                  // Of the fired glaze: on the written solid it is thicker by the shrinkage.
+                  solid::kGlazeRange.highest * (1.0 - solid::kMostShrinkage));
 }
 
 }  // namespace clay::cli

@@ -2,6 +2,7 @@
 // Numbers with a unit on the command line: "350ml", "1.5 kg", "10mm".
 
 #include "claystack/core/result.hpp"
+#include "claystack/export/option_ranges.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -36,8 +37,7 @@ Result<double> quantity_of(std::string_view text, std::span<const Unit> units);
 /// kind `bad_input` state limits and units.
 Result<double> length_of(std::string_view text, double low_mm, double high_mm);
 
-/// The smallest length of a part that a section can have [mm].
-inline constexpr double kSmallestPartMm = 1e-3;
+using solid::kSmallestPartMm;
 /// Whether 0 is read, too: the part is absent.
 enum class OrNone : bool { no, yes };
 

@@ -1,6 +1,7 @@
 #include "app/cli/wall_options.hpp"
 
 #include "app/cli/quantity.hpp"
+#include "claystack/export/option_ranges.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -9,7 +10,7 @@ namespace clay::cli {
 void WallOptions::add_to(CLI::App& command) {
   add_length(command, "--min-wall", min_wall_mm_,
              "Minimum wall [mm]; with --process the larger of both applies (default: no limit)",
-             1e-6, 1e4);
+             solid::kMinWallRange.lowest, solid::kMinWallRange.highest);
   command.add_option(
       "--process", process_,
       "Process that sets the minimum wall: fdm, sla, earthenware, stoneware, porcelain, or a .json "

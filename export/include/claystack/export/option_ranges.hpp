@@ -6,6 +6,7 @@
 #include "claystack/export/maker.hpp"
 #include "claystack/export/solid.hpp"
 
+#include <cstddef>
 #include <string_view>
 
 namespace clay::solid::inline job {
@@ -40,7 +41,9 @@ inline constexpr OptionRange kFootDepthRange{"foot ring depth", "mm", kSmallestP
 inline constexpr OptionRange kFootDiameterRange{"foot ring diameter", "mm", kSmallestPartMm,
                                                 kLongestMm};
 inline constexpr OptionRange kSegmentsRange{"segments", "", kMinSegments, kMaxSegments};
-inline constexpr OptionRange kMaxTrianglesRange{"max triangles", "", 8, kMaxTriangles};
+/// The lowest limit of triangles: no pot has fewer.
+inline constexpr std::size_t kFewestOfPot = 8;
+inline constexpr OptionRange kMaxTrianglesRange{"max triangles", "", kFewestOfPot, kMaxTriangles};
 inline constexpr OptionRange kDrainRange{"drain", "mm", kSmallestPartMm, kLongestMm};
 inline constexpr OptionRange kWallSpacingRange{"wall spacing", "mm", 1e-5, kLongestMm};
 inline constexpr OptionRange kShrinkageRange{"shrinkage", "", 0.0, kMostShrinkage};
