@@ -76,8 +76,8 @@ Result<DracoCounts> draco_counts(std::string_view bytes, std::string_view name) 
   if (const auto valid = check_facet_count(counts.triangles, name); !valid)
     return tl::make_unexpected(valid.error());
   if (counts.points > kMaxPoints)
-    return bad_file(name, "expected at most " + std::to_string(kMaxPoints) + " points, found " +
-                              std::to_string(counts.points));
+    return bad_file(
+        name, expected_at_most(kMaxPoints, "points") + ", found " + std::to_string(counts.points));
   return counts;
 }
 

@@ -202,8 +202,8 @@ class GlbReader {
   void expect_room(std::size_t points, std::size_t triangles) {
     stored_points_ += points;
     stored_ += triangles;
-    if (stored_ > kMaxTriangles) throw BadGlb("expected at most 20000000 triangles");
-    if (stored_points_ > kMaxPoints) throw BadGlb("expected at most 60000000 vertices");
+    if (stored_ > kMaxTriangles) throw BadGlb(expected_at_most(kMaxTriangles, "triangles"));
+    if (stored_points_ > kMaxPoints) throw BadGlb(expected_at_most(kMaxPoints, "vertices"));
   }
 
   void add_primitive(const Json& primitive, TriangleMesh& mesh) {
@@ -363,7 +363,7 @@ class GlbReader {
     if (size == 0 || accessor.value("type", "") != "SCALAR")
       throw BadGlb("indices: expected whole numbers of 8, 16 or 32 bits");
     const Values found = values(accessor, size);
-    if (found.count > 3 * kMaxTriangles) throw BadGlb("expected at most 20000000 triangles");
+    if (found.count > 3 * kMaxTriangles) throw BadGlb(expected_at_most(kMaxTriangles, "triangles"));
     std::vector<std::uint32_t> corners(found.count);
     for (std::size_t i = 0; i < found.count; ++i) {
       step_of_loop();
@@ -396,7 +396,7 @@ class GlbReader {
     };
     most(stored_, kFree, "triangles", triangles);
     most(stored_points_, 3 * kFree, "points", points);
-    if (points > kMaxPoints) throw BadGlb("expected at most 60000000 vertices");
+    if (points > kMaxPoints) throw BadGlb(expected_at_most(kMaxPoints, "vertices"));
     return check_facet_count(triangles, name_);
   }
 

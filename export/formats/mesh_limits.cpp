@@ -14,22 +14,26 @@ std::optional<std::string> find_bad_coordinate(const glm::vec3& point) {
   return std::nullopt;
 }
 
+std::string expected_at_most(std::size_t limit, std::string_view what) {
+  return "expected at most " + std::to_string(limit) + ' ' + std::string(what);
+}
+
 tl::unexpected<Error> bad_file(std::string_view name, std::string_view what) {
   return failure(ErrorKind::bad_input, std::string(name).append(": ").append(what));
 }
 
 Result<void> check_file_size(std::string_view bytes, std::string_view name) {
   if (bytes.size() <= kMaxFileBytes) return {};
-  return bad_file(name, "expected at most " + std::to_string(kMaxFileBytes) + " bytes, found " +
-                            std::to_string(bytes.size()));
+  return bad_file(
+      name, expected_at_most(kMaxFileBytes, "bytes") + ", found " + std::to_string(bytes.size()));
 }
 
 Result<void> check_text_size(const ByteSource& source, std::size_t usual_bytes,
                              std::string_view name) {
   const std::uint64_t triangles = source.size / usual_bytes;
   if (source.size > kMaxTextBytes)
-    return bad_file(name, "expected at most " + std::to_string(kMaxTriangles) +
-                              " triangles, found about " + std::to_string(triangles / 1'000'000) +
+    return bad_file(name, expected_at_most(kMaxTriangles, "triangles") + ", found about " +
+                              std::to_string(triangles / 1'000'000) +
                               " million, by the file's size of " + std::to_string(source.size) +
                               " bytes");
   return source.announce ? source.announce(triangles) : Result<void>();

@@ -30,6 +30,9 @@ inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 m
 /// "expected ..., found ..." if one of the three is not a valid coordinate.
 [[nodiscard]] std::optional<std::string> find_bad_coordinate(const glm::vec3& point);
 
+/// "expected at most 20000000 triangles".
+[[nodiscard]] std::string expected_at_most(std::size_t limit, std::string_view what);
+
 /// "NAME: what", of kind bad_input.
 [[nodiscard]] tl::unexpected<Error> bad_file(std::string_view name, std::string_view what);
 

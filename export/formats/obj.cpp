@@ -144,7 +144,7 @@ class ObjReader {
   }
 
   void count(VertexList& list) {
-    if (++list.count > kMaxPoints) scanner_.fail("expected at most 60000000 vertices");
+    if (++list.count > kMaxPoints) scanner_.fail(expected_at_most(kMaxPoints, "vertices"));
   }
 
   void read_face() {
@@ -163,7 +163,7 @@ class ObjReader {
     }
     if (corners_.size() < 3) return read_short_face(line);
     if (mesh_.triangles.size() + corners_.size() > kMaxTriangles + 2)
-      scanner_.fail("expected at most 20000000 triangles");
+      scanner_.fail(expected_at_most(kMaxTriangles, "triangles"));
     if (scanner_.fault()) return;
     if (odd && odd_faces_++ == 0) odd_face_line_ = line;
     if (corners_.size() > 4 && refused_faces_++ == 0) refused_face_line_ = line;

@@ -95,7 +95,7 @@ class OffReader {
       return scanner_.fail("expected a face of 3 to " + std::to_string(kMaxFaceCorners) +
                            " corners, found " + std::to_string(corners));
     if (mesh_.triangles.size() + static_cast<std::size_t>(corners) > kMaxTriangles + 2)
-      return scanner_.fail("expected at most 20000000 triangles");
+      return scanner_.fail(expected_at_most(kMaxTriangles, "triangles"));
     corners_.clear();
     for (long long i = 0; i < corners; ++i) corners_.push_back(index(word()));
     skip_numbers();

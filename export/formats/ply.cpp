@@ -161,11 +161,11 @@ Result<void> check_elements(const Header& header, std::string_view name) {
         !found)
       return found;
   if (vertices->count > kMaxPoints)
-    return bad_file(name, "expected at most " + std::to_string(kMaxPoints) + " vertices, found " +
+    return bad_file(name, expected_at_most(kMaxPoints, "vertices") + ", found " +
                               std::to_string(vertices->count));
   if (faces->count > kMaxTriangles)
-    return bad_file(name, "expected at most " + std::to_string(kMaxTriangles) +
-                              " triangles, found " + std::to_string(faces->count));
+    return bad_file(name, expected_at_most(kMaxTriangles, "triangles") + ", found " +
+                              std::to_string(faces->count));
   return once(*faces, is_corner_list, "vertex_indices or vertex_index, a list of whole numbers");
 }
 
@@ -219,7 +219,7 @@ class BodyReader {
       return numbers_.fail("expected a face of 3 to " + std::to_string(kMaxFaceCorners) +
                            " corners, found " + std::to_string(corners));
     if (mesh_.triangles.size() + static_cast<std::size_t>(corners) > kMaxTriangles + 2)
-      return numbers_.fail("expected at most " + std::to_string(kMaxTriangles) + " triangles");
+      return numbers_.fail(expected_at_most(kMaxTriangles, "triangles"));
     corners_.clear();
     for (long long i = 0; i < corners; ++i) {
       const long long index = numbers_.whole(property.type);

@@ -68,7 +68,8 @@ class StlTextReader {
       scanner_.fail_expected("facet or endsolid", keyword);
       return false;
     }
-    if (mesh_.triangles.size() == kMaxTriangles) scanner_.fail("expected at most 20000000 facets");
+    if (mesh_.triangles.size() == kMaxTriangles)
+      scanner_.fail(expected_at_most(kMaxTriangles, "facets"));
     scanner_.expect("normal");
     for (int axis = 0; axis < 3; ++axis) scanner_.finite_number(scanner_.word());
     scanner_.expect("outer");

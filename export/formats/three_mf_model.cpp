@@ -224,7 +224,7 @@ void ModelReader::add_vertex(XmlReader& reader, const XmlElement& element) {
                          found(text));
     point[axis] = *value + 0.0F;  // -0 + 0 is 0
   }
-  if (++stored_points_ > kMaxPoints) return reader.fail("expected at most 60000000 vertices");
+  if (++stored_points_ > kMaxPoints) return reader.fail(expected_at_most(kMaxPoints, "vertices"));
   objects_.back().points.push_back(point);
 }
 
@@ -251,7 +251,7 @@ void ModelReader::add_triangle(XmlReader& reader, const XmlElement& element) {
   }
   if (element.attributes.size() > 3) check_property(reader, element);
   if (++stored_triangles_ > kMaxTriangles)
-    return reader.fail("expected at most 20000000 triangles");
+    return reader.fail(expected_at_most(kMaxTriangles, "triangles"));
   object.triangles.push_back(corners);
 }
 
