@@ -66,7 +66,7 @@ class ObjReader {
       refuse_number(static_cast<long long>(points_.highest_used), points_.line_of_highest);
     if (scanner_.fault()) return tl::make_unexpected(*scanner_.fault());
     polygons_.split(mesh_, options_.notes);
-    merge_equal_points(mesh_, options_.notes);
+    share_equal_points(mesh_, options_.notes);
     note_faults();
     return check_facet_count(mesh_.triangles.size(), name_).map([&] { return std::move(mesh_); });
   }

@@ -38,7 +38,7 @@ class OffReader {
       scanner_.fail_expected("the end of the file after its faces", rest);
     if (scanner_.fault()) return tl::make_unexpected(*scanner_.fault());
     polygons_.split(mesh_, notes_);
-    merge_equal_points(mesh_, notes_);
+    share_equal_points(mesh_, notes_);
     return check_facet_count(mesh_.triangles.size(), name_).map([&] { return std::move(mesh_); });
   }
 

@@ -183,7 +183,7 @@ class BodyReader {
     numbers_.expect_end();
     if (numbers_.fault()) return tl::make_unexpected(*numbers_.fault());
     polygons_.split(mesh_, notes);
-    merge_equal_points(mesh_, notes);
+    share_equal_points(mesh_, notes);
     return check_facet_count(mesh_.triangles.size(), name).map([&] { return std::move(mesh_); });
   }
 

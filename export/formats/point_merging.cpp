@@ -1,9 +1,8 @@
 #include "export/formats/point_merging.hpp"
 
-#include "core/cancel.hpp"
 #include "core/text.hpp"
+#include "export/solid/equal_points.hpp"
 #include "export/solid/mesh_topology.hpp"
-#include "export/solid/vertex_welder.hpp"
 
 #include <cstdint>
 #include <utility>
@@ -39,20 +38,21 @@ std::size_t open_edges(const TriangleMesh& mesh) {
 
 }  // namespace
 
-void merge_equal_points(TriangleMesh& mesh, std::vector<std::string>* notes) {
+void share_equal_points(TriangleMesh& mesh, std::vector<std::string>* notes) {
   // Most files need no more than this pass.
   if (mesh.triangles.empty() || mesh.triangles.size() > kMaxTriangles || unpaired_edges(mesh) == 0)
     return;
+  const EqualPoints equal = equal_points(mesh.points);
+  if (equal.repeated == 0) return;
   TriangleMesh merged;
-  VertexWelder welder(merged.points, mesh.points.size() / 4);
   std::vector<std::uint32_t> number;
   number.reserve(mesh.points.size());
-  for (const glm::dvec3& point : mesh.points) {
-    step_of_loop();
-    number.push_back(welder.index_of(glm::vec3(point)));
+  for (std::uint32_t i = 0; i < mesh.points.size(); ++i) {
+    const bool is_first = equal.first[i] == i;
+    number.push_back(is_first ? static_cast<std::uint32_t>(merged.points.size())
+                              : number[equal.first[i]]);
+    if (is_first) merged.points.push_back(mesh.points[i]);
   }
-  const std::size_t repeated = mesh.points.size() - merged.points.size();
-  if (repeated == 0) return;
   // A triangle that collapses closes no edge.
   TriangleMesh apart{mesh.points, {}};
   merged.triangles.reserve(mesh.triangles.size());
@@ -65,7 +65,7 @@ void merge_equal_points(TriangleMesh& mesh, std::vector<std::string>* notes) {
   mesh = std::move(merged);
   if (notes != nullptr)
     notes->push_back("triangles do not share their points in the file: " +
-                     counted(repeated, "equal point") + " merged");
+                     counted(equal.repeated, "equal point") + " merged");
 }
 
 }  // namespace clay::solid::inline formats

@@ -11,6 +11,6 @@ namespace clay::solid::inline formats {
 /// Merges points with equal coordinates, as readers of formats without numbers do, if that joins
 /// triangles at edges that are open otherwise. Then `notes`, which may be null, gets a line. All
 /// coordinates are float32, and indices are in range.
-void merge_equal_points(TriangleMesh& mesh, std::vector<std::string>* notes);
+void share_equal_points(TriangleMesh& mesh, std::vector<std::string>* notes);
 
 }  // namespace clay::solid::inline formats

@@ -5,13 +5,12 @@
 #include "export/repair/edge_splitting.hpp"
 #include "export/repair/soup_edges.hpp"
 #include "export/solid/disjoint_sets.hpp"
+#include "export/solid/equal_points.hpp"
 #include "export/solid/mesh_topology.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
-#include <tuple>
 
 namespace clay::solid::inline repair {
 namespace {
@@ -131,22 +130,9 @@ void renumber(TriangleMesh& mesh, const std::vector<std::uint32_t>& number) {
 }
 
 std::size_t merge_equal_points(TriangleMesh& mesh) {
-  const auto place = [&](std::uint32_t v) {
-    const glm::dvec3& p = mesh.points[v];
-    return std::tuple(p.x, p.y, p.z, v);
-  };
-  std::vector<std::uint32_t> order(mesh.points.size()), number(mesh.points.size());
-  std::iota(order.begin(), order.end(), std::uint32_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
-  std::size_t merged = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && mesh.points[order[i]] == mesh.points[order[i - 1]];
-    number[order[i]] = same ? number[order[i - 1]] : order[i];
-    merged += same ? 1 : 0;
-  }
-  renumber(mesh, number);
-  return merged;
+  const EqualPoints equal = equal_points(mesh.points);
+  renumber(mesh, equal.first);
+  return equal.repeated;
 }
 
 std::size_t drop_collapsed(TriangleMesh& mesh) { return std::erase_if(mesh.triangles, collapsed); }

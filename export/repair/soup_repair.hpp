@@ -18,7 +18,7 @@ std::size_t drop_unusable(TriangleMesh& mesh);
 /// Replaces vertices in all triangles.
 void renumber(TriangleMesh& mesh, const std::vector<std::uint32_t>& number);
 
-/// Requires finite points. Returns the number of points that were merged.
+/// Of a mesh with finite float32 points. Returns the number of points that were merged.
 std::size_t merge_equal_points(TriangleMesh& mesh);
 
 /// Removes triangles that use a vertex twice. Returns their number.
