@@ -100,8 +100,8 @@ void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckC
   if (!fits)
     verdict.add(check_name(ProblemKind::too_large), Grade::fail,
                 fmt::format("too large: {}; {}: at most {:g} x {:g} mm and {:g} mm high ({})",
-                            passed, process->name, largest->width_mm, largest->depth_mm,
-                            largest->height_mm, largest->source));
+                            passed, solid::process_title(process->name), largest->width_mm,
+                            largest->depth_mm, largest->height_mm, largest->source));
   if (const auto& most = process->overhang) {
     const bool outward = !verdict.mesh.closed || verdict.mesh.oriented;
     const auto steepest = outward ? solid::steepest_overhang(body.mesh()) : std::nullopt;
@@ -114,7 +114,8 @@ void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckC
       passed += outward ? ", overhangs not measured"
                         : ", overhangs not measured: some or all faces point into the clay";
   }
-  if (fits) verdict.add("process", Grade::pass, process->name + ": " + passed);
+  if (fits)
+    verdict.add("process", Grade::pass, solid::process_title(process->name) + ": " + passed);
 }
 
 /// Compares the walls with the limit: those that a certificate of these bytes proves, without one

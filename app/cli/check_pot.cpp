@@ -27,7 +27,8 @@ std::size_t check_segments(const solid::Profile& profile) {
 
 /// The figures that were compared with the limits of the process.
 std::string process_text(const solid::ExportReport& report) {
-  std::string text = fmt::format("{}: {:.1f} mm wide, {:.1f} mm high", report.process.limits->name,
+  std::string text = fmt::format("{}: {:.1f} mm wide, {:.1f} mm high",
+                                 solid::process_title(report.process.limits->name),
                                  report.size.diameter_mm, report.size.height_mm);
   if (report.process.overhang)
     text += fmt::format(", overhang of {:.0f} degrees at most", report.process.overhang->angle_deg);

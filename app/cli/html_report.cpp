@@ -287,10 +287,12 @@ class Page {
 
   void fits(const solid::ProcessLimits& process) {
     if (process.size)
-      row({"fits " + process.name, json_["process"]["bed"]["fits"].get<bool>() ? "yes" : "no"},
+      row({"fits " + solid::process_title(process.name),
+           json_["process"]["bed"]["fits"].get<bool>() ? "yes" : "no"},
           "td", false);
     else
-      row({"size", "not checked: no bed size is known for " + process.name}, "td", false);
+      row({"size", "not checked: no bed size is known for " + solid::process_title(process.name)},
+          "td", false);
   }
 
   /// On its own page, scaled to it: the file is for printing at 1:1.

@@ -65,8 +65,8 @@ std::optional<Problem> too_large(const ExportReport& report) {
                                               : fmt::format("{:.1f} x {:.1f}", size.x, size.y);
   return Problem{fmt::format("too large: {} mm wide and {:.1f} mm high; {}: at most {:g} x {:g} "
                              "mm and {:g} mm high ({})",
-                             across, size.z, limits->name, most.width_mm, most.depth_mm,
-                             most.height_mm, most.source),
+                             across, size.z, process_title(limits->name), most.width_mm,
+                             most.depth_mm, most.height_mm, most.source),
                  std::nullopt, true, ProblemKind::too_large};
 }
 
@@ -163,10 +163,11 @@ std::optional<Problem> small_lip_fillet(const ExportReport& report) {
   if (made >= (1.0 - kLittle) * asked) return std::nullopt;
   const auto& limits = report.process.limits;
   const bool by_process = limits && limits->edges && limits->edges->min_radius_mm == asked;
-  return Problem{fmt::format("lip fillet of {:.2f} mm instead of {:g} mm{}: {}; sharper edges chip",
-                             made, asked, by_process ? " (" + limits->name + ")" : "",
-                             reason_of(smoothed.lip_fillet_limit)),
-                 std::nullopt, false, ProblemKind::lip_fillet, made};
+  return Problem{
+      fmt::format("lip fillet of {:.2f} mm instead of {:g} mm{}: {}; sharper edges chip", made,
+                  asked, by_process ? " (" + process_title(limits->name) + ")" : "",
+                  reason_of(smoothed.lip_fillet_limit)),
+      std::nullopt, false, ProblemKind::lip_fillet, made};
 }
 
 }  // namespace

@@ -146,7 +146,8 @@ Overhang steepest_overhang(const Profile& profile) {
 std::string overhang_text(double angle_deg, double height_mm, const ProcessLimits& process) {
   return fmt::format(
       "overhang of {:.1f} degrees at a height of {:.1f} mm; {}: at most {:g} without support ({})",
-      angle_deg, height_mm, process.name, process.overhang->max_deg, process.overhang->source);
+      angle_deg, height_mm, process_title(process.name), process.overhang->max_deg,
+      process.overhang->source);
 }
 
 }  // namespace clay::solid::inline walls

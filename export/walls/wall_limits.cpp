@@ -108,8 +108,15 @@ static void describe(auto& io, Is<ProcessLimits> auto& process) {
   });
 }
 
+std::string process_title(std::string_view name) {
+  if (name == "fdm") return "FDM (filament)";
+  if (name == "sla") return "SLA (resin)";
+  const bool known = std::ranges::find(kProcessNames, name) != kProcessNames.end();
+  return known ? sentence(std::string(name)) : std::string(name);
+}
+
 std::string WallLimit::asked_by() const {
-  return process.empty() ? source : process + ": " + source;
+  return process.empty() ? source : process_title(process) + ": " + source;
 }
 
 const WallLimit& ProcessLimits::wall_for(double size_sum_mm) const noexcept {

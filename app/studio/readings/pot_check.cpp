@@ -117,16 +117,6 @@ std::vector<std::string> process_names() {
   return {solid::kProcessNames.begin(), solid::kProcessNames.end()};
 }
 
-std::string process_title(const std::string& name) {
-  if (name == "fdm") return "FDM (filament)";
-  if (name == "sla") return "SLA (resin)";
-  const bool known = std::ranges::find(solid::kProcessNames, name) != solid::kProcessNames.end();
-  if (!known || name.empty()) return name;
-  std::string title = name;
-  title.front() = static_cast<char>(title.front() - 'a' + 'A');
-  return title;
-}
-
 PotCheck check_pot(const PotQuestion& question, const std::function<bool()>& cancelled) {
   const auto begin = std::chrono::steady_clock::now();
   PotCheck check;

@@ -89,8 +89,7 @@ struct PotCheck {
 };
 
 [[nodiscard]] std::vector<std::string> process_names();
-/// A process as people write it: "FDM (filament)"; the name of a custom one.
-[[nodiscard]] std::string process_title(const std::string& name);
+using solid::process_title;
 
 /// `cancelled` as in ExportOptions::cancelled. The result of a cancelled check is meaningless.
 [[nodiscard]] PotCheck check_pot(const PotQuestion& question,

@@ -134,8 +134,8 @@ TEST_F(SectionFiles, ReportLabelsItsFigures) {
   const std::string fired = html("--shrinkage 12% --fill-line 7 --process stoneware");
   EXPECT_TRUE(has(fired, "capacity to the fill line, 7 mm below the brim of the fired pot<"));
   EXPECT_TRUE(has(fired, ">Balance of the fired pot<"));
-  EXPECT_TRUE(has(fired, "not checked: no bed size is known for stoneware"));
-  EXPECT_FALSE(has(fired, ">fits stoneware<"));
+  EXPECT_TRUE(has(fired, "not checked: no bed size is known for Stoneware"));
+  EXPECT_FALSE(has(fired, ">fits Stoneware<"));
 }
 
 TEST_F(SectionFiles, TheReportHasTheBytesOfEachFile) {

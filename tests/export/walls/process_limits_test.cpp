@@ -32,6 +32,15 @@ TEST(ProcessLimits, WallsGrowWithTheObject) {
   EXPECT_EQ(sla.wall_for(1e6).min_wall_mm, 3.0);
 }
 
+TEST(ProcessLimits, MessagesHaveTheTitleOfTheProcess) {
+  EXPECT_EQ(process_title("sla"), "SLA (resin)");
+  EXPECT_EQ(process_title("earthenware"), "Earthenware");
+  EXPECT_EQ(process_title("my kiln"), "my kiln");
+  const ProcessLimits fdm = process_named("fdm").value();
+  EXPECT_EQ(fdm.wall_for(100.0).asked_by().find("FDM (filament): design guides"), 0u);
+  EXPECT_NE(overhang_text(60.0, 1.0, fdm).find("; FDM (filament): at most 45 "), std::string::npos);
+}
+
 /// The library has no options: a command gives the name of its own.
 TEST(ProcessLimits, ARequestedWallHasTheSourceThatTheCallerNames) {
   WallDemand demand;

@@ -124,6 +124,9 @@ inline constexpr double kWallTableSpacingMm = 0.5;
 // The minimum walls required by the user or by a manufacturing process. Every figure names its
 // source.
 
+/// A process as people write it: "FDM (filament)" of "fdm"; the name of a custom one.
+[[nodiscard]] std::string process_title(std::string_view name);
+
 /// A minimum wall and its source.
 struct WallLimit {
   /// Applies to objects whose width, depth and height add up to at most this.
@@ -132,7 +135,7 @@ struct WallLimit {
   std::string source;   ///< source of the figure
   std::string process;  ///< the process that requires it; empty: the user
 
-  /// "porcelain: SOURCE".
+  /// "Porcelain: SOURCE".
   [[nodiscard]] std::string asked_by() const;
   /// The thinnest wall that passes [mm], so that a wall drawn at the limit passes although facets
   /// and rings make it a little thinner: 0.1 % thinner; below 1 mm 0.001 mm, but at most 1 %.
@@ -246,8 +249,8 @@ struct Overhang {
 /// 0.004 mm of the section, less closely along more than 400 mm of undersides.
 [[nodiscard]] Overhang steepest_overhang(const Profile& profile);
 
-/// "overhang of 51.2 degrees at a height of 6.6 mm; fdm: at most 45 without support (SOURCE)". The
-/// process has a limit.
+/// "overhang of 51.2 degrees at a height of 6.6 mm; FDM (filament): at most 45 without support
+/// (SOURCE)". The process has a limit.
 [[nodiscard]] std::string overhang_text(double angle_deg, double height_mm,
                                         const ProcessLimits& process);
 
