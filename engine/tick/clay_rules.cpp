@@ -2,6 +2,7 @@
 
 #include "engine/clay/in_place.hpp"
 #include "engine/clay/stack_writer.hpp"
+#include "engine/tick/bending.hpp"
 #include "engine/tick/heave.hpp"
 #include "engine/tick/relief.hpp"
 #include "engine/tick/shell.hpp"
@@ -16,67 +17,6 @@ namespace {
 
 constexpr double kMemoryS =
     0.05;  // of a motion: longer than a device's steps, shorter than a hand's
-
-/// Speed at which the tool goes into the wall from its side; 0 on its way out.
-double speed_into(Side side, const Motion& motion) noexcept {
-  const double out = motion.outward_mm_s;
-  return std::max(side == Side::compressive ? -out : out, 0.0);
-}
-
-// The part of the wall's thickness, above and below a ring, over which its motion is averaged.
-constexpr double kAbout = 0.1;
-
-/// A touched ring moves at least by the given share of the mean distance by which it and its
-/// neighbours give way. `about`: the mean covers this many rings above the middle of the ring, and
-/// as many below.
-class MeanGive {
- public:
-  /// `sums`: room for three times as many numbers as the tool can touch rings, and three more.
-  MeanGive(const TouchedRings& rings, double share, double about, std::span<double> sums) noexcept
-      : rings_(rings),
-        scale_(0.5 * share / about),
-        part_(about - 0.5 - std::floor(about - 0.5)),
-        whole_(static_cast<std::size_t>(std::min(about - 0.5, static_cast<double>(rings.size())))),
-        sums_(sums.data()) {
-    sum_up();
-  }
-
-  /// Of the rings from `first` on, of which each moves by `by` [mm].
-  void move(std::size_t first, std::span<float> by) const noexcept {
-    const std::size_t begin = std::max(first, rings_.from());
-    const std::size_t end = std::min(first + by.size(), rings_.to());
-    if (begin >= end) return;
-    in_lanes([scale = scale_, part = part_, low = sums_ + (begin - rings_.from()),
-              high = sums_ + (begin - rings_.from() + 2 * whole_ + 2), to = &by[begin - first],
-              count = end - begin]() CLAYSTACK_INLINE {
-      for (std::size_t k = 0; k < count; ++k) {
-        const double beside = low[k + 1] - low[k] + high[k + 1] - high[k];
-        const auto least = static_cast<float>(scale * (high[k] - low[k + 1] + part * beside));
-        to[k] = to[k] < least ? least : to[k];
-      }
-    });
-  }
-
- private:
-  /// Running sums of how far the rings give way [mm]: before each ring, and after the last. Nothing
-  /// gives way beyond the rings, so that the mean needs no condition at their ends.
-  void sum_up() noexcept {
-    double* to = std::fill_n(sums_, whole_ + 1, 0.0);
-    double sum = 0.0;
-    rings_.each_slice([&](const auto& slice) {
-      for (std::size_t row = slice.begin; row < slice.end; ++row) {
-        *to++ = sum;
-        sum += slice.rows.give[row];
-      }
-    });
-    std::fill_n(to, whole_ + 2, sum);
-  }
-
-  const TouchedRings& rings_;
-  double scale_, part_;  ///< of the next ring beside the whole ones
-  std::size_t whole_;    ///< rings beside this one, to either side
-  double* sums_;         ///< from `whole_` + 1 before the first ring to as many behind the last
-};
 
 template <unsigned rules>
 constexpr bool kOneToolBand = (rules & (kShift | kHeave | kSmear)) != 0;
@@ -129,41 +69,6 @@ void reach_of(const RulePress& press, const ClayStack& stack, std::span<const To
   }
 }
 
-/// A touched ring moves at least by its give beyond the spare wall above the minimum.
-void bend_thin(const TouchedRings& rings, const float* walls, const Shell& shell, double min_wall,
-               double h, std::size_t first, std::span<float> by) noexcept {
-  const std::size_t end = std::min(first + by.size(), rings.to());
-  for (std::size_t i = std::max(first, rings.from()); i < end; ++i) {
-    const double spare = std::max(static_cast<double>(walls[i - first]) - min_wall, 0.0);
-    const double held = shell.hold((static_cast<double>(i) + 0.5) * h);
-    by[i - first] = std::max(by[i - first], static_cast<float>(held * (rings.give(i) - spare)));
-  }
-}
-
-/// One tool moves the wall that it presses.
-void bend(const RulePress& press, const ClayStack& stack, Contact& contact, bool hoop,
-          RuleWork& work) noexcept {
-  const Band& band = work.bands[0];
-  const double min_wall = press.plan.removal.min_wall_mm;
-  const bool yields = press.plan.clay.thin_wall_yields;
-  const Shell shell = shell_at(stack, work.walls, band, min_wall, press.motion.upward_mm_s,
-                               speed_into(contact.side, press.motion));
-  if (!(shell.share > 0.0)) return;
-  const double h = stack.ring_height_mm();
-  const double about = std::max(kAbout * shell.wall_mm / h, 0.5);
-  const MeanGive gives(contact.rings, shell.share, about, work.gives);
-  work.shift.lay(
-      stack, work.walls, band, shell, {contact.side == Side::expansive, hoop, min_wall, yields},
-      [&](std::size_t first, std::span<float> by) {
-        gives.move(first, by);
-        hold_foot(shell, h, first, by);
-      },
-      [&](std::size_t first, std::span<float> by) {
-        if (yields)
-          bend_thin(contact.rings, work.walls.thickness(first), shell, min_wall, h, first, by);
-      });
-}
-
 template <unsigned rules>
 void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> removals,
                 RuleWork& work) noexcept {
@@ -189,7 +94,9 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
                                              removals[0], removals[1], &squeeze);
   } else {
     Contact& contact = removals[0].contact;
-    if ((rules & kShift) && !press.trim) bend(press, stack, contact, (rules & kHoop) != 0, work);
+    if ((rules & kShift) && !press.trim)
+      bend_wall(plan, press.motion, stack, contact, work.bands[0], work.walls, work.gives,
+                work.shift);
     squeeze_out(squeeze, stack, contact, removals[0].removed);
   }
   if constexpr (rules & kHeave) {
@@ -409,7 +316,7 @@ void RuleWork::reserve(const Tool& tool, const ClayStack& stack) {
   shoulders = shoulders_of(tool);
   const std::size_t contacts = most_contacts(tool, stack.ring_height_mm(), stack.max_rings());
   over.reserve(contacts);
-  gives.resize(3 * contacts + 3);
+  gives.resize(sums_for(contacts));
   shift.reserve(static_cast<std::size_t>(std::min(rings, static_cast<double>(stack.max_rings()))));
 }
 

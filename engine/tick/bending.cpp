@@ -1,0 +1,109 @@
+#include "engine/tick/bending.hpp"
+
+#include "engine/tick/shell.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clay {
+namespace {
+
+// The part of the wall's thickness, above and below a ring, over which its motion is averaged.
+constexpr double kAbout = 0.1;
+
+/// A touched ring moves at least by the given share of the mean distance by which it and its
+/// neighbours give way. `about`: the mean covers this many rings above the middle of the ring, and
+/// as many below.
+class MeanGive {
+ public:
+  /// `sums`: room for three times as many numbers as the tool can touch rings, and three more.
+  MeanGive(const TouchedRings& rings, double share, double about, std::span<double> sums) noexcept
+      : rings_(rings),
+        scale_(0.5 * share / about),
+        part_(about - 0.5 - std::floor(about - 0.5)),
+        whole_(static_cast<std::size_t>(std::min(about - 0.5, static_cast<double>(rings.size())))),
+        sums_(sums.data()) {
+    sum_up();
+  }
+
+  /// Of the rings from `first` on, of which each moves by `by` [mm].
+  void move(std::size_t first, std::span<float> by) const noexcept {
+    const std::size_t begin = std::max(first, rings_.from());
+    const std::size_t end = std::min(first + by.size(), rings_.to());
+    if (begin >= end) return;
+    in_lanes([scale = scale_, part = part_, low = sums_ + (begin - rings_.from()),
+              high = sums_ + (begin - rings_.from() + 2 * whole_ + 2), to = &by[begin - first],
+              count = end - begin]() CLAYSTACK_INLINE {
+      for (std::size_t k = 0; k < count; ++k) {
+        const double beside = low[k + 1] - low[k] + high[k + 1] - high[k];
+        const auto least = static_cast<float>(scale * (high[k] - low[k + 1] + part * beside));
+        to[k] = to[k] < least ? least : to[k];
+      }
+    });
+  }
+
+ private:
+  /// Running sums of how far the rings give way [mm]: before each ring, and after the last. Nothing
+  /// gives way beyond the rings, so that the mean needs no condition at their ends.
+  void sum_up() noexcept {
+    double* to = std::fill_n(sums_, whole_ + 1, 0.0);
+    double sum = 0.0;
+    rings_.each_slice([&](const auto& slice) {
+      for (std::size_t row = slice.begin; row < slice.end; ++row) {
+        *to++ = sum;
+        sum += slice.rows.give[row];
+      }
+    });
+    std::fill_n(to, whole_ + 2, sum);
+  }
+
+  const TouchedRings& rings_;
+  double scale_, part_;  ///< of the next ring beside the whole ones
+  std::size_t whole_;    ///< rings beside this one, to either side
+  double* sums_;         ///< from `whole_` + 1 before the first ring to as many behind the last
+};
+
+/// A touched ring moves at least by its give beyond the spare wall above the minimum.
+void bend_thin(const TouchedRings& rings, const float* walls, const Shell& shell, double min_wall,
+               double h, std::size_t first, std::span<float> by) noexcept {
+  const std::size_t end = std::min(first + by.size(), rings.to());
+  for (std::size_t i = std::max(first, rings.from()); i < end; ++i) {
+    const double spare = std::max(static_cast<double>(walls[i - first]) - min_wall, 0.0);
+    const double held = shell.hold((static_cast<double>(i) + 0.5) * h);
+    by[i - first] = std::max(by[i - first], static_cast<float>(held * (rings.give(i) - spare)));
+  }
+}
+
+/// Speed at which the tool goes into the wall from its side; 0 on its way out.
+double speed_into(Side side, const Motion& motion) noexcept {
+  const double out = motion.outward_mm_s;
+  return std::max(side == Side::compressive ? -out : out, 0.0);
+}
+
+}  // namespace
+
+void bend_wall(const StepPlan& plan, const Motion& motion, const ClayStack& stack,
+               const Contact& contact, const Band& band, WallRadii& walls, std::span<double> sums,
+               Shift& shift) noexcept {
+  const double min_wall = plan.removal.min_wall_mm;
+  const bool yields = plan.clay.thin_wall_yields;
+  const Shell shell =
+      shell_at(stack, walls, band, min_wall, motion.upward_mm_s, speed_into(contact.side, motion));
+  if (!(shell.share > 0.0)) return;
+  const double h = stack.ring_height_mm();
+  const double about = std::max(kAbout * shell.wall_mm / h, 0.5);
+  const MeanGive gives(contact.rings, shell.share, about, sums);
+  const Shift::Push push{contact.side == Side::expansive, (plan.clay.rules & kHoop) != 0, min_wall,
+                         yields};
+  shift.lay(
+      stack, walls, band, shell, push,
+      [&](std::size_t first, std::span<float> by) {
+        gives.move(first, by);
+        hold_foot(shell, h, first, by);
+      },
+      [&](std::size_t first, std::span<float> by) {
+        if (yields) bend_thin(contact.rings, walls.thickness(first), shell, min_wall, h, first, by);
+      });
+}
+
+}  // namespace clay
