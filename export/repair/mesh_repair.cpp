@@ -214,8 +214,9 @@ Result<RepairedMesh> repair_unsound(const TriangleMesh& mesh, const RepairOption
   if (soup.triangles.empty()) return nothing_left();
   if (auto quick = expect_quick_wraps(soup, options); !quick)
     return tl::make_unexpected(quick.error());
-  auto [sound, wrap_may_help] = attempted(soup, options, result, stage);
-  if (wrap_may_help && options.wrap_mm) {
+  RepairAttempt attempt = attempted(soup, options, result, stage);
+  Result<TriangleMesh> sound = std::move(attempt.mesh);
+  if (attempt.wrap_may_help && options.wrap_mm) {
     result = {};
     stage.begin("wrapping");
     result.wrapped_mm = options.wrap_mm;
