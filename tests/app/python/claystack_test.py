@@ -135,6 +135,20 @@ class Package(unittest.TestCase):
         self.assertFalse(verdict.closed)
         self.assertTrue(verdict.problems)
 
+    def test_refuses_settings_out_of_range_by_name(self):
+        pot = claystack.stack(2.0, [40.0] * 10, [30.0] * 10)
+        for setting, message in [
+                ({"tolerance_mm": float("nan")}, "tolerance: expected 1e-05 to 10 mm, found nan mm"),
+                ({"smooth_length_mm": -1.0}, "smooth length: expected 0 to 10000 mm, found -1 mm"),
+                ({"min_wall_mm": float("inf")},
+                 "minimum wall: expected 1e-06 to 10000 mm, found inf mm"),
+                ({"shrinkage": 0.75}, "shrinkage: expected 0 to 0.5, found 0.75")]:
+            with self.assertRaises(claystack.Error) as refused:
+                claystack.export(pot, [self.file("refused.stl")], **setting)
+            self.assertEqual(refused.exception.message, message)
+            self.assertEqual(refused.exception.code, 2)
+            self.assertFalse(os.path.exists(self.file("refused.stl")))
+
     def test_errors_have_file_place_and_code(self):
         with self.assertRaises(claystack.Error) as absent:
             claystack.read_pot(self.file("absent.pot.json"))
