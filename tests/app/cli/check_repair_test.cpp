@@ -314,9 +314,9 @@ TEST_F(CheckRepair, RefusesAnOpenCupUnlessItMayCapIt) {
   const std::string in = write("cup.stl", open_cup()), out = folder.file("out.stl");
   const Ran refused = claystack("check --repair " + in + " -o " + out);
   EXPECT_EQ(refused.status, 1);
-  EXPECT_NE(refused.err.find("found an opening 28.28 mm wide at (10, 10, 20) mm"),
-            std::string::npos)
-      << refused.err;
+  for (const char* part : {"found an opening 28.28 mm wide at (10, 10, 20) mm",
+                           "; --thicken MM gives it one, --cap closes it by a cap"})
+    EXPECT_NE(refused.err.find(part), std::string::npos) << refused.err;
   EXPECT_FALSE(std::filesystem::exists(out));
   const Ran capped = claystack("check --json --repair --cap " + in + " -o " + out);
   EXPECT_EQ(capped.status, 0) << capped.err;
@@ -395,6 +395,19 @@ TEST_F(CheckRepair, WarnsIfAWallClosesACup) {
   };
   EXPECT_LT(share("1.5", false), 0.1);
   EXPECT_GT(share("9", true), 0.4);  // almost all places inside
+}
+
+/// The library names the operation; a file name with the same words stays as it is.
+TEST_F(CheckRepair, NamesTheOptionThatReadsADamagedFile) {
+  const std::string bytes = read_text(write("whole.stl", open_cup()));
+  const std::string cut = folder.file("after a repair.stl");
+  write_text(cut, bytes.substr(0, bytes.size() - 10));
+  const Ran refused = claystack("check '" + cut + "'");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("; check --repair reads the whole facets that are there"),
+            std::string::npos)
+      << refused.err;
+  EXPECT_NE(refused.err.find(cut), std::string::npos) << refused.err;
 }
 
 TEST_F(CheckRepair, WrapsWhatItCannotRepairOtherwise) {
