@@ -18,7 +18,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr float kLeastHeightEm = 13.0f;
+constexpr float kLeastHeightEm = 11.0f;
 constexpr std::array kParts = {"Half", "Full"};
 
 /// From the profile's plane (rho, y) [mm] to pixels.

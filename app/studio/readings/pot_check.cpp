@@ -142,9 +142,11 @@ std::optional<ClayStack> stack_of(const render::PotView& outline, double crown_m
   for (const render::Row& row : outline.rows)
     rings.push_back({quanta_from_radius(static_cast<double>(row.outer_mm)),
                      quanta_from_radius(static_cast<double>(row.inner_mm))});
-  // A crown holds less clay than a ring.
+  // A crown below a tool may hold the clay of several rings, that of a stack holds less than one.
+  const double crown_rings = std::max(crown_mm / ring_mm, 0.0), whole = std::floor(crown_rings);
+  rings.insert(rings.end(), static_cast<std::size_t>(whole), Ring(rings.back()));
   const auto crown = static_cast<WideQuanta>(static_cast<double>(rings.back().volume()) *
-                                             std::clamp(crown_mm / ring_mm, 0.0, 1.0 - 1e-9));
+                                             std::min(crown_rings - whole, 1.0 - 1e-9));
   auto stack = ClayStack::from_rings(ring_mm, std::move(rings), crown);
   if (!stack) return std::nullopt;
   return std::move(*stack);

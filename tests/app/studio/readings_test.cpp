@@ -164,6 +164,16 @@ TEST(Subject, OfAnOutlineKeepsTheCrown) {
   EXPECT_FALSE(stack_of({}, 0.0));
 }
 
+TEST(Subject, OfAnOutlineKeepsACrownThatAToolPreventsFromRising) {
+  render::PotView outline;
+  outline.height_mm = 6.3;  // ten rings of 0.5 mm and a crown of 1.3 mm
+  outline.rows.assign(10, {40.0f, 30.0f});
+  const auto shown = stack_of(outline, 1.3);
+  ASSERT_TRUE(shown);
+  EXPECT_NEAR(shown->height_mm(), 6.3, 1e-9);
+  EXPECT_NEAR(shown->volume_mm3(), std::numbers::pi * (1600.0 - 900.0) * 6.3, 0.01);
+}
+
 TEST(PotCheck, MatchesTheCup) {
   const PotCheck check = check_pot(question_of(pot_of(cup_rings())));
   ASSERT_TRUE(check.proved) << check.why_not;
