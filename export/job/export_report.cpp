@@ -165,7 +165,7 @@ std::optional<Problem> small_lip_fillet(const ExportReport& report) {
   const bool by_process = limits && limits->edges && limits->edges->min_radius_mm == asked;
   return Problem{
       fmt::format("lip fillet of {:.2f} mm instead of {:g} mm{}: {}; sharper edges chip", made,
-                  asked, by_process ? " (" + process_title(limits->name) + ")" : "",
+                  asked, by_process ? " for " + process_title(limits->name) : "",
                   reason_of(smoothed.lip_fillet_limit)),
       std::nullopt, false, ProblemKind::lip_fillet, made};
 }

@@ -77,7 +77,7 @@ void join(Outline& outline, const Border& inner) {
         to = j;
       }
   const auto joined = [&](auto line, auto round) {
-    std::ranges::rotate(round, round.begin() + static_cast<std::ptrdiff_t>(to));
+    std::rotate(round.begin(), round.begin() + static_cast<std::ptrdiff_t>(to), round.end());
     round.push_back(round.front());
     round.push_back(line[from]);
     line.insert(line.begin() + static_cast<std::ptrdiff_t>(from) + 1, round.begin(), round.end());

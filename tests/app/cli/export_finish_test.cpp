@@ -59,7 +59,7 @@ TEST_F(ExportFinish, WarnsOfALipFilletThatIsSmallerThanAskedFor) {
   EXPECT_NE(small.err.find(begin.str() + ": "), std::string::npos) << small.err;
   EXPECT_NE(small.err.find("; sharper edges chip\n"), std::string::npos) << small.err;
   const Ran process = run("--process stoneware");
-  EXPECT_NE(process.err.find(begin.str() + " (Stoneware): "), std::string::npos) << process.err;
+  EXPECT_NE(process.err.find(begin.str() + " for Stoneware: "), std::string::npos) << process.err;
   const auto problems = run("--json --lip-fillet 2").json().at("problems");
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].at("text").get<std::string>().find("lip fillet of "), 0u);
