@@ -1,4 +1,5 @@
 #include "app/cli/throw_work.hpp"
+#include "app/cli/clay_summary.hpp"
 #include "app/cli/json_output.hpp"
 #include "app/cli/pot_copy.hpp"
 
@@ -6,20 +7,19 @@
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
+#include "claystack/engine/tool_names.hpp"
 
 #include <fmt/format.h>
 
-#include <array>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 
 namespace clay::cli {
 namespace {
 
 std::string tool_of(const SceneSpec& scene) {
-  constexpr std::array kShapes = {"sphere", "ellipse", "rib", "sampled"};
-  constexpr std::array kModes = {"press", "trim", "pinch"};
-  return fmt::format("{} {}", kModes[static_cast<std::size_t>(scene.tool.mode)],
-                     kShapes[scene.tool.shape.index()]);
+  return fmt::format("{} {}", kToolModeNames[static_cast<std::size_t>(scene.tool.mode)],
+                     kToolShapeNames[scene.tool.shape.index()]);
 }
 
 Json node_json(const history::Work& work, history::NodeId node) {

@@ -1,6 +1,7 @@
 #include "app/studio/settings.hpp"
 
 #include "claystack/core/atomic_file.hpp"
+#include "claystack/engine/tool_names.hpp"
 #include "core/json/plain_object.hpp"
 #include "core/user_folder.hpp"
 
@@ -25,8 +26,6 @@ constexpr std::array kUnitValues = {LengthUnit::mm, LengthUnit::cm, LengthUnit::
 // A custom shape belongs to a scene; it is stored as the first of these shapes.
 constexpr std::array<std::string_view, 3> kShapes = {"sphere", "ellipse", "rib"};
 constexpr std::array kShapeValues = {Shape::sphere, Shape::ellipse, Shape::rib};
-constexpr std::array<std::string_view, 7> kModes = {"press",  "trim", "pinch",    "smooth",
-                                                    "needle", "wire", "trim_foot"};
 constexpr std::array kModeValues = {ToolMode::press,    ToolMode::trim,   ToolMode::pinch,
                                     ToolMode::smooth,   ToolMode::needle, ToolMode::wire,
                                     ToolMode::trim_foot};
@@ -56,7 +55,7 @@ void describe(PlainFields& io, Settings& s) {
   choice(io, "unit", s.unit, kUnits, kUnitValues);
   io.number("wheel_rpm", s.wheel_rpm, kSlowestRpm, kFastestRpm);
   choice(io, "shape", s.tool.shape, kShapes, kShapeValues);
-  choice(io, "mode", s.tool.mode, kModes, kModeValues);
+  choice(io, "mode", s.tool.mode, kToolModeNames, kModeValues);
   const auto size = [&](const char* name, double& mm) {
     io.number(name, mm, kSmallestToolMm, kLargestToolMm);
   };

@@ -3,6 +3,7 @@
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/scene.hpp"
+#include "claystack/engine/tool_names.hpp"
 #include "core/json/object_reader.hpp"
 #include "core/json/object_writer.hpp"
 #include "core/text.hpp"
@@ -15,10 +16,6 @@
 namespace clay::files {
 
 inline constexpr Range kToolSizeMm = above(0).to(kMaxRadiusMm);
-inline constexpr std::array<std::string_view, 4> kShapeNames = {"sphere", "ellipse", "rib",
-                                                                "sampled"};
-inline constexpr std::array<std::string_view, 7> kToolModeNames = {
-    "press", "trim", "pinch", "smooth", "needle", "wire", "trim_foot"};
 inline constexpr std::array<std::string_view, 2> kSwitchNames = {"off", "on"};
 inline constexpr std::array<std::string_view, 2> kThinWallNames = {"stops", "yields"};
 inline constexpr std::array<std::string_view, 2> kWheelTurnNames = {"clockwise",
@@ -58,8 +55,8 @@ void describe(auto& io, Is<SampledSpec> auto& sampled) {
 }
 
 void describe(auto& io, Is<ToolSpec> auto& tool) {
-  io.one_of("shape", tool.shape, files::kShapeNames);
-  io.choice("mode", tool.mode, files::kToolModeNames);
+  io.one_of("shape", tool.shape, kToolShapeNames);
+  io.choice("mode", tool.mode, kToolModeNames);
   io.number("gap_mm", tool.gap_mm, ranges::kGapMm);
   io.check([&](ObjectReader& reader) {
     if (tool.mode == ToolMode::pinch) reader.require({"gap_mm"});

@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <string>
+#include <vector>
+
 namespace clay::history {
 namespace {
 
@@ -34,6 +38,29 @@ TEST(ThrowWork, ReproducesTheThrownPotByteForByte) {
   EXPECT_TRUE(list["nodes"][1]["current"]);
   EXPECT_NE(claystack("throw " + path + " --list").out.find("* 1 below 0: press sphere, 0.18 s"),
             std::string::npos);
+}
+
+TEST(ThrowWork, ListsStrokesOfEveryMode) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("mine.work");
+  constexpr std::array kModes = {ToolMode::press,    ToolMode::trim,   ToolMode::pinch,
+                                 ToolMode::smooth,   ToolMode::needle, ToolMode::wire,
+                                 ToolMode::trim_foot};
+  Work work = Work::begin(small_scene()).value();
+  for (const ToolMode mode : kModes) {
+    SceneSpec scene = small_scene(8.0, mode);
+    if (mode == ToolMode::pinch) scene.tool.gap_mm = 4.0;
+    if (mode == ToolMode::smooth) scene.clay = ClaySpec{};
+    (void)work.add(scene, press_stroke(1)).value();
+  }
+  ASSERT_TRUE(work.save(path));
+  const auto nodes = claystack("throw " + path + " --list --json").json().at("nodes");
+  ASSERT_EQ(nodes.size(), kModes.size() + 1);
+  std::vector<std::string> tools;
+  for (std::size_t node = 1; node < nodes.size(); ++node) tools.push_back(nodes[node].at("tool"));
+  EXPECT_EQ(tools, (std::vector<std::string>{"press sphere", "trim sphere", "pinch sphere",
+                                             "smooth sphere", "needle sphere", "wire sphere",
+                                             "trim_foot sphere"}));
 }
 
 TEST(ThrowWork, RefusesOptionsInvalidForAWork) {

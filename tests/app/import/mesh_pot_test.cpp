@@ -268,7 +268,8 @@ TEST(MeshCuts, AreCompleteAtTJunctions) {
   mesh.triangles.push_back({middle, b, c});
   EXPECT_EQ(complete_cuts(mesh, mesh.points), all);
   // A hole that is wider than the angle between half-planes.
-  std::erase_if(mesh.triangles, [&](const auto& t) { return std::ranges::count(t, c) > 0; });
+  std::erase_if(mesh.triangles,
+                [last = c](const auto& t) { return std::ranges::count(t, last) > 0; });
   EXPECT_NE(complete_cuts(mesh, mesh.points), all);
 }
 
