@@ -8,6 +8,7 @@
 namespace clay::studio {
 namespace {
 
+using test::claystack;
 using test::kPress;
 using test::Ran;
 using test::Window;
