@@ -163,11 +163,10 @@ std::optional<Problem> small_lip_fillet(const ExportReport& report) {
   if (made >= (1.0 - kLittle) * asked) return std::nullopt;
   const auto& limits = report.process.limits;
   const bool by_process = limits && limits->edges && limits->edges->min_radius_mm == asked;
-  return Problem{
-      fmt::format("lip fillet of {:.2f} mm instead of {:g} mm{}: {}; sharper edges chip", made,
-                  asked, by_process ? " for " + process_title(limits->name) : "",
-                  reason_of(smoothed.lip_fillet_limit)),
-      std::nullopt, false, ProblemKind::lip_fillet, made};
+  return Problem{fmt::format("lip fillet of {:.2f} mm instead of {:g} mm{}: {}; sharper edges chip",
+                             made, asked, by_process ? " for " + process_title(limits->name) : "",
+                             reason_of(smoothed.lip_fillet_limit)),
+                 std::nullopt, false, ProblemKind::lip_fillet, made};
 }
 
 }  // namespace
