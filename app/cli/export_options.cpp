@@ -57,20 +57,30 @@ void add_files(CLI::App& sub, ExportCommand& command) {
       ->allow_extra_args(false);
 }
 
+/// An option whose text is read by `parse`; `set` gets the number.
+template <class Parse, class Set>
+CLI::Option* add_parsed(CLI::App& sub, const std::string& name, const std::string& help,
+                        Parse parse, Set set) {
+  return sub
+      .add_option_function<std::string>(
+          name,
+          [parse, set](const std::string& text) {
+            if (const auto parsed = parse(text)) set(*parsed);
+          },
+          help)
+      ->check([parse](const std::string& text) {
+        const auto parsed = parse(text);
+        return parsed ? std::string() : parsed.error().message;
+      });
+}
+
 /// An option in percent, written "12%".
 template <class Field>
 void add_part(CLI::App& sub, ExportCommand& command, const std::string& name, double most,
               const std::string& help, Field field) {
-  sub.add_option_function<std::string>(
-         name,
-         [&command, most, field](const std::string& text) {
-           field(command.request.options) = part_of(text, most).value_or(0.0);
-         },
-         help)
-      ->check([most](const std::string& text) {
-        const auto parsed = part_of(text, most);
-        return parsed ? std::string() : parsed.error().message;
-      });
+  add_parsed(
+      sub, name, help, [most](const std::string& text) { return part_of(text, most); },
+      [&command, field](double part) { field(command.request.options) = part; });
 }
 
 /// Figures for weights and capacities.
@@ -101,17 +111,9 @@ void add_clay_options(CLI::App& sub, ExportCommand& command) {
 /// An option in units, written "350ml".
 CLI::Option* add_quantity(CLI::App& sub, const std::string& name, std::optional<double>& value,
                           std::span<const Unit> units, const std::string& help) {
-  return sub
-      .add_option_function<std::string>(
-          name,
-          [&value, units](const std::string& text) {
-            if (const auto quantity = quantity_of(text, units)) value = *quantity;
-          },
-          help)
-      ->check([units](const std::string& text) {
-        const auto parsed = quantity_of(text, units);
-        return parsed ? std::string() : parsed.error().message;
-      });
+  return add_parsed(
+      sub, name, help, [units](const std::string& text) { return quantity_of(text, units); },
+      [&value](double quantity) { value = quantity; });
 }
 
 /// Sizes to which the pot is scaled.

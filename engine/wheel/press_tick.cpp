@@ -158,14 +158,18 @@ void add_force(const ForcePlan& plan, std::span<const ToolRemoval> removals,
   limit_sum(report.spring_n, report.friction_n, plan.limit_n);
 }
 
-/// The tool at a pose, with its gap; not valid where the pose is refused.
+/// The tool at a pose, with its gap; not valid where the pose is refused or the pot has collapsed.
 template <unsigned stages>
-ToolState track_tool(const StepPlan& plan, ToolTracker& tracker, const Pose& pose,
+ToolState track_tool(const WheelState& s, ToolTracker& tracker, const Pose& pose,
                      StepReport& report) noexcept {
+  if (s.failure) {
+    report.flags = kCollapsed;
+    return {};
+  }
   ToolState tool = tracker.advance(pose, (stages & kPinch) ? kFarthestMm : 0.0);
   report.flags = (tool.valid ? 0u : kRefused) | (tool.dt_clamped ? kLongStep : 0u);
   if constexpr (stages & kPinch)
-    if (tool.gap_mm == 0.0) tool.gap_mm = plan.gap_mm;
+    if (tool.gap_mm == 0.0) tool.gap_mm = s.plan.gap_mm;
   return tool;
 }
 
@@ -173,11 +177,7 @@ ToolState track_tool(const StepPlan& plan, ToolTracker& tracker, const Pose& pos
 template <unsigned stages>
 StepReport tick(WheelState& s, const Pose& pose) noexcept {
   StepReport report;
-  if (s.failure) {
-    report.flags = kCollapsed;
-    return report;
-  }
-  ToolState tool = track_tool<stages>(s.plan, s.tracker, pose, report);
+  ToolState tool = track_tool<stages>(s, s.tracker, pose, report);
   if (!tool.valid) return report;
   std::span<ToolRemoval> removals = touch<stages>(s, tool);
   const bool touches = rings_of(removals) > 0;
@@ -207,12 +207,8 @@ StepReport tick(WheelState& s, const Pose& pose) noexcept {
 template <unsigned stages>
 StepReport probe(WheelState& s, const Pose& pose) noexcept {
   StepReport report;
-  if (s.failure) {
-    report.flags = kCollapsed;
-    return report;
-  }
   ToolTracker tracker = s.tracker;
-  ToolState tool = track_tool<stages>(s.plan, tracker, pose, report);
+  ToolState tool = track_tool<stages>(s, tracker, pose, report);
   if (!tool.valid) return report;
   [[maybe_unused]] const ToolState whole = tool;
   const int parts = parts_of<kModel<stages>>(tool);
