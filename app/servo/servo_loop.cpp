@@ -34,7 +34,7 @@ StepReport LiveClay::meet(const Pose& measured) noexcept {
   // Missed periods are not repeated.
   due_us_ = std::max(due_us_ + period_us_, pose.time_us + period_us_ / 2);
   ++poses_;
-  if (recorder_ != nullptr) (void)recorder_->take(pose, (report.flags & kContact) != 0);
+  if (recorder_ != nullptr) (void)recorder_->take(pose, works(wheel_.plan().mode, report.flags));
   return report;
 }
 

@@ -286,8 +286,8 @@ void SceneView::shape_to(const ViewModel& view, glm::dvec2 pointed_mm, const Gri
   strength_ = grip.strength;
   glm::dvec2 aim = target_mm(pointed_mm);
   if (pinched_) aim = along_wall(view, aim);
-  const double speed_mm_s =
-      view.stroke.status().contact ? view.settings.pressing_mm_s : kReachingMmPerS;
+  const bool resisted = view.stroke.status().contact && !cuts_level(view.settings.tool.mode);
+  const double speed_mm_s = resisted ? view.settings.pressing_mm_s : kReachingMmPerS;
   const double bite_mm = strength_ ? bite_at(*strength_) : view.settings.bite_mm;
   std::optional<double> gap_mm;
   if (pinched_ && strength_) gap_mm = glm::mix(pinched_->wall_mm, pinched_->gap_mm, *strength_);

@@ -1,5 +1,7 @@
 #include "app/studio/stroke_controller.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace clay::studio {
@@ -53,6 +55,7 @@ Result<void> StrokeController::begin_session(const SceneSpec& scene, falcon::Hap
                        : "The clay has fallen: no stroke is possible, but it can be exported");
   view_ = document_.view();
   crown_mm_ = 0.0;
+  touched_ = false;
   if (auto started = start_servo(scene, device, settings); !started) return started;
   if (paused_) pause(true);
   status_ = {};
@@ -117,12 +120,28 @@ void StrokeController::release() {
     thrown = wheel_->pot();
   const auto recording =
       device_ ? history::Recording::several_strokes : history::Recording::one_stroke;
+  const std::size_t before = document_.work().size();
   if (auto added = document_.end_stroke(std::move(thrown), recording); !added)
     news_.error = added.error();
+  else if (document_.work().size() == before && touched_ && cuts_level(wheel_->plan().mode))
+    news_.nothing_cut = why_nothing_cut();
   live_.reset();
   wheel_.reset();
   if (news_.ending == servo::Ending::device_lost) lose_device();
   device_waits_ = device_ != nullptr && news_.ending != servo::Ending::collapsed;
+}
+
+/// A needle or a wire can be in the clay without changing it.
+std::string StrokeController::why_nothing_cut() const {
+  const ClayStack& stack = wheel_->stack();
+  const char* tool = wheel_->plan().mode == ToolMode::wire ? "wire" : "needle";
+  const double level = status_.tool_mm.y / stack.ring_height_mm();
+  if (level < 0.5) return fmt::format("The {} was on the wheel head: nothing was cut", tool);
+  if (level + 0.5 >= static_cast<double>(stack.size()))
+    return fmt::format("The {} was at the rim: nothing was cut", tool);
+  return wheel_->plan().mode == ToolMode::wire
+             ? "The wire did not reach the axis: nothing was cut"
+             : "The needle did not go through the wall from outside: nothing was cut";
 }
 
 void StrokeController::begin_work() noexcept {
@@ -187,6 +206,7 @@ void StrokeController::advance(std::int64_t now_ns) {
 
 void StrokeController::read_servo() {
   status_ = live_->status();
+  touched_ = touched_ || status_.contact;
   const servo::LiveProfile* profile = live_->new_profile();
   if (profile == nullptr) return;
   view_ = view_of(*profile);

@@ -24,6 +24,7 @@ struct StrokeNews {
   std::uint64_t ticks = 0;  ///< of the stroke that ended
   bool ring_limit = false;  ///< there is clay above the rim
   bool device_lost = false;
+  std::string nothing_cut;  ///< why a needle or a wire went into the clay and cut nothing
   std::optional<Error> error;
 };
 
@@ -116,6 +117,7 @@ class StrokeController {
   void lose_device();
   void read_servo();
   void measure_rate(std::int64_t now_ns);
+  [[nodiscard]] std::string why_nothing_cut() const;
 
   Document& document_;
   servo::Clock& clock_;
@@ -130,6 +132,7 @@ class StrokeController {
   std::optional<servo::LiveThrow> live_;  // the same
   servo::LiveStatus status_;
   ServoRecord servo_;
+  bool touched_ = false;  // the clay, in this stroke
   render::PotView view_;  // during a stroke
   double crown_mm_ = 0.0;
   StrokeNews news_;

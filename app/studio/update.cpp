@@ -16,7 +16,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr double kDeviceNoteS = 6.0, kExportNoteS = 6.0, kJournalNoteS = 6.0;
+constexpr double kDeviceNoteS = 6.0, kExportNoteS = 6.0, kJournalNoteS = 6.0, kCutNoteS = 8.0;
 // A homed device reports its state with its first frames.
 constexpr std::uint64_t kTicksUntilHomed = 250;
 
@@ -87,6 +87,7 @@ void update_strokes(AppState& state) {
   if (state.document.has_work() && !state.stroke.throwing())
     state.scene.keep_rim_in_view(state.stroke.view(), state.settings.tool.mode);
   state.log(fmt::format("stroke ended: {} poses, {} ticks", news.poses, news.ticks));
+  if (!news.nothing_cut.empty()) note(state, Grade::note, news.nothing_cut, kCutNoteS);
   if (news.ending == servo::Ending::collapsed) {
     state.fall.begin(state.document.shared_pot(), state.now_s());
     state.ui.notices.show(Grade::warning,

@@ -32,9 +32,12 @@ StepReport cut(WheelState& s, const Pose& pose) noexcept {
   if (!tool.valid || !(level >= 0.0 && level < static_cast<double>(rings.size()))) return report;
   const Ring& ring = rings[static_cast<std::size_t>(level)];
   const glm::dvec3 &now = tool.hip_mm, before = now - tool.moved_mm;
-  if (now.x * now.x + now.z * now.z >= mm2_from_quanta(ring.outer2)) return report;
-  report.flags |= kContact;
-  report.rings_touched = 1;
+  const double from_axis_mm2 = now.x * now.x + now.z * now.z;
+  if (from_axis_mm2 >= mm2_from_quanta(ring.outer2)) return report;
+  if (from_axis_mm2 >= mm2_from_quanta(ring.inner2)) {  // not in the bore
+    report.flags |= kContact;
+    report.rings_touched = 1;
+  }
   if constexpr (probes) return report;
   const auto at = static_cast<std::size_t>(level + 0.5);
   if (!through_wall(ring, now) || through_wall(ring, before) || at == 0 || at >= rings.size())
@@ -42,7 +45,8 @@ StepReport cut(WheelState& s, const Pose& pose) noexcept {
   StackWriter writer(s.stack);
   s.ledger.trimmed += s.plan.mode == ToolMode::needle ? writer.cut_above(at) : writer.cut_below(at);
   s.rim = {};
-  report.flags |= kCut;
+  report.flags |= kContact | kCut;
+  report.rings_touched = 1;
   return report;
 }
 

@@ -31,6 +31,30 @@ TEST_F(Window, ClickRemovesNothing) {
   EXPECT_EQ(clay("before.pot.json"), clay("after.pot.json"));
 }
 
+TEST_F(Window, AWireThatCutsNothingIsNoStrokeAndSaysWhy) {
+  const std::string pot = folder.file("cylinder.pot.json");
+  ASSERT_EQ(
+      claystack("throw -q " + test::sample("paper/cylinder.scene.json") + " -o " + pot).status, 0);
+  const Ran ran =
+      run("open " + pot +
+          "\nkey 1\ndo tool.wire\n"
+          "point 20 40\npress left\nwait 0.2\nexpect contact no\nrelease left\nwait 0.1\n"
+          "expect strokes 0\nexpect unsaved no\nexpect banner \"\"\n"
+          "point 80 40\npress left\npoint 60 40 over 0.4\nrelease left\nwait 0.1\n"
+          "expect strokes 0\nexpect banner \"\"\n"
+          // Into the wall, but not through it.
+          "point 80 40\npress left\npoint 40 40 over 0.4\nwait 0.2\nexpect contact yes\n"
+          "release left\nwait 0.1\nexpect strokes 0\nexpect unsaved no\n"
+          "expect banner \"The wire did not reach the axis: nothing was cut\"\n"
+          "do tool.needle\npoint 80 0\npress left\npoint 30 0 over 0.4\nwait 0.2\n"
+          "release left\nwait 0.1\nexpect strokes 0\n"
+          "expect banner \"The needle was on the wheel head: nothing was cut\"\n"
+          // A quick drag goes all the way.
+          "do tool.wire\npoint 80 40\npress left\npoint 0 40 over 0.25\nwait 0.1\n"
+          "release left\nwait 0.1\nexpect strokes 1\nexpect height_mm below 170\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
 TEST_F(Window, CtrlTrimsAndPressKeepsTheClay) {
   const Ran ran = run(std::string(kPress) +
                       "save FOLDER/press.pot.json\nhold Ctrl\n"

@@ -47,7 +47,8 @@ TEST(Needle, ProbeReportsContactAndDoesNotCut) {
     Wheel wheel = Wheel::build(scene_with(mode)).value();
     wheel.step({1000, {60, 100.04, 0}, false});
     EXPECT_EQ(wheel.probe({2000, {55, 100.04, 0}, false}).flags, 0u);
-    const StepReport report = wheel.probe({2000, {1, 100.04, 0}, false});
+    EXPECT_EQ(wheel.probe({2000, {1, 100.04, 0}, false}).flags, 0u) << "in the empty bore";
+    const StepReport report = wheel.probe({2000, {42, 100.04, 0}, false});
     EXPECT_EQ(report.flags, kContact);
     EXPECT_EQ(report.rings_touched, 1u);
     EXPECT_EQ(wheel.stack().size(), 600u);

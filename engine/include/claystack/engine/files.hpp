@@ -52,7 +52,7 @@ inline constexpr std::size_t kPosesPerBlock = 100;
 /// Poses that were played, in order.
 struct PoseBlock {
   std::span<const Pose> poses;    ///< at most kPosesPerBlock, quantized, later than all before them
-  std::span<const bool> contact;  ///< for each pose: whether the tool was in the clay
+  std::span<const bool> contact;  ///< for each pose: whether the tool worked on the clay
 };
 
 /// Receives the poses of a stroke as they are played: a session or a journal. Called from one

@@ -26,6 +26,12 @@ enum StepFlag : std::uint32_t {
   kCut = 1u << 6,        ///< a needle or a wire has cut the pot
 };
 
+/// Whether a tick with these flags is work on the clay: a tool that touches, but a needle or a wire
+/// only when it cuts, because it changes nothing before.
+[[nodiscard]] constexpr bool works(ToolMode mode, std::uint32_t flags) noexcept {
+  return (flags & (cuts_level(mode) ? kCut : kContact)) != 0;
+}
+
 struct StepReport {
   /// Force on the hand [N], of both tools for a pinch: the spring of the contact, and the friction
   /// of the turning wheel, which does work on the hand. A passivity check needs the spring alone.
