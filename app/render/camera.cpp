@@ -11,7 +11,8 @@ namespace clay::render {
 namespace {
 
 constexpr double kNearest = 0.02, kFarthest = 60.0;  // clip planes, per distance
-constexpr double kShortestMm = 1e-2, kLongestMm = 1e6;
+// Of the zoom: from the clay, from the target, and the longest as a multiple of the pot.
+constexpr double kClearMm = 5.0, kShortestMm = 10.0, kLongest = 20.0, kSmallestPotMm = 50.0;
 constexpr double kNotch = 8.0 / 9.0;
 constexpr double kGrazing = 1e-9;  // of a ray to the plane that it should intersect
 
@@ -36,6 +37,26 @@ double free_height_px(const Camera& camera, Viewport viewport) noexcept {
 double mm_per_px(const Camera& camera, Viewport viewport) noexcept {
   return 2.0 * camera.distance_mm * std::tan(0.5 * camera.fov_rad) /
          free_height_px(camera, viewport);
+}
+
+/// The distance from the target at which a camera that moves back has left the pot for good.
+double way_out_mm(const Camera& camera, const Extent& pot) noexcept {
+  const glm::dvec3 from = camera.target_mm, back = axes_of(camera).back;
+  const double radius = pot.radius_mm + kClearMm, top = pot.height_mm + kClearMm;
+  const double a = back.x * back.x + back.z * back.z;  // above 0, as kSteepest is off the zenith
+  const double b = from.x * back.x + from.z * back.z;
+  const double c = from.x * from.x + from.z * from.z - radius * radius;
+  const double root = b * b - a * c;
+  if (root <= 0.0) return kShortestMm;  // past the pot
+  double in = (-b - std::sqrt(root)) / a, out = (-b + std::sqrt(root)) / a;
+  const double to_top = top - from.y, to_foot = -kClearMm - from.y;
+  if (back.y != 0.0) {
+    in = std::max(in, std::min(to_top / back.y, to_foot / back.y));
+    out = std::min(out, std::max(to_top / back.y, to_foot / back.y));
+  } else if (to_top < 0.0 || to_foot > 0.0) {
+    return kShortestMm;
+  }
+  return in < out ? std::max(out, kShortestMm) : kShortestMm;
 }
 
 }  // namespace
@@ -82,9 +103,14 @@ Camera panned(Camera camera, glm::dvec2 drag_px, Viewport viewport) noexcept {
   return camera;
 }
 
-Camera zoomed(Camera camera, double notches) noexcept {
-  camera.distance_mm =
-      std::clamp(camera.distance_mm * std::pow(kNotch, notches), kShortestMm, kLongestMm);
+Camera zoomed(Camera camera, double notches, const Extent& pot) noexcept {
+  const double wanted = camera.distance_mm * std::pow(kNotch, notches);
+  const double size = std::max({2.0 * pot.radius_mm, pot.height_mm, kSmallestPotMm});
+  // A camera beyond a limit, because the pot has changed, does not jump to it.
+  if (notches < 0.0)
+    camera.distance_mm = std::min(wanted, std::max(camera.distance_mm, kLongest * size));
+  else
+    camera.distance_mm = std::max(wanted, std::min(camera.distance_mm, way_out_mm(camera, pot)));
   return camera;
 }
 

@@ -49,8 +49,13 @@ struct PixelRows {
 [[nodiscard]] Camera orbited(Camera camera, glm::dvec2 drag_px, Viewport viewport) noexcept;
 /// Keeps the point under the mouse there, for points at the target's distance.
 [[nodiscard]] Camera panned(Camera camera, glm::dvec2 drag_px, Viewport viewport) noexcept;
-/// Steps of the mouse wheel: positive zooms in, by a ninth of the distance each.
-[[nodiscard]] Camera zoomed(Camera camera, double notches) noexcept;
+/// A cylinder on the wheel that contains the pot.
+struct Extent {
+  double radius_mm = 0.0, height_mm = 0.0;
+};
+/// Steps of the mouse wheel: positive zooms in, by a ninth of the distance each, until the camera
+/// is at the pot; negative zooms out, as long as the pot is in sight.
+[[nodiscard]] Camera zoomed(Camera camera, double notches, const Extent& pot) noexcept;
 
 /// Position of a point [mm] in the picture [px]; empty for points behind the camera.
 [[nodiscard]] std::optional<glm::dvec2> pixel_of(const Camera& camera, Viewport viewport,

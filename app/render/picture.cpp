@@ -77,6 +77,12 @@ double wheel_radius_mm(const PotView& pot) noexcept {
   return 10.0 * decade;
 }
 
+Extent extent_of(const PotView& pot) noexcept {
+  float radius = 0.0f;
+  for (const Row& row : pot.rows) radius = std::max(radius, row.outer_mm);
+  return {static_cast<double>(radius), pot.height_mm};
+}
+
 Camera framed(const PotView& pot, double aspect, Camera camera) noexcept {
   const std::vector<glm::dvec3> points = outline_points(pot);
   if (points.empty()) return camera;

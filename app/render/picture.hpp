@@ -105,6 +105,7 @@ struct Picture {
 
 /// The default radius of the wheel head for a pot [mm].
 [[nodiscard]] double wheel_radius_mm(const PotView& pot) noexcept;
+[[nodiscard]] Extent extent_of(const PotView& pot) noexcept;
 
 /// A camera that sees the whole pot, from a little above and to the right.
 [[nodiscard]] Camera framed(const PotView& pot, double aspect, double covered = 0.0) noexcept;

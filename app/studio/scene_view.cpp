@@ -109,6 +109,7 @@ void SceneView::keep_rim_in_view(const render::PotView& pot, ToolMode mode) {
 /// fits it again.
 void SceneView::turn_wheel(const render::PotView& pot, double rad) {
   wheel_radius_mm_ = std::max(wheel_radius_mm_, render::wheel_radius_mm(pot));
+  extent_ = render::extent_of(pot);
   turn_rad_ = std::fmod(turn_rad_ + rad, 2.0 * std::numbers::pi);
 }
 

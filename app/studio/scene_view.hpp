@@ -73,7 +73,7 @@ class SceneView {
   /// pulls the wall up, at least half of the pot's height. Not during a stroke, because the pointer
   /// would lead the tool elsewhere.
   void keep_rim_in_view(const render::PotView& pot, ToolMode mode);
-  void zoom(double notches) { camera_ = render::zoomed(camera_, notches); }
+  void zoom(double notches) { camera_ = render::zoomed(camera_, notches, extent_); }
   /// To the right and up.
   void turn(glm::dvec2 by_rad);
   /// `covered_px`: the height at the foot of the view over which the timeline lies.
@@ -129,6 +129,7 @@ class SceneView {
   ToolChoice tool_before_;         // value before a change
   double stiffness_before_ = 0.0;  // value before a change
   double turn_rad_ = 0.0, wheel_radius_mm_ = 0.0;
+  render::Extent extent_;  // of the pot on the wheel
 };
 
 }  // namespace clay::studio

@@ -103,10 +103,27 @@ TEST(Camera, DraggingMovesThePointUnderTheMouse) {
 
 TEST(Camera, ZoomAndOrbitRespectTheirLimits) {
   Camera camera;
-  EXPECT_LT(render::zoomed(camera, 1).distance_mm, camera.distance_mm);
-  EXPECT_NEAR(render::zoomed(render::zoomed(camera, 3), -3).distance_mm, camera.distance_mm, 1e-9);
-  EXPECT_GT(render::zoomed(camera, 1e6).distance_mm, 0.0);
-  EXPECT_LT(render::zoomed(camera, -1e6).distance_mm, 1e7);
+  const render::Extent pot{60.0, 150.0};
+  const auto zoomed = [&](const Camera& from, double by) { return render::zoomed(from, by, pot); };
+  EXPECT_LT(zoomed(camera, 1).distance_mm, camera.distance_mm);
+  EXPECT_NEAR(zoomed(zoomed(camera, 3), -3).distance_mm, camera.distance_mm, 1e-9);
+  EXPECT_DOUBLE_EQ(zoomed(camera, -1e6).distance_mm, 20.0 * pot.height_mm);
+  for (const double azimuth : {0.0, 2.0})
+    for (const double elevation : {-0.4, 0.0, 0.3, 1.2, render::kSteepest})
+      for (const glm::dvec3& target : {glm::dvec3(0, 75, 0), glm::dvec3(50, 140, 10)}) {
+        const Camera near =
+            zoomed({.azimuth_rad = azimuth, .elevation_rad = elevation, .target_mm = target}, 1e6);
+        const glm::dvec3 eye = render::eye_mm(near);
+        const bool beside = std::hypot(eye.x, eye.z) > pot.radius_mm + 4.9;
+        EXPECT_TRUE(beside || eye.y > pot.height_mm + 4.9 || eye.y < -4.9)
+            << eye.x << ' ' << eye.y << ' ' << eye.z;
+        EXPECT_LT(near.distance_mm, 200.0) << "the pot fills the picture";
+      }
+  camera.target_mm = {90.0, 75.0, 0.0};  // beside the pot
+  EXPECT_DOUBLE_EQ(zoomed(camera, 1e6).distance_mm, 10.0);
+  camera.distance_mm = 2e4;  // beyond the limit: the pot was larger
+  EXPECT_DOUBLE_EQ(zoomed(camera, -1).distance_mm, 2e4);
+  EXPECT_LT(zoomed(camera, 1).distance_mm, 2e4);
   EXPECT_DOUBLE_EQ(render::orbited(camera, {0, 1e6}, kView).elevation_rad, render::kSteepest);
   EXPECT_DOUBLE_EQ(render::orbited(camera, {0, -1e6}, kView).elevation_rad, -render::kSteepest);
 }
