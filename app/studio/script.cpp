@@ -361,7 +361,7 @@ Result<void> ScriptRunner::hold(const Words& words) {
 Result<void> ScriptRunner::key(const Words& words) {
   const auto chord = *chord_of(words[1]);
   studio_.take(KeyChanged{chord.key, true, false, chord.mods});
-  studio_.take(KeyChanged{chord.key, false, false, chord.mods});
+  studio_.take(KeyChanged{chord.key, false, false, mods_});  // those of the chord are released too
   frames(1);
   return {};
 }

@@ -166,5 +166,12 @@ TEST_F(Window, OpensADroppedFile) {
   EXPECT_EQ(test::read_text(folder.file("still.pot.json")), mine);
 }
 
+TEST_F(Window, ATypedTextReplacesASelectedOne) {
+  const Ran ran =
+      run("save FOLDER/a.pot.json\ndo file.open\nwait 0.1\ntype none\nkey Ctrl+A\n"
+          "type FOLDER/a.pot.json\nkey Enter\nwait 0.1\nexpect overlay none\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
 }  // namespace
 }  // namespace clay::studio
