@@ -31,15 +31,37 @@ std::string thickness_text(double mm, LengthUnit unit) {
   return length_text(mm, unit, thickness_digits(unit) - unit_text(unit).digits);
 }
 
+std::string speed_text(double mm_s, LengthUnit unit) { return length_text(mm_s, unit, -1) + "/s"; }
+
+std::string tolerance_text(double mm, LengthUnit unit) {
+  const UnitText text = unit_text(unit);
+  return fmt::format("{:.3g} {}", mm / text.mm, text.name);
+}
+
+namespace {
+
+/// With this many decimals the text of `value` is below that of `limit`.
+bool shows_below(double value, double limit, int digits) {
+  const double scale = std::pow(10.0, digits);
+  return std::round(scale * std::abs(value)) < std::round(scale * limit);
+}
+
+}  // namespace
+
 std::string mass_text(double grams) {
-  if (std::abs(grams) >= 1000.0) return fmt::format("{:.3f} kg", 1e-3 * grams);
-  return fmt::format("{:.1f} g", grams);
+  if (shows_below(grams, 1000.0, 1)) return fmt::format("{:.1f} g", grams);
+  return fmt::format("{:.3f} kg", 1e-3 * grams);
+}
+
+std::string short_mass_text(double grams) {
+  if (shows_below(grams, 1000.0, 0)) return fmt::format("{:.0f} g", grams);
+  return fmt::format("{:.2f} kg", 1e-3 * grams);
 }
 
 std::string capacity_text(double mm3) {
   const double ml = 1e-3 * mm3;
-  if (ml >= 1000.0) return fmt::format("{:.2f} l", 1e-3 * ml);
-  return fmt::format("{:.{}f} ml", ml, ml < 10.0 ? 1 : 0);
+  if (!shows_below(ml, 1000.0, 0)) return fmt::format("{:.2f} l", 1e-3 * ml);
+  return fmt::format("{:.{}f} ml", ml, shows_below(ml, 10.0, 1) ? 1 : 0);
 }
 
 }  // namespace clay::studio

@@ -20,8 +20,14 @@ struct UnitText {
 [[nodiscard]] std::string thickness_text(double mm, LengthUnit unit);
 /// The decimals of such a text.
 [[nodiscard]] int thickness_digits(LengthUnit unit);
-/// "3.2 g", "1.250 kg".
+/// "80 mm/s", "8.0 cm/s", "3.1 in/s".
+[[nodiscard]] std::string speed_text(double mm_s, LengthUnit unit);
+/// "0.02 mm", "0.002 cm", "0.000787 in".
+[[nodiscard]] std::string tolerance_text(double mm, LengthUnit unit);
+/// "3.2 g", "1.250 kg"; a mass that rounds to 1000 g is 1.000 kg, here and below.
 [[nodiscard]] std::string mass_text(double grams);
+/// "3 g", "1.25 kg".
+[[nodiscard]] std::string short_mass_text(double grams);
 /// "9.5 ml", "340 ml", "1.20 l".
 [[nodiscard]] std::string capacity_text(double mm3);
 

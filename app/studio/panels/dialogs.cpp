@@ -36,11 +36,12 @@ void draw_work_settings(const ViewModel& model, Actions& actions) {
   float speed = static_cast<float>(settings.pressing_mm_s);
   if (form_slider("Speed in clay", speed, static_cast<float>(kSlowestHandMmPerS),
                   static_cast<float>(kFastestHandMmPerS),
-                  fmt::format("at most {:.0f} mm/s", speed)))
+                  "at most " + speed_text(settings.pressing_mm_s, settings.unit)))
     actions.emplace_back(SetHandSpeed{static_cast<double>(speed)});
   float bite = static_cast<float>(settings.bite_mm);
   if (form_slider("Strength of the hand", bite, static_cast<float>(kSoftestBiteMm),
-                  static_cast<float>(kFirmestBiteMm), fmt::format("{:.1f} mm per turn", bite),
+                  static_cast<float>(kFirmestBiteMm),
+                  length_text(settings.bite_mm, settings.unit) + " per turn",
                   ImGuiSliderFlags_Logarithmic))
     actions.emplace_back(SetBite{static_cast<double>(bite)});
   form_row("Process");

@@ -33,16 +33,13 @@ void fill_gaps(std::vector<std::optional<MinMax>>& rows) {
 double right_edge_kpa(const StressCurve& curve) {
   return 1.08 * std::max(curve.most_kpa, curve.limit_kpa.value_or(0.0));
 }
-double height_mm(const StressCurve& curve) {
-  return curve.ring_height_mm * static_cast<double>(curve.kpa.size());
-}
 
-void draw_curve(const StressCurve& curve, const Palette& colours) {
+/// `height_mm`: of the pot, with the crown above its rings.
+void draw_curve(const StressCurve& curve, double height_mm, const Palette& colours) {
   const PlotArea area = begin_plot(kStressHeightEm);
-  const double height = height_mm(curve);
   const double top = right_edge_kpa(curve);
   if (!(top > 0.0)) return;
-  auto rows = min_max_of(points_of(curve), 0.0, height, whole_px(area.height()));
+  auto rows = min_max_of(points_of(curve), 0.0, height_mm, whole_px(area.height()));
   fill_gaps(rows);
   plot_rows(area, rows, top, colours.clay);
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -66,10 +63,11 @@ void draw_stress(const ViewModel& model, Actions&) {
   const auto part = curve.part();
   wrapped_text(stress_text(curve, model.settings.unit),
                part && *part >= kNear ? colours.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-  draw_curve(curve, colours);
+  const double height_mm = model.readings.stack()->height_mm();
+  draw_curve(curve, height_mm, colours);
   faint_text(colours,
              fmt::format("Vertical: height to {}. Horizontal: stress to {:.3g} kPa{}",
-                         length_text(height_mm(curve), model.settings.unit), right_edge_kpa(curve),
+                         length_text(height_mm, model.settings.unit), right_edge_kpa(curve),
                          curve.limit_kpa ? ". Line: limit of the clay" : ""));
 }
 

@@ -15,14 +15,11 @@ namespace clay::studio {
 void draw_pot(const ViewModel& model, Actions& actions) {
   const Readings& readings = model.readings;
   if (readings.stack() == nullptr) return faint_text(model.colours(), "No clay on the wheel");
-  const double grams = readings.account().in_stack_g;
   const LengthUnit unit = model.settings.unit;
   const Palette& colours = model.colours();
   value_row(colours, "Height", length_text(model.stroke.view().height_mm, unit));
   value_row(colours, "Largest diameter", length_text(readings.diameter_mm(), unit));
-  value_row(
-      colours, "Clay mass",
-      grams < 1000.0 ? fmt::format("{:.0f} g", grams) : fmt::format("{:.2f} kg", 1e-3 * grams));
+  value_row(colours, "Clay mass", short_mass_text(readings.account().in_stack_g));
   ImGui::SetNextItemWidth(kToEdge);
   if (const Material* chosen = choose_material(model.settings.material))
     actions.emplace_back(SetMaterial{*chosen});
@@ -85,7 +82,7 @@ void headline(const PotCheck& check, bool again, const Palette& colours) {
 
 void figures(const PotCheck& check, const Palette& colours, LengthUnit unit) {
   value_row(colours, "Triangles", fmt::format("{}", check.triangles));
-  value_row(colours, "Tolerance", fmt::format("{:g} mm", check.tolerance_mm));
+  value_row(colours, "Tolerance", tolerance_text(check.tolerance_mm, unit));
   if (!check.fallen)
     value_row(colours, "Proved minimum wall", thickness_text(check.least_wall_mm, unit));
   value_row(colours, "Clay volume", volume_text(check.counted_mm3));

@@ -68,6 +68,26 @@ TEST(LengthText, UsesTheChosenUnit) {
   EXPECT_EQ(length_text(50.8, LengthUnit::in), "2.00 in");
 }
 
+TEST(LengthText, SpeedsAndTolerancesUseItToo) {
+  EXPECT_EQ(speed_text(80.0, LengthUnit::mm), "80 mm/s");
+  EXPECT_EQ(speed_text(80.0, LengthUnit::in), "3.1 in/s");
+  EXPECT_EQ(tolerance_text(0.02, LengthUnit::mm), "0.02 mm");
+  EXPECT_EQ(tolerance_text(0.02, LengthUnit::in), "0.000787 in");
+}
+
+TEST(MassText, ARoundedKilogramIsAKilogram) {
+  EXPECT_EQ(mass_text(999.94), "999.9 g");
+  for (const double grams : {999.96, 999.999999, 1000.0, 1000.000001})
+    EXPECT_EQ(mass_text(grams), "1.000 kg") << grams;
+  EXPECT_EQ(short_mass_text(999.4), "999 g");
+  for (const double grams : {999.5, 999.999999, 1000.0})
+    EXPECT_EQ(short_mass_text(grams), "1.00 kg") << grams;
+  EXPECT_EQ(capacity_text(999.4e3), "999 ml");
+  EXPECT_EQ(capacity_text(999.6e3), "1.00 l");
+  EXPECT_EQ(capacity_text(9.94e3), "9.9 ml");
+  EXPECT_EQ(capacity_text(9.96e3), "10 ml");
+}
+
 TEST(Settings, RemembersCustomProcesses) {
   Settings settings;
   for (const char* name : {"/a", "/b", "/c", "/d", "/e", "/b"})
