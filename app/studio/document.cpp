@@ -81,6 +81,7 @@ void Document::replace(const SceneSpec& scene, history::Work work) {
   changes_discarded_ = false;
   file_.clear();
   lock_.reset();
+  pot_saved_at_.reset();
   scene_ = scene;
   rate_per_s_ = scene.removal.rate_per_s;
   wheel_rpm_ = scene.clay && scene.clay->wheel_rpm > 0.0 ? scene.clay->wheel_rpm : kNominalRpm;
@@ -157,9 +158,9 @@ Result<void> Document::save(const std::filesystem::path& path) {
     return failure(
         ErrorKind::bad_input,
         fmt::format("{}: expected a name that ends in .work, .pot.json or .pot.cbor", name));
-  return cli::expect_room_to_write(pot_->stack.size(), *encoding, name).and_then([&] {
-    return publish(path, write_pot(*pot_, *encoding));
-  });
+  return cli::expect_room_to_write(pot_->stack.size(), *encoding, name)
+      .and_then([&] { return publish(path, write_pot(*pot_, *encoding)); })
+      .map([&] { pot_saved_at_ = work_->at(); });
 }
 
 void Document::keep_file(const std::filesystem::path& path) {

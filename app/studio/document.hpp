@@ -87,6 +87,8 @@ class Document {
   [[nodiscard]] bool unsaved() const noexcept {
     return work_ && work_->unsaved() && !changes_discarded_;
   }
+  /// The pot on the wheel is in a pot file, which keeps no strokes.
+  [[nodiscard]] bool pot_saved() const noexcept { return work_ && pot_saved_at_ == work_->at(); }
   /// The user discards the unsaved changes: the journal is deleted with the work. The next stroke
   /// makes the document unsaved again.
   void discard_changes() noexcept { changes_discarded_ = true; }
@@ -153,6 +155,7 @@ class Document {
 
   bool journals_ = false;
   bool changes_discarded_ = false;
+  std::optional<history::NodeId> pot_saved_at_;  ///< whose pot is in a pot file
   std::filesystem::path file_;
   FileStamp stamp_;                          ///< of file_, when it was read or written
   std::unique_ptr<history::FileLock> lock_;  ///< on file_, so that other windows see its use

@@ -86,7 +86,10 @@ void draw(const NoDialog&, const ViewModel&, Actions&, const ViewRect&) {}
 void draw(const UnsavedDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
   begin_dialog("##unsaved", rect, 34.0f);
   dialog_title(model, "Save this pot?");
-  ImGui::TextWrapped("It has changed since it was last saved.");
+  wrapped_text(model.document.pot_saved()
+                   ? "The pot is in a file, but its strokes are not: only NAME.work keeps them."
+               : model.document.file().empty() ? "It has not been saved yet."
+                                               : "It has changed since it was last saved.");
   ImGui::Spacing();
   if (main_button("Save (Enter)", model.colours())) actions.emplace_back(RunCommand{"quit.save"});
   ImGui::SameLine();

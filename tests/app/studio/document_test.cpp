@@ -63,6 +63,11 @@ TEST_F(DocumentTest, IsUnsavedFromAStrokeUntilAWorkIsSaved) {
   EXPECT_TRUE(document.unsaved());
   ASSERT_TRUE(document.save(folder.file("a.pot.json")));
   EXPECT_TRUE(document.unsaved()) << "a pot file has no strokes";
+  EXPECT_TRUE(document.pot_saved());
+  stroke(2);
+  EXPECT_FALSE(document.pot_saved());
+  ASSERT_TRUE(document.undo());
+  EXPECT_TRUE(document.pot_saved());
   EXPECT_TRUE(document.file().empty());
   ASSERT_TRUE(document.save(folder.file("a.work")));
   EXPECT_FALSE(document.unsaved());
