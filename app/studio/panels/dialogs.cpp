@@ -71,7 +71,7 @@ void draw_path(const std::string& path, const char* help, const char* button,
   const bool clicked = main_button(button, model.colours());
   if ((clicked || entered) && !typed.empty()) actions.emplace_back(Done{typed});
   kept.SetBool(tried, clicked || entered);
-  ImGui::SameLine();
+  same_line_if_room("Cancel (Esc)");
   if (ImGui::Button("Cancel (Esc)")) actions.emplace_back(CloseDialog{});
 }
 
@@ -92,9 +92,9 @@ void draw(const UnsavedDialog&, const ViewModel& model, Actions& actions, const 
                                                : "It has changed since it was last saved.");
   ImGui::Spacing();
   if (main_button("Save (Enter)", model.colours())) actions.emplace_back(RunCommand{"quit.save"});
-  ImGui::SameLine();
+  same_line_if_room("Discard changes (Ctrl+D)");
   if (ImGui::Button("Discard changes (Ctrl+D)")) actions.emplace_back(RunCommand{"quit.discard"});
-  ImGui::SameLine();
+  same_line_if_room("Cancel (Esc)");
   if (ImGui::Button("Cancel (Esc)")) actions.emplace_back(RunCommand{"quit.cancel"});
   ImGui::End();
 }
@@ -134,7 +134,7 @@ void draw(const ReplaceDialog& dialog, const ViewModel& model, Actions& actions,
   wrapped_text(dialog.question);
   ImGui::Spacing();
   if (main_button("Cancel (Esc)", model.colours())) actions.emplace_back(KeepFiles{});
-  ImGui::SameLine();
+  same_line_if_room("Replace (Ctrl+Shift+R)");
   if (ImGui::Button("Replace (Ctrl+Shift+R)")) actions.emplace_back(RunCommand{"replace.confirm"});
   ImGui::End();
 }
@@ -147,7 +147,7 @@ void draw(const DiscardDialog& dialog, const ViewModel& model, Actions& actions,
   wrapped_text("It was not saved, and is deleted.");
   ImGui::Spacing();
   if (main_button("Keep (Esc)", model.colours())) actions.emplace_back(CloseDialog{});
-  ImGui::SameLine();
+  same_line_if_room("Discard (Ctrl+Shift+D)");
   if (ImGui::Button("Discard (Ctrl+Shift+D)")) actions.emplace_back(RunCommand{"recover.confirm"});
   ImGui::End();
 }

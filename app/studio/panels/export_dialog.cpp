@@ -282,11 +282,11 @@ void draw_buttons(const ViewModel& model, Actions& actions) {
     const Command& write = *find_command("export.write");
     if (main_button("Export (Ctrl+Enter)", model.colours(), write.enabled(model)))
       actions.emplace_back(RunCommand{write.id});
-    ImGui::SameLine();
     if (!exporting.written.empty() && !kInPage) {
+      same_line_if_room("Open folder");
       if (ImGui::Button("Open folder")) actions.emplace_back(RunCommand{"export.folder"});
-      ImGui::SameLine();
     }
+    same_line_if_room("Close (Esc)");
     if (ImGui::Button("Close (Esc)")) actions.emplace_back(CloseDialog{});
   }
 }

@@ -20,6 +20,7 @@ namespace {
 constexpr float kBesideEm = 34.0f;  // a work and its buttons in one row
 constexpr std::size_t kMostWorksShown = 3;
 constexpr float kLeastCardEm = 10.0f, kPictureEm = 9.0f, kLeastLumpEm = 30.0f;
+constexpr float kNameEm = 12.0f;  // longest name of a recent file
 
 /// Sections of the finished samples, computed when they are first shown.
 const render::PotView& section_of(const Sample& sample) {
@@ -90,15 +91,16 @@ void draw_lump(const ViewModel& model, Actions& actions) {
   ImGui::Columns(1);
 }
 
-/// Button for any file, and a list of recent files.
+/// Button for any file, and the recent files that have room.
 void draw_files(const ViewModel& model, Actions& actions) {
   if (ImGui::Button("Open...")) actions.emplace_back(RunCommand{"file.open"});
+  const float em = ImGui::GetFontSize(), pad = 2.0f * ImGui::GetStyle().FramePadding.x;
   for (const std::string& path : model.settings.recent) {
-    const std::string name = std::filesystem::path(path).filename().string();
-    const float width =
-        ImGui::CalcTextSize(name.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+    const std::string whole = std::filesystem::path(path).filename().string();
     ImGui::SameLine();
-    if (ImGui::GetContentRegionAvail().x < width) break;
+    const float room = ImGui::GetContentRegionAvail().x - pad;
+    const std::string name = shortened(whole, kNameEm * em);
+    if (room < ImGui::CalcTextSize(name.c_str()).x) break;
     ImGui::PushID(path.c_str());
     if (ImGui::Button(name.c_str())) actions.emplace_back(OpenFile{path});
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", path.c_str());

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace clay::studio {
@@ -38,7 +39,8 @@ ImportSettings draw_choices(const ImportDialog& dialog, const ViewModel& model) 
 
 void draw_result(const ImportDialog& dialog, const ViewModel& model) {
   const Palette& colours = model.colours();
-  const float side = 14.0f * ImGui::GetFontSize();
+  const float side =
+      std::min(14.0f * ImGui::GetFontSize(), 0.5f * ImGui::GetContentRegionAvail().x);
   ImGui::BeginChild("##made", {0.0f, side + 2.2f * ImGui::GetFontSize()}, true);
   if (!dialog.made) {
     ImGui::PushStyleColor(ImGuiCol_Text, colours.warning);
@@ -80,7 +82,7 @@ void draw(const ImportDialog& dialog, const ViewModel& model, Actions& actions,
   if (dialog.made) {
     if (main_button("Place on the wheel (Ctrl+Shift+Enter)", model.colours()))
       actions.emplace_back(RunCommand{"import.take"});
-    ImGui::SameLine();
+    same_line_if_room("Close (Esc)");
   }
   if (ImGui::Button("Close (Esc)")) actions.emplace_back(CloseDialog{});
   ImGui::End();

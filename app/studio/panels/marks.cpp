@@ -98,9 +98,15 @@ void draw_scale(const PotCheck& check, const ViewRect& rect, float top_px, Lengt
 
 /// The pixel of a place on the pot, which stands on its rim while its foot is trimmed.
 std::optional<glm::vec2> pixel_on_pot(const ViewModel& model, glm::dvec2 place_mm) {
-  if (model.settings.tool.mode == ToolMode::trim_foot)
-    place_mm.y = model.stroke.view().height_mm - place_mm.y;
+  if (model.upside_down()) place_mm.y = model.stroke.view().height_mm - place_mm.y;
   return model.scene.pixel_of(place_mm);
+}
+
+/// A ring that is seen on any colour of the pot: its rim contrasts with it.
+void draw_ring(ImDrawList* draw, glm::vec2 at, float radius, const ImVec4& colour, float width) {
+  constexpr float kRim = 2.2f;  // as wide as the ring
+  draw->AddCircle({at.x, at.y}, radius, ImGui::GetColorU32(ink_on(colour)), 0, kRim * width);
+  draw->AddCircle({at.x, at.y}, radius, ImGui::GetColorU32(colour), 0, width);
 }
 
 /// A circle around the thinnest place, with its thickness.
@@ -111,7 +117,7 @@ void mark_thinnest(const ViewModel& model, const PotCheck& check, ImDrawList* dr
   if (!at || !model.scene.rect().holds(*at)) return;
   const ImVec4 colour =
       check.thin() ? model.colours().warning : ImGui::GetStyleColorVec4(ImGuiCol_Text);
-  draw->AddCircle({at->x, at->y}, 0.6f * em, ImGui::GetColorU32(colour), 0, 0.15f * em);
+  draw_ring(draw, *at, 0.6f * em, colour, 0.15f * em);
   shaded_text(draw, {at->x + em, at->y - 0.5f * em},
               thickness_text(check.thinnest_mm, model.settings.unit), colour);
 }
@@ -172,7 +178,7 @@ void draw_mark(const ViewModel& model, const ViewRect& rect, const Mark& mark, g
     const glm::vec2 edge = at + (ring / away) * (foot - at);
     draw->AddLine({edge.x, edge.y}, {foot.x, foot.y}, colour, 0.12f * em);
   }
-  draw->AddCircle({at.x, at.y}, ring, colour, 0, 0.16f * em);
+  draw_ring(draw, at, ring, model.colours().warning, 0.16f * em);
   draw->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_PopupBg), 0.3f * em);
   draw->AddRect(low, high, colour, 0.3f * em);
   draw->AddText(corner, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace clay::studio {
 namespace {
@@ -46,11 +47,11 @@ bool is_open(const Settings& settings, const Panel& panel) {
 }
 
 /// The header of the tool's panel has the name of the tool.
-bool draw_header(const Panel& panel, const Settings& settings) {
+bool draw_header(const Panel& panel, const ViewModel& model) {
   const ImVec2 padding = ImGui::GetStyle().FramePadding;
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.5f * padding.x, padding.y));
   const std::string_view title =
-      panel.draw == &draw_tool ? name_of(settings.tool.mode) : panel.title;
+      panel.draw == &draw_tool ? name_of(model.tool_in_use().mode) : panel.title;
   const bool shown = ImGui::CollapsingHeader(fmt::format("{}###{}", title, panel.title).c_str());
   ImGui::PopStyleVar();
   return shown;
@@ -127,30 +128,50 @@ void draw_main_buttons(const ViewModel& model, Actions& actions) {
   ImGui::PopStyleVar();
 }
 
+constexpr float kLeastNameEm = 6.0f;  // of the document, in the status bar
+
 constexpr ImGuiWindowFlags kBar = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoScrollbar |
                                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
 
-void part(const std::string& text, const ImVec4& colour, bool last = false) {
-  ImGui::TextColored(colour, "%s", text.c_str());
-  if (!last) ImGui::SameLine(0.0f, 1.6f * ImGui::GetFontSize());
-}
-
-std::string document_text(const ViewModel& model) {
-  if (!model.document.has_work()) return "No clay on the wheel";
-  return model.document.name() + (model.document.unsaved() ? " \xe2\x80\xa2 not saved" : "");
-}
+struct Part {
+  std::string text;
+  ImVec4 colour;
+};
 
 /// Figures of the loop that moves the tool, and of the clay that is counted.
-void draw_figures(const ViewModel& model) {
+void add_figures(const ViewModel& model, std::vector<Part>& parts) {
   const servo::LiveStatus& status = model.stroke.status();
   const Palette& colours = model.colours();
   if (model.stroke.throwing())
-    part(fmt::format("{:.0f} Hz", model.stroke.tick_rate_hz()), colours.faint);
-  part(fmt::format("{} late", status.missed), status.missed > 0 ? colours.warning : colours.faint);
+    parts.push_back({fmt::format("{:.0f} Hz", model.stroke.tick_rate_hz()), colours.faint});
+  parts.push_back(
+      {fmt::format("{} late", status.missed), status.missed > 0 ? colours.warning : colours.faint});
   if (model.document.has_work())
-    part(fmt::format("clay unaccounted for: {:.0f}", std::abs(status.volume_error)),
-         status.volume_error != 0.0 ? colours.fault : colours.faint);
+    parts.push_back({fmt::format("clay unaccounted for: {:.0f}", std::abs(status.volume_error)),
+                     status.volume_error != 0.0 ? colours.fault : colours.faint});
+}
+
+/// The name of the document is as short as the rest of the bar needs.
+std::string document_text(const ViewModel& model, float room_px) {
+  if (!model.document.has_work()) return "No clay on the wheel";
+  const std::string state = !model.document.unsaved()    ? ""
+                            : model.document.pot_saved() ? " \xe2\x80\xa2 strokes not saved"
+                                                         : " \xe2\x80\xa2 not saved";
+  const float least = kLeastNameEm * ImGui::GetFontSize();
+  const float room = room_px - ImGui::CalcTextSize(state.c_str()).x;
+  return shortened(model.document.name(), std::max(least, room)) + state;
+}
+
+void draw_parts(const ViewModel& model, const std::vector<Part>& parts) {
+  const float gap = 1.6f * ImGui::GetFontSize();
+  float room = ImGui::GetContentRegionAvail().x;
+  for (const Part& part : parts) room -= gap + ImGui::CalcTextSize(part.text.c_str()).x;
+  ImGui::TextUnformatted(document_text(model, room).c_str());
+  for (const Part& part : parts) {
+    ImGui::SameLine(0.0f, gap);
+    ImGui::TextColored(part.colour, "%s", part.text.c_str());
+  }
 }
 
 ImVec4 colour_of(Grade grade, const Palette& colours) {
@@ -197,7 +218,7 @@ void draw_column(const ViewModel& model, Actions& actions, Column column, glm::v
     const bool open = is_open(model.settings, panel);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::SetNextItemOpen(open);
-    const bool shown = draw_header(panel, model.settings);
+    const bool shown = draw_header(panel, model);
     if (shown != open) actions.emplace_back(FoldPanel{panel.id, shown});
     if (!shown) continue;
     ImGui::PushID(panel.id);
@@ -255,13 +276,13 @@ void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size
   ImGui::Begin("##status", nullptr, kBar);
   const Palette& colours = model.colours();
   const ImVec4 text = ImGui::GetStyleColorVec4(ImGuiCol_Text);
-  part(document_text(model), text);
-  part(model.stroke.device_name(), text);
-  if (diagnostics_open(model.settings)) draw_figures(model);
+  std::vector<Part> parts{{model.stroke.device_name(), text}};
+  if (diagnostics_open(model.settings)) add_figures(model, parts);
   const std::string arm = model.arm_text();
   const bool attention = model.stroke.paused() || model.waits_for_rearm();
-  part(arm.empty() && model.stroke.paused() ? "paused" : arm, attention ? colours.warning : text,
-       true);
+  const std::string state = arm.empty() && model.stroke.paused() ? "paused" : arm;
+  if (!state.empty()) parts.push_back({state, attention ? colours.warning : text});
+  draw_parts(model, parts);
   ImGui::End();
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(2);

@@ -48,13 +48,12 @@ void draw_size(PictureFile& file) {
 
 void draw_shown(PictureFile& file) {
   form_row("Show");
+  const float left = ImGui::GetCursorPosX();
   bool lines = file.look.style == render::Style::clay;
   if (ImGui::Checkbox("Throwing lines", &lines))
     file.look.style = lines ? render::Style::clay : render::Style::geometry;
-  ImGui::SameLine();
-  ImGui::Checkbox("Cut open", &file.look.section);
-  ImGui::SameLine();
-  ImGui::Checkbox("Wall map", &file.wall_map);
+  next_box("Cut open", file.look.section, left);
+  next_box("Wall map", file.wall_map, left);
 }
 
 void draw_background(PictureFile& file) {
@@ -107,11 +106,11 @@ void draw_picture_buttons(const ViewModel& model, Actions& actions) {
   const Command& write = *find_command("export.write");
   if (main_button("Export (Ctrl+Enter)", model.colours(), write.enabled(model)))
     actions.emplace_back(RunCommand{write.id});
-  ImGui::SameLine();
   if (!model.ui.pictures.written.empty()) {
+    same_line_if_room("Open folder");
     if (ImGui::Button("Open folder")) actions.emplace_back(RunCommand{"export.folder"});
-    ImGui::SameLine();
   }
+  same_line_if_room("Close (Esc)");
   if (ImGui::Button("Close (Esc)")) actions.emplace_back(CloseDialog{});
 }
 

@@ -11,14 +11,40 @@
 #include <filesystem>
 
 namespace clay::studio {
+namespace {
+
+constexpr float kNarrowEm = 28.0f;
+
+/// Columns of equal width, for buttons with these titles: as few rows as show all of every title.
+int columns_of(std::span<const char* const> titles, float room, float gap) {
+  float widest = 0.0f;
+  for (const char* title : titles) widest = std::max(widest, ImGui::CalcTextSize(title).x);
+  widest += 2.0f * ImGui::GetStyle().FramePadding.x;
+  const int count = static_cast<int>(titles.size());
+  const int fitting = std::clamp(static_cast<int>((room + gap) / (widest + gap)), 1, count);
+  const int rows = (count + fitting - 1) / fitting;
+  return (count + rows - 1) / rows;
+}
+
+/// Whether a label and its control have no room beside each other.
+bool narrow() {
+  return ImGui::GetContentRegionMax().x - ImGui::GetCursorStartPos().x <
+         kNarrowEm * ImGui::GetFontSize();
+}
+
+}  // namespace
+
 int choice_row(const char* id, std::span<const char* const> titles, int chosen) {
   ImGui::PushID(id);
+  ImGui::BeginGroup();
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-  const float count = static_cast<float>(titles.size());
-  const float width = std::floor((ImGui::GetContentRegionAvail().x - gap * (count - 1.0f)) / count);
+  const float room = ImGui::GetContentRegionAvail().x;
+  const int columns = columns_of(titles, room, gap);
+  const auto count = static_cast<float>(columns);
+  const float width = std::floor((room - gap * (count - 1.0f)) / count);
   int clicked = -1;
   for (int i = 0; i < static_cast<int>(titles.size()); ++i) {
-    if (i > 0) ImGui::SameLine(0.0f, gap);
+    if (i % columns > 0) ImGui::SameLine(0.0f, gap);
     const bool on = i == chosen;
     if (on) {
       const ImVec4 face = ImGui::GetStyleColorVec4(ImGuiCol_Text);
@@ -26,11 +52,12 @@ int choice_row(const char* id, std::span<const char* const> titles, int chosen) 
       ImGui::PushStyleColor(ImGuiCol_ButtonHovered, face);
       ImGui::PushStyleColor(ImGuiCol_Text, ink_on(face));
     }
-    const bool last = i + 1 == static_cast<int>(titles.size());
+    const bool last = i % columns + 1 == columns;
     if (ImGui::Button(titles[static_cast<std::size_t>(i)], ImVec2(last ? kToEdge : width, 0.0f)))
       clicked = i;
     if (on) ImGui::PopStyleColor(3);
   }
+  ImGui::EndGroup();
   ImGui::PopID();
   return clicked;
 }
@@ -55,11 +82,17 @@ bool main_button(const char* text, const Palette& colours, bool enabled) {
   return clicked;
 }
 
-void same_line_if_room(const char* text) {
+void same_line_if_room(const char* text, float beside_px) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-  const float width = ImGui::CalcTextSize(text).x + 2.0f * style.FramePadding.x;
+  const float width = ImGui::CalcTextSize(text).x + 2.0f * style.FramePadding.x + beside_px;
   if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= right) ImGui::SameLine();
+}
+
+bool next_box(const char* title, bool& on, float left_px) {
+  same_line_if_room(title, ImGui::GetFrameHeight());
+  if (ImGui::GetCursorPosX() < left_px) ImGui::SetCursorPosX(left_px);
+  return ImGui::Checkbox(title, &on);
 }
 
 void dialog_title(const ViewModel& model, const char* text) {
@@ -70,9 +103,10 @@ void dialog_title(const ViewModel& model, const char* text) {
 }
 
 void form_row(const char* label) {
-  ImGui::AlignTextToFramePadding();
+  const bool above = narrow();
+  if (!above) ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
-  ImGui::SameLine(kFormEm * ImGui::GetFontSize());
+  if (!above) ImGui::SameLine(kFormEm * ImGui::GetFontSize());
   ImGui::SetNextItemWidth(kToEdge);
 }
 
@@ -87,12 +121,16 @@ void tip(const char* text) {
 bool form_slider(const char* label, float& value, float low, float high, const std::string& text,
                  int flags) {
   constexpr float kTextEm = 9.5f;
-  form_row(label);
-  const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
-  ImGui::SetCursorPosX(left + room - ImGui::CalcTextSize(text.c_str()).x);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::SameLine(left);
-  ImGui::SetNextItemWidth(room - kTextEm * ImGui::GetFontSize());
+  if (narrow()) {
+    slider_label(label, text);
+  } else {
+    form_row(label);
+    const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
+    ImGui::SetCursorPosX(left + room - ImGui::CalcTextSize(text.c_str()).x);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::SameLine(left);
+    ImGui::SetNextItemWidth(room - kTextEm * ImGui::GetFontSize());
+  }
   const std::string id = fmt::format("##{}", label);
   return ImGui::SliderFloat(id.c_str(), &value, low, high, "", kSlider | flags);
 }
@@ -177,6 +215,29 @@ std::string wrapped(std::string_view text, float width_px) {
   }
   place();
   return done + line;
+}
+
+std::string shortened(const std::string& text, float width_px) {
+  constexpr const char* kGap = "\xe2\x80\xa6";  // ...
+  const auto fits = [&](const std::string& part) {
+    return ImGui::CalcTextSize(part.c_str()).x <= width_px;
+  };
+  if (fits(text)) return text;
+  // Whole characters: the bytes after the first of one are 10xxxxxx.
+  const auto begins = [&](std::size_t at) {
+    return at >= text.size() || (static_cast<unsigned char>(text[at]) & 0xC0) != 0x80;
+  };
+  std::string best = kGap;
+  for (std::size_t left = 1, right = text.size() - 1; left < right;) {
+    while (!begins(left)) ++left;
+    while (right > left && !begins(right)) --right;
+    const std::string longer = text.substr(0, left) + kGap + text.substr(right);
+    if (left >= right || !fits(longer)) break;
+    best = longer;
+    ++left;
+    --right;
+  }
+  return best;
 }
 
 void wrapped_text(std::string_view text, const ImVec4& colour) {

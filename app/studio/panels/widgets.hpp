@@ -19,8 +19,8 @@ inline constexpr float kToEdge = -std::numeric_limits<float>::min();
 /// Flags of all sliders. The value is shown beside the slider, so no text field opens over it.
 inline constexpr int kSlider = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput;
 
-/// A row of buttons of equal width, one of which is selected. Returns the index of a clicked
-/// button, or -1.
+/// Buttons of equal width, one of which is selected: in one row, or in several if their titles have
+/// no room. Returns the index of a clicked button, or -1.
 int choice_row(const char* id, std::span<const char* const> titles, int chosen);
 
 /// A label and, at the right, the value of the slider that follows.
@@ -29,7 +29,10 @@ void slider_label(const char* label, const std::string& value);
 /// A labelled slider for a length in mm, shown in `unit`. Returns true if it has moved.
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit);
 /// The next button or text, with this text, stands beside the last item if the window has room.
-void same_line_if_room(const char* text);
+/// `beside_px`: width of what else belongs to it.
+void same_line_if_room(const char* text, float beside_px = 0.0f);
+/// A checkbox beside the last one, or below it at `left_px` if the window has no room.
+bool next_box(const char* title, bool& on, float left_px);
 
 /// A line across the content of a dialog.
 void rule();
@@ -39,12 +42,13 @@ bool main_button(const char* text, const Palette& colours, bool enabled = true);
 
 void dialog_title(const ViewModel& model, const char* text);
 
-/// A label at the left; the next control fills the rest of the line.
+/// A label at the left; the next control fills the rest of the line. In a narrow dialog the label
+/// is above it.
 inline constexpr float kFormEm = 10.5f;
 void form_row(const char* label);
 /// A tooltip for the line of the last control.
 void tip(const char* text);
-/// A slider in such a line, with its value as text beside it.
+/// A slider in such a line, with its value as text beside it, or above it.
 bool form_slider(const char* label, float& value, float low, float high, const std::string& text,
                  int flags = 0);
 /// For a length; `none`: text shown for 0.
@@ -74,6 +78,9 @@ void problem_text(const std::string& problem, const ImVec4& colour);
 /// Lines of at most `width_px`, broken at blanks, but not between a number and its unit. A longer
 /// word stays whole.
 [[nodiscard]] std::string wrapped(std::string_view text, float width_px);
+/// At most this wide: the middle of a longer text is left out, because the end of a file name says
+/// what it is.
+[[nodiscard]] std::string shortened(const std::string& text, float width_px);
 /// To the right edge of the window.
 void wrapped_text(std::string_view text, const ImVec4& colour);
 void wrapped_text(std::string_view text);

@@ -11,8 +11,10 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -230,6 +232,80 @@ TEST_F(Panels, ALengthSliderIsTheSameInEveryUnit) {
     (void)click(slider, {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)});
     EXPECT_NEAR(mm, std::sqrt(0.001 * 1.0), 0.004);
   }
+}
+
+TEST_F(Panels, ChoicesWithoutRoomStandInSeveralRows) {
+  constexpr std::array kTitles = {"As thrown", "Capacity", "Weight", "Height", "Diameter"};
+  float width = 0.0f;
+  int chosen = -1;
+  ImVec2 low, high;
+  const auto row = [&](const ViewModel&, Actions&) {
+    ImGui::SetNextWindowPos({0.0f, 0.0f});
+    ImGui::SetNextWindowSize({width, 600.0f});
+    ImGui::Begin("test", nullptr, ImGuiWindowFlags_NoTitleBar);
+    if (const int clicked = choice_row("row", kTitles, 0); clicked >= 0) chosen = clicked;
+    low = ImGui::GetItemRectMin();
+    high = ImGui::GetItemRectMax();
+    ImGui::End();
+  };
+  const float frame_px = std::round(ImGui::GetFontSize() + 2.0f * ImGui::GetStyle().FramePadding.y);
+  width = 900.0f;
+  for (int i = 0; i < 2; ++i) (void)frame(row);
+  EXPECT_NEAR(high.y - low.y, frame_px, 1.0f) << "one row";
+  width = 300.0f;
+  for (int i = 0; i < 2; ++i) (void)frame(row);
+  EXPECT_GT(high.y - low.y, 1.8f * frame_px);
+  EXPECT_LE(high.x, 300.0f);
+  (void)click(row, {low.x + 10.0f, high.y - 0.5f * frame_px});
+  EXPECT_GE(chosen, 2) << "the first of the last row";
+}
+
+TEST_F(Panels, ALongNameLeavesRoomInTheStatusBar) {
+  SceneSpec scene = small_scene();
+  scene.name.clear();
+  for (int i = 0; i < 40; ++i) scene.name += "gro\xc3\x9f ";
+  apply(state, BeginWork{scene, nullptr, {}});
+  const auto bar = [](const ViewModel& model, Actions&) {
+    draw_status_bar(model, {0.0f, 600.0f}, {800.0f, status_height()});
+  };
+  for (int i = 0; i < 3; ++i) (void)frame(bar);
+  const ImGuiWindow* window = ImGui::FindWindowByName("##status");
+  EXPECT_LE(window->ContentSize.x + 2.0f * window->WindowPadding.x, 800.0f);
+  EXPECT_GT(window->ContentSize.x, 600.0f) << "no shorter than it must be";
+}
+
+TEST_F(Panels, ALongRecentNameHidesNoOtherFile) {
+  state.settings.recent = {"/pots/" + std::string(120, 'n') + ".work", "/pots/a.work"};
+  state.ui.dialog = GalleryDialog{};
+  const auto gallery = [](const ViewModel& model, Actions& actions) {
+    draw_dialog(model, actions, kView);
+  };
+  for (int i = 0; i < 3; ++i) (void)frame(gallery);
+  const ImGuiWindow* window = ImGui::FindWindowByName("##gallery");
+  const float y =
+      window->InnerClipRect.Max.y - window->WindowPadding.y - 0.5f * window->CalcFontSize();
+  std::set<std::string> opened;
+  for (float x = window->Pos.x; x < window->Pos.x + window->Size.x; x += 12.0f)
+    for (const Action& action : click(gallery, {x, y}))
+      if (const auto* open = std::get_if<OpenFile>(&action)) opened.insert(open->path.string());
+  EXPECT_EQ(opened, std::set(state.settings.recent.begin(), state.settings.recent.end()));
+}
+
+TEST_F(Panels, ALongTextIsShortenedInItsMiddle) {
+  const std::string name = "a very long name of a pot with \xc3\x84\xc3\x96\xc3\x9c in it.work";
+  (void)frame([&](const ViewModel&, Actions&) {
+    EXPECT_EQ(shortened(name, 2000.0f), name);
+    for (float width = 40.0f; width < 200.0f; width += 7.0f) {
+      const std::string text = shortened(name, width);
+      EXPECT_LE(ImGui::CalcTextSize(text.c_str()).x, width) << text;
+      const std::size_t gap = text.find("\xe2\x80\xa6");
+      ASSERT_NE(gap, std::string::npos) << text;
+      EXPECT_TRUE(name.starts_with(text.substr(0, gap))) << text;
+      EXPECT_TRUE(name.ends_with(text.substr(gap + 3))) << text;
+      const auto after = static_cast<unsigned char>(text[gap + 3]);
+      EXPECT_NE(after & 0xC0, 0x80) << "a whole character: " << text;
+    }
+  });
 }
 
 TEST_F(Panels, AnUnfoldedPanelComesIntoSight) {
