@@ -1,6 +1,5 @@
 #include "export/smoothing/flange_guard.hpp"
 
-#include "claystack/export/walls.hpp"
 #include "core/cancel.hpp"
 #include "export/smoothing/fair_wall.hpp"
 #include "export/walls/vertex_walls.hpp"
@@ -51,38 +50,49 @@ std::size_t FlangeGuard::ring_at(double y) const {
   return std::min(static_cast<std::size_t>(ring), piece_.size() - 1);
 }
 
-std::vector<ThinRing> FlangeGuard::thin_rings(const WallLines& lines) {
-  const Profile profile{{outline_of(lines)}};
-  const Wall thinnest = min_wall(profile);
-  if (thinnest.thickness_mm >= limit_mm_ * kWallRounding || thinnest.compact) return {};
-  const double required = required_mm() * kWallRounding;
-  if (thinnest.thickness_mm >= required || joins_both_walls(thinnest, lines)) return {};
-  std::vector<double> walls_mm(piece_.size(), required);
+/// By ring; `required_mm` where walls are not thinner.
+std::vector<double> FlangeGuard::walls_below(double required_mm, const Profile& profile,
+                                             const Wall& thinnest) const {
+  std::vector<double> walls_mm(piece_.size(), required_mm);
   const auto add = [&](const ProfilePoint& p, double wall_mm) {
     double& at = walls_mm[ring_at(p.y)];
     at = std::min(at, wall_mm);
   };
   add(thinnest.from, thinnest.thickness_mm);
   add(thinnest.to, thinnest.thickness_mm);
-  const std::vector<double> walls = thin_vertex_walls(profile.pieces.front(), required);
+  const std::vector<double> walls = thin_vertex_walls(profile.pieces.front(), required_mm);
   for (std::size_t v = 0; v < walls.size(); ++v) {
     step_of_loop();
-    if (walls[v] < required) add(profile.pieces.front()[v], walls[v]);
+    if (walls[v] < required_mm) add(profile.pieces.front()[v], walls[v]);
   }
-  return rings_thinner_than(required, walls_mm);
+  return walls_mm;
 }
 
-std::vector<ThinRing> FlangeGuard::rings_thinner_than(double required_mm,
-                                                      const std::vector<double>& walls_mm) {
+std::vector<ThinRing> FlangeGuard::thin_rings(const WallLines& lines, const Profile& profile,
+                                              const Wall& thinnest) {
+  if (thinnest.thickness_mm >= limit_mm_ * kWallRounding || thinnest.compact) return {};
+  const double required = required_mm() * kWallRounding;
+  if (thinnest.thickness_mm >= required || joins_both_walls(thinnest, lines)) return {};
+  const std::vector<double> walls_mm = walls_below(required, profile, thinnest);
   std::vector<ThinRing> rings;
   std::size_t next = 0;  // the first ring that has not been added
   for (std::size_t i = 0; i < walls_mm.size(); ++i) {
-    if (walls_mm[i] >= required_mm) continue;
+    if (walls_mm[i] >= required) continue;
     const std::size_t last = std::min(i + reach_, walls_mm.size() - 1);
     for (next = std::max(next, i - std::min(i, reach_)); next <= last; ++next)
       rings.push_back({next, std::min(walls_mm[i], walls_mm[next])});
   }
   if (++rounds_ > kRoundsOfOneRing) reach_ = 2 * reach_ + 1;
+  return rings;
+}
+
+std::vector<ThinRing> FlangeGuard::rings_below(double required_mm, const Profile& profile,
+                                               const Wall& thinnest) const {
+  if (thinnest.thickness_mm >= required_mm || thinnest.compact) return {};
+  const std::vector<double> walls_mm = walls_below(required_mm, profile, thinnest);
+  std::vector<ThinRing> rings;
+  for (std::size_t i = 0; i < walls_mm.size(); ++i)
+    if (walls_mm[i] < required_mm) rings.push_back({i, walls_mm[i]});
   return rings;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "claystack/export/walls.hpp"
 #include "export/smoothing/smoothing_plan.hpp"
 #include "export/smoothing/wall_guard.hpp"
 
@@ -17,14 +18,21 @@ class FlangeGuard {
 
   /// The rings of such flanges, from the bottom up; empty if there are none. After some calls the
   /// rings around them too, twice as far each time, so that the rounds grow with the logarithm of
-  /// the number of rings.
-  [[nodiscard]] std::vector<ThinRing> thin_rings(const WallLines& lines);
+  /// the number of rings. `profile` is the outline of the lines, and `thinnest` its minimum wall.
+  [[nodiscard]] std::vector<ThinRing> thin_rings(const WallLines& lines, const Profile& profile,
+                                                 const Wall& thinnest);
+
+  /// The rings of walls of every kind that are thinner than `required_mm`, without those around
+  /// them.
+  [[nodiscard]] std::vector<ThinRing> rings_below(double required_mm, const Profile& profile,
+                                                  const Wall& thinnest) const;
 
  private:
   /// The limit, or the minimum wall of the steps, whichever is less.
   double required_mm();
   [[nodiscard]] std::size_t ring_at(double y) const;
-  std::vector<ThinRing> rings_thinner_than(double required_mm, const std::vector<double>& walls_mm);
+  [[nodiscard]] std::vector<double> walls_below(double required_mm, const Profile& profile,
+                                                const Wall& thinnest) const;
 
   const PieceWalls& piece_;
   double limit_mm_;

@@ -54,14 +54,15 @@ bool is_feature(const PieceWalls& piece, const WallRings& wall, const CutFlags& 
   return tread > kFeatureRatio * (others.steps < 4 ? others.first : others.second);
 }
 
-CutFlags corners_of(const PieceWalls& piece, const WallRings& wall) {
+CutFlags corners_of(const PieceWalls& piece, const WallRings& wall, double least_tread_mm) {
   CutFlags ends(piece.size() + 1, 0);
   ends.front() = ends.back() = 1;
   for (std::size_t k = 1; k < piece.size(); ++k)
     if ((wall.radius[k] > 0.0) != (wall.radius[k - 1] > 0.0)) ends[k] = 1;
   CutFlags cut = ends;
   for (std::size_t k = 1; k < piece.size(); ++k)
-    if (ends[k] == 0 && is_feature(piece, wall, ends, k)) cut[k] = 1;
+    if (ends[k] == 0 && tread_mm(wall, k) >= least_tread_mm && is_feature(piece, wall, ends, k))
+      cut[k] = 1;
   return cut;
 }
 
@@ -90,8 +91,9 @@ PieceWalls walls_of(const ClayStack& stack, RingRange range) {
   return piece;
 }
 
-Cuts corners_of(const PieceWalls& piece) {
-  return {corners_of(piece, piece.outer), corners_of(piece, piece.bore)};
+Cuts corners_of(const PieceWalls& piece, double least_tread_mm) {
+  return {corners_of(piece, piece.outer, least_tread_mm),
+          corners_of(piece, piece.bore, least_tread_mm)};
 }
 
 }  // namespace clay::solid::inline smoothing

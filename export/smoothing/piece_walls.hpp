@@ -47,8 +47,8 @@ struct Cuts {
 /// as the second widest of the three steps below it and the three above (the widest, if there are
 /// fewer than four steps): a ledge, a gallery, or a flange, whose other edge may be the widest
 /// step. Even slopes have no such tread, and noise hardly ever; a wall of fewer than four rings is
-/// too short to show one.
-[[nodiscard]] Cuts corners_of(const PieceWalls& piece);
+/// too short to show one. A tread narrower than `least_tread_mm` is no feature.
+[[nodiscard]] Cuts corners_of(const PieceWalls& piece, double least_tread_mm);
 
 /// Calls `visit(first, end)` for every run of rings between two cuts.
 template <class Visit>

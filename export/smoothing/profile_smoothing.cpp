@@ -1,6 +1,7 @@
 #include "export/smoothing/profile_smoothing.hpp"
 
 #include "claystack/export/proof.hpp"
+#include "claystack/export/walls.hpp"
 #include "core/cancel.hpp"
 #include "core/text.hpp"
 #include "export/section/stack_section.hpp"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +29,11 @@ constexpr int kFilletRounds = 6;
 constexpr int kCarefulRounds = 8;
 constexpr double kSettledShare = 1e-14;
 constexpr double kInvisibleHeights = 0.01;
+/// Of the minimum wall with chords, where no requested limit depends on it: a tooth of the noise is
+/// far below it, a lip or a flange whose shape changes a little is above.
+constexpr double kLeastOfChords = 0.5;
+/// Covers the allowance of a limit, so that whatever passes with chords passes.
+constexpr double kMeetsLimit = 0.99;
 
 struct SmoothedPiece {
   Polygon section;
@@ -55,7 +62,8 @@ class PieceSmoother {
         limit_(options.min_wall_mm ? std::max(*options.min_wall_mm, piece.least_step_mm)
                                    : least_own_wall_mm(piece)),
         own_walls_(piece, limit_),
-        plan_(piece, fairing_length_mm(piece, options)),
+        plan_(piece, fairing_length_mm(piece, options),
+              options.mode == Smoothing::fair ? options.tolerance_mm : 0.0),
         flange_guard_(piece, limit_),
         overshot_(piece) {}
 
@@ -116,10 +124,36 @@ class PieceSmoother {
            plan_.keep_steps(thin);
   }
 
-  /// The same for flanges: clay between two places of one wall.
+  /// The same for flanges, clay between two places of one wall, and for what fairing made thinner
+  /// than chords.
   bool flange_guard_found_more() {
-    const std::vector<ThinRing> thin = flange_guard_.thin_rings(lines_);
-    return !thin.empty() && (plan_.use_chords(thin) || plan_.keep_steps(thin));
+    const Profile profile{{outline_of(lines_)}};
+    const Wall thinnest = min_wall(profile);
+    const std::vector<ThinRing> thin = flange_guard_.thin_rings(lines_, profile, thinnest);
+    if (!thin.empty() && (plan_.use_chords(thin) || plan_.keep_steps(thin))) return true;
+    const std::vector<ThinRing> thinned = thinned_by_fairing(profile, thinnest);
+    return !thinned.empty() && plan_.use_chords(thinned);
+  }
+
+  /// Rings whose walls only the fairing has made thin. Steps cannot tell: a single tread of their
+  /// noise counts as a flange as thin as a ring, and allows one.
+  std::vector<ThinRing> thinned_by_fairing(const Profile& profile, const Wall& thinnest) {
+    if (fairing_length_mm(piece_, options_) == 0.0) return {};
+    const double most = options_.min_wall_mm ? limit_ : kLeastOfChords * limit_;
+    if (thinnest.thickness_mm >= most * kWallRounding || thinnest.compact) return {};
+    const bool meet = options_.min_wall_mm && chords_wall_mm() >= kMeetsLimit * limit_;
+    const double share = kWallRounding * (meet ? 1.0 : kLeastOfChords);
+    return flange_guard_.rings_below(share * std::min(limit_, chords_wall_mm()), profile, thinnest);
+  }
+
+  /// The minimum wall without fairing; made once, when it is needed.
+  double chords_wall_mm() {
+    if (!chords_wall_mm_) {
+      SmoothingOptions chords = options_;
+      chords.smooth_length_mm = 0.0;
+      chords_wall_mm_ = min_wall_mm({{PieceSmoother(piece_, chords).run().section}});
+    }
+    return *chords_wall_mm_;
   }
 
   struct Correction {
@@ -283,6 +317,7 @@ class PieceSmoother {
   OwnWalls own_walls_;
   SmoothingPlan plan_;
   FlangeGuard flange_guard_;
+  std::optional<double> chords_wall_mm_;
   WallLines lines_;
   FairedMove moved_outside_, moved_inside_;
   KeptStretches overshot_;

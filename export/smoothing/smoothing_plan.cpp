@@ -16,6 +16,11 @@ constexpr double kNotKept = std::numeric_limits<double>::infinity();
 constexpr char kMaxRefinement = 4;
 constexpr double kRefinementRatio = 0.125;
 
+/// Of the length of the fairing. Faired over l, a step d bends by d (2 pi / l)^2 / (3 sqrt 3) at
+/// most, so below this part of l its radius is over 2 l: no corner that a tool could have made. A
+/// cut there would stop the fairing, and a tooth of the noise would remain.
+constexpr double kLeastCorner = 1.0 / 16.0;
+
 }  // namespace
 
 void KeptStretches::add(std::size_t interface, double figure) {
@@ -48,10 +53,11 @@ void KeptStretches::report(KeptFor reason, const std::vector<double>& walls_mm,
   }
 }
 
-SmoothingPlan::SmoothingPlan(const PieceWalls& piece, double length_mm)
+SmoothingPlan::SmoothingPlan(const PieceWalls& piece, double length_mm, double tolerance_mm)
     : piece_(piece),
       length_mm_(length_mm),
-      cuts_(corners_of(piece)),
+      cuts_(corners_of(piece, std::max(kLeastCorner * length_mm, tolerance_mm))),
+      marks_(length_mm > 0.0 ? corners_of(piece, tolerance_mm) : Cuts{}),
       chords_(length_mm > 0.0 ? piece.size() : 0, 0),
       refinement_(piece.size(), 0),
       next_(piece.size() + 1),
@@ -117,7 +123,7 @@ bool SmoothingPlan::use_chords(const std::vector<ThinRing>& thin) {
     const std::size_t reach = reach_of(wall_mm) + chord_reach_;
     const std::size_t end = std::min(piece_.size(), ring + reach + 1);
     for (std::size_t i = std::max(done, ring - std::min(ring, reach)); i < end; ++i)
-      if (chords_[i] == 0) chords_[i] = 1, more = true;
+      if (chords_[i] == 0) chords_[i] = 1, keep_marks_beside(i), more = true;
     done = std::max(done, end);
   }
   chord_reach_ = 2 * chord_reach_ + 1;
@@ -127,7 +133,17 @@ bool SmoothingPlan::use_chords(const std::vector<ThinRing>& thin) {
 bool SmoothingPlan::use_chords_everywhere() {
   const bool more = std::ranges::count(chords_, 0) > 0;
   std::ranges::fill(chords_, 1);
+  for (std::size_t i = 0; i < chords_.size(); ++i) keep_marks_beside(i);
   return more;
+}
+
+/// Where rings have chords, so that these are the same as without fairing.
+void SmoothingPlan::keep_marks_beside(std::size_t ring) {
+  for (const std::size_t k : {ring, ring + 1}) {
+    if (k == 0 || k == piece_.size() || chords_[k - 1] == 0 || chords_[k] == 0) continue;
+    if (marks_.outer[k] != 0) cuts_.outer[k] = 1;
+    if (marks_.bore[k] != 0) cuts_.bore[k] = 1;
+  }
 }
 
 bool SmoothingPlan::open(const WallRings& wall, const CutFlags& cut, std::size_t k) const {

@@ -40,8 +40,9 @@ struct ThinRing {
 /// Every undo is permanent, so in the worst case only the steps remain.
 class SmoothingPlan {
  public:
-  /// `length_mm`: of the fairing; 0: none.
-  SmoothingPlan(const PieceWalls& piece, double length_mm);
+  /// `length_mm`: of the fairing; 0: none. Treads much narrower than it are marks of strokes and no
+  /// corners, except where the fairing is undone. Nor are treads within the tolerance; 0: none.
+  SmoothingPlan(const PieceWalls& piece, double length_mm, double tolerance_mm);
 
   [[nodiscard]] CutFlags& outer_cuts() noexcept { return cuts_.outer; }
   [[nodiscard]] CutFlags& bore_cuts() noexcept { return cuts_.bore; }
@@ -90,10 +91,12 @@ class SmoothingPlan {
   bool keep_steps(const ThinRing& thin);
   void cut(std::size_t k);
   [[nodiscard]] double chord_loss(std::size_t k) const;
+  void keep_marks_beside(std::size_t ring);
 
   const PieceWalls& piece_;
   double length_mm_;
   Cuts cuts_;
+  Cuts marks_;                     ///< corners without fairing; empty without it
   std::vector<char> chords_;       ///< a flag for each ring; empty without fairing
   std::size_t chord_reach_ = 0;    ///< rings around thin ones, beside what their thickness requires
   std::vector<char> refinement_;   ///< how often each ring's tolerance was reduced

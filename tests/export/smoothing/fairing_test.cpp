@@ -17,6 +17,7 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <random>
 #include <vector>
 
 namespace clay::solid {
@@ -208,6 +209,82 @@ TEST(Fairing, LedgesStayCorners) {
   EXPECT_EQ(found[0].first, 30.0);
   // 4.05 between the middles; each side goes on to the corner by half a step of 0.05.
   EXPECT_NEAR(found[0].second, 4.0, 1e-3);
+}
+
+/// A tube with a tooth outside, two rings high, as strokes leave it.
+ClayStack with_tooth(double tread_mm) {
+  std::vector<Radii> radii(160, {30.0, 20.0});
+  radii[80].outer_mm += tread_mm;
+  radii[81].outer_mm += 1.08 * tread_mm;
+  return stack_of(0.065, radii);
+}
+
+/// The minimum wall with a length, and with a limit if it is above 0.
+double wall_mm(const ClayStack& stack, double length_mm, double limit_mm = 0.0) {
+  SmoothingOptions options = faired(length_mm, 0.02);
+  options.min_wall_mm.reset();
+  if (limit_mm > 0.0) options.min_wall_mm = limit_mm;
+  return min_wall_mm(smooth(stack, options).section.profile);
+}
+
+TEST(Fairing, SmoothsAwayATreadMuchNarrowerThanItsLength) {
+  const auto treads_of = [](double tread_mm, double length_mm, double tolerance_mm) {
+    const SmoothedProfile made = smooth(with_tooth(tread_mm), faired(length_mm, tolerance_mm));
+    return shapes::treads(oracles::walls_of(made.section.profile.pieces.at(0)).outer).size();
+  };
+  for (const double length : {4.0, 9.0, 20.0}) {
+    EXPECT_EQ(treads_of(0.15, length, 0.02), 0u) << length;
+    EXPECT_NEAR(wall_mm(with_tooth(0.15), length), 10.0, 0.05) << length;
+  }
+  EXPECT_EQ(treads_of(0.5, 9.0, 0.02), 0u);
+  EXPECT_EQ(treads_of(0.57, 9.0, 0.02), 2u);  // 1/16 of the length: a flange
+  // Chords keep what the tolerance does not hide.
+  EXPECT_EQ(treads_of(0.15, 0.0, 0.02), 2u);
+  EXPECT_EQ(treads_of(0.15, 0.0, 0.2), 0u);
+}
+
+/// A ledge, and noise of strokes above it.
+ClayStack with_noise_above_a_ledge(const std::vector<double>& noise_mm, double slope) {
+  std::vector<Radii> radii(60, {26.0, 20.0});
+  for (std::size_t i = 0; i < 100; ++i)
+    radii.push_back(
+        {30.0 + slope * 0.065 * static_cast<double>(i) + (i < noise_mm.size() ? noise_mm[i] : 0.0),
+         20.0});
+  return stack_of(0.065, radii);
+}
+
+/// Not below half of the chords' minimum, nor below a limit that chords keep.
+void expect_as_thick_as_chords(const ClayStack& stack, double length_mm) {
+  const double chords = wall_mm(stack, 0.0);
+  EXPECT_GE(wall_mm(stack, length_mm), 0.499 * chords) << length_mm;
+  for (const double limit : {0.8, 0.95 * chords})
+    if (wall_mm(stack, 0.0, limit) >= limit) {
+      EXPECT_GE(wall_mm(stack, length_mm, limit), limit - 1e-3) << length_mm;
+    }
+}
+
+/// A ledge allows only short lengths beside it: these can turn noise into a tooth, which the chords
+/// leave blunt.
+TEST(Fairing, IsUndoneWhereChordsAreThicker) {
+  const ClayStack known = with_noise_above_a_ledge(
+      {0, 0.164, 0, 0.032, 0.061, 0, 0.227, 0.124, 0.102, 0.074, 0.004, 0.165}, -0.38);
+  EXPECT_GT(wall_mm(known, 0.0), 7.0);
+  EXPECT_GT(wall_mm(known, 4.0), 3.5);
+  EXPECT_GE(wall_mm(known, 4.0, 0.8), 0.8);
+  // With chords the treads of this noise are corners again.
+  expect_as_thick_as_chords(
+      with_noise_above_a_ledge({0.81, 0.833, 0.915, 0.008, 0, 0, 0, 0, 0.799, 0.935, 0.83, 0.826},
+                               0.36127),
+      20.0);
+  std::mt19937_64 random(3);
+  for (int pot = 0; pot < 200; ++pot) {
+    SCOPED_TRACE(pot);
+    std::vector<double> noise_mm(12);
+    for (double& mm : noise_mm)
+      if (samples::uniform(random) < 0.5) mm = 0.3 * samples::uniform(random);
+    const ClayStack stack = with_noise_above_a_ledge(noise_mm, samples::uniform(random) - 0.5);
+    for (const double length : {2.0, 9.0}) expect_as_thick_as_chords(stack, length);
+  }
 }
 
 TEST(Fairing, ReportsTheLargestDisplacement) {

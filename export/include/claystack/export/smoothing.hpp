@@ -105,8 +105,8 @@ struct SmoothedProfile {
 
 /// The profile of a stack with smooth walls. Both modes work on runs of rings between cuts, which
 /// are interfaces where the step remains: foot, lip, floors and lids, features (ledges, galleries,
-/// flanges: treads several times wider than the steps around them), and wherever the guard requires
-/// it.
+/// flanges: treads several times wider than the steps around them, and in `fair` no narrower than
+/// the tolerance and 1/16 of `smooth_length_mm`), and wherever the guard requires it.
 ///
 /// fair   Walls run straight to the middle of the first ring of a run, from middle to middle, and
 ///        straight to its end; so where neither wall is cut, R - r is a mean of two rings' walls.
@@ -132,9 +132,10 @@ struct SmoothedProfile {
 /// places of one wall (a flange, a ledge, the edge of a lip), by the definition of `min_wall`, does
 /// not become thinner than `min_wall_mm` or every wall of the steps, whichever is smaller. Where
 /// either would fail, first the simplification (and the fairing, its length halved each time) and
-/// then the smoothing is undone. Treads below 2^-20
-/// of the largest radius, which float32 cannot hold, never become cuts: walls may lose less than
-/// one of them. The lip fillet is applied afterwards and may thin the lip. Every piece is
+/// then the smoothing is undone. The fairing is also undone, for chords, where it alone makes clay
+/// thinner than a `min_wall_mm` that chords keep, or else than half of their minimum. Treads below
+/// 2^-20 of the largest radius, which float32 cannot hold, never become cuts: walls may lose less
+/// than one of them. The lip fillet is applied afterwards and may thin the lip. Every piece is
 /// certified; a piece that fails keeps its steps.
 ///
 /// Errors: as `profile_of`; `bad_input` for options out of range and for a lip fillet in `exact`,
