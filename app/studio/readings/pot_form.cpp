@@ -55,7 +55,10 @@ PotForm form_of(const ClayStack& stack) {
 bool in_floor(const PotForm& form, glm::dvec2 from_mm, glm::dvec2 to_mm) {
   constexpr double kRoundedMm = 1.0;  // smoothing rounds the corner of the bore
   const bool upright = std::abs(to_mm.y - from_mm.y) > std::abs(to_mm.x - from_mm.x);
-  return form.floor_mm && upright && std::max(from_mm.y, to_mm.y) <= *form.floor_mm + kRoundedMm;
+  if (!form.floor_mm || !upright) return false;
+  // From below the upper face to that face: a flange beside it is no floor.
+  const auto [low, high] = std::minmax(from_mm.y, to_mm.y);
+  return low < *form.floor_mm && std::abs(high - *form.floor_mm) <= kRoundedMm;
 }
 
 }  // namespace clay::studio

@@ -134,6 +134,19 @@ TEST(Walls, TheThinnestPlaceCanBeTheFloor) {
   EXPECT_FALSE(check_pot(question_of(pot_of(cup_rings()))).thinnest_in_floor);
 }
 
+/// Smoothing rounds the corner of the bore, so the face of the floor may be a little higher there.
+TEST(Walls, APlaceBesideTheFaceOfTheFloorIsNotInTheFloor) {
+  PotForm form;
+  form.floor_mm = 5.0;
+  EXPECT_TRUE(in_floor(form, {10.0, 0.0}, {10.0, 5.0}));
+  EXPECT_TRUE(in_floor(form, {10.0, 5.5}, {10.2, 0.0}));
+  EXPECT_FALSE(in_floor(form, {113.8, 5.22}, {113.8, 5.35}));  // a tooth outside, above the face
+  EXPECT_FALSE(in_floor(form, {113.8, 3.0}, {113.8, 3.2}));    // and below it
+  EXPECT_FALSE(in_floor(form, {10.0, 0.0}, {10.0, 7.0}));
+  EXPECT_FALSE(in_floor(form, {30.0, 4.0}, {34.0, 5.0}));  // across the wall
+  EXPECT_FALSE(in_floor({}, {10.0, 0.0}, {10.0, 5.0}));
+}
+
 /// A cone that leans out by 45 degrees: across, its wall is thinner than level.
 TEST(Walls, AreMeasuredAcrossTheClay) {
   std::vector<Ring> rings;
