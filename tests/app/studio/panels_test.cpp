@@ -236,7 +236,7 @@ TEST_F(Panels, ALengthSliderIsTheSameInEveryUnit) {
 
 TEST_F(Panels, ChoicesWithoutRoomStandInSeveralRows) {
   constexpr std::array kTitles = {"As thrown", "Capacity", "Weight", "Height", "Diameter"};
-  float width = 0.0f;
+  float width = 0.0f, frame_px = 0.0f;
   int chosen = -1;
   ImVec2 low, high;
   const auto row = [&](const ViewModel&, Actions&) {
@@ -246,9 +246,9 @@ TEST_F(Panels, ChoicesWithoutRoomStandInSeveralRows) {
     if (const int clicked = choice_row("row", kTitles, 0); clicked >= 0) chosen = clicked;
     low = ImGui::GetItemRectMin();
     high = ImGui::GetItemRectMax();
+    frame_px = ImGui::GetFrameHeight();
     ImGui::End();
   };
-  const float frame_px = std::round(ImGui::GetFontSize() + 2.0f * ImGui::GetStyle().FramePadding.y);
   width = 900.0f;
   for (int i = 0; i < 2; ++i) (void)frame(row);
   EXPECT_NEAR(high.y - low.y, frame_px, 1.0f) << "one row";
