@@ -29,6 +29,8 @@ bool in_step(View view) {
   return view.guide.active() && !view.guide.finished() && !view.readings.fallen();
 }
 bool has_work(View view) { return view.document.has_work(); }
+bool view_is_free(View view) { return !view.view_is_held(); }
+bool can_look(View view) { return has_work(view) && view_is_free(view); }
 bool at_rest(View view) { return view.at_rest(); }
 bool between(View view) { return view.between_strokes(); }
 
@@ -80,6 +82,12 @@ const char* why_not_between(View view) {
   return between(view)       ? nullptr
          : why_no_work(view) ? why_no_work(view)
                              : "a stroke is in progress";
+}
+const char* why_view_is_held(View view) {
+  return view_is_free(view) ? nullptr : "the view stands still while the tool follows the pointer";
+}
+const char* why_no_look(View view) {
+  return has_work(view) ? why_view_is_held(view) : why_no_work(view);
 }
 const char* why_no_pictures(View view) {
   return PictureWriter::available() ? why_not_between(view)
@@ -208,12 +216,12 @@ const std::array kCommands = {
     C{"wheel.rearm", "Re-arm the force", key(GLFW_KEY_R, kShift), kNone, Rearm{}, rearmable},
     C{"wheel.zero_force", "Zero force, or go back", key(GLFW_KEY_ESCAPE), kNone, Back{}, always},
 
-    C{"view.home", "Whole pot", key(GLFW_KEY_HOME), kNone, LookFrom{ViewFrom::home}, has_work},
-    C{"view.front", "Front", key(GLFW_KEY_1), key(GLFW_KEY_KP_1), LookFrom{ViewFrom::front}, has_work},
-    C{"view.right", "Right side", key(GLFW_KEY_3), key(GLFW_KEY_KP_3), LookFrom{ViewFrom::right}, has_work},
-    C{"view.top", "Top", key(GLFW_KEY_7), key(GLFW_KEY_KP_7), LookFrom{ViewFrom::top}, has_work},
-    C{"view.nearer", "Nearer", key(GLFW_KEY_PAGE_UP), kNone, Zoom{1.0}, has_work},
-    C{"view.farther", "Farther", key(GLFW_KEY_PAGE_DOWN), kNone, Zoom{-1.0}, has_work},
+    C{"view.home", "Whole pot", key(GLFW_KEY_HOME), kNone, LookFrom{ViewFrom::home}, can_look, nullptr, why_no_look},
+    C{"view.front", "Front", key(GLFW_KEY_1), key(GLFW_KEY_KP_1), LookFrom{ViewFrom::front}, can_look, nullptr, why_no_look},
+    C{"view.right", "Right side", key(GLFW_KEY_3), key(GLFW_KEY_KP_3), LookFrom{ViewFrom::right}, can_look, nullptr, why_no_look},
+    C{"view.top", "Top", key(GLFW_KEY_7), key(GLFW_KEY_KP_7), LookFrom{ViewFrom::top}, can_look, nullptr, why_no_look},
+    C{"view.nearer", "Nearer", key(GLFW_KEY_PAGE_UP), kNone, Zoom{1.0}, can_look, nullptr, why_no_look},
+    C{"view.farther", "Farther", key(GLFW_KEY_PAGE_DOWN), kNone, Zoom{-1.0}, can_look, nullptr, why_no_look},
     C{"view.cut_half", "Cut away a half", key(GLFW_KEY_C), kNone, ToggleCut{render::Cut::half}, has_work, is_cut<render::Cut::half>, why_no_work},
     C{"view.cut_quarter", "Cut away a quarter", key(GLFW_KEY_C, kShift), kNone, ToggleCut{render::Cut::quarter}, has_work, is_cut<render::Cut::quarter>},
     C{"view.wall_map", "Wall thickness map", key(GLFW_KEY_W), kNone, ToggleWallMap{}, always, has_wall_map},
@@ -221,17 +229,17 @@ const std::array kCommands = {
     C{"view.goal", "Goal", key(GLFW_KEY_O), kNone, TogglePanel{kGoal}, always, is_open<kGoal>},
     C{"view.section", "Section", key(GLFW_KEY_X), kNone, TogglePanel{kSection}, always, is_open<kSection>},
     C{"view.walls", "Walls", kNone, kNone, TogglePanel{kWalls}, always, is_open<kWalls>},
-    C{"view.certificate", "Certificate", kNone, kNone, TogglePanel{kCertificate}, always, is_open<kCertificate>},
-    C{"view.ledger", "Clay balance", kNone, kNone, TogglePanel{kLedger}, always, is_open<kLedger>},
-    C{"view.stress", "Stress", kNone, kNone, TogglePanel{kStress}, always, is_open<kStress>},
-    C{"view.servo", "Timing", kNone, kNone, TogglePanel{kServo}, always, is_open<kServo>},
-    C{"view.diagnostics", "Diagnostics", key(GLFW_KEY_D), kNone, ToggleDiagnostics{}, always, has_diagnostics},
+    C{"view.certificate", "Certificate", kNone, kNone, TogglePanel{kCertificate}, view_is_free, is_open<kCertificate>, why_view_is_held},
+    C{"view.ledger", "Clay balance", kNone, kNone, TogglePanel{kLedger}, view_is_free, is_open<kLedger>, why_view_is_held},
+    C{"view.stress", "Stress", kNone, kNone, TogglePanel{kStress}, view_is_free, is_open<kStress>, why_view_is_held},
+    C{"view.servo", "Timing", kNone, kNone, TogglePanel{kServo}, view_is_free, is_open<kServo>, why_view_is_held},
+    C{"view.diagnostics", "Diagnostics", key(GLFW_KEY_D), kNone, ToggleDiagnostics{}, view_is_free, has_diagnostics, why_view_is_held},
     C{"view.theme", "Light theme", key(GLFW_KEY_L, kCtrl), kNone, ToggleTheme{}, always, is_light},
     C{"view.mm", "Millimetres", kNone, kNone, SetUnit{LengthUnit::mm}, always, is_unit<LengthUnit::mm>},
     C{"view.cm", "Centimetres", kNone, kNone, SetUnit{LengthUnit::cm}, always, is_unit<LengthUnit::cm>},
     C{"view.in", "Inches", kNone, kNone, SetUnit{LengthUnit::in}, always, is_unit<LengthUnit::in>},
-    C{"view.larger", "Larger text", key(GLFW_KEY_EQUAL, kCtrl), key(GLFW_KEY_EQUAL, kCtrlShift), ScaleText{kTextStep}, always},
-    C{"view.smaller", "Smaller text", key(GLFW_KEY_MINUS, kCtrl), kNone, ScaleText{1.0f / kTextStep}, always},
+    C{"view.larger", "Larger text", key(GLFW_KEY_EQUAL, kCtrl), key(GLFW_KEY_EQUAL, kCtrlShift), ScaleText{kTextStep}, view_is_free, nullptr, why_view_is_held},
+    C{"view.smaller", "Smaller text", key(GLFW_KEY_MINUS, kCtrl), kNone, ScaleText{1.0f / kTextStep}, view_is_free, nullptr, why_view_is_held},
 
     C{"help.show_step", "Show this step", key(GLFW_KEY_G), kNone, ShowStep{}, in_step},
     C{"help.next_step", "Next step", key(GLFW_KEY_N), kNone, NextStep{}, in_step},

@@ -196,7 +196,7 @@ void Performer::choose_export(const ExportChoices& choices) const {
 void Performer::set_target(Result<SharedTarget> target) const {
   if (!target) return report(state, target.error());
   state.ui.target = std::move(*target);
-  if (state.document.has_work()) show_from(ViewFrom::home);
+  if (state.document.has_work() && !view_model(state).view_is_held()) show_from(ViewFrom::home);
   if (state.ui.shows<OpenDialog>()) close_dialog(state);
   state.log("target: " + state.ui.target->name);
 }

@@ -49,7 +49,8 @@ void GamepadHand::advance(AppState& state) {
   if (pressing_ && !state.stroke.throwing()) pressing_ = false;  // something else has ended it
   const bool usable = !name_.empty() && state.document.has_work() && state.ui.shows<NoDialog>();
   if (!usable) return end(state);
-  state.scene.turn(kStickRadPerS * elapsed_s * rate_of(pad_.right_stick));
+  if (!view_model(state).view_is_held())
+    state.scene.turn(kStickRadPerS * elapsed_s * rate_of(pad_.right_stick));
   press(state);
   const glm::dvec2 step_mm = kStickMmPerS * elapsed_s * rate_of(pad_.left_stick);
   if (pressing_)

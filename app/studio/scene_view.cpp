@@ -117,6 +117,10 @@ glm::dvec3 SceneView::on_wheel(glm::dvec2 place_mm) const {
   return place_mm.x * render::profile_direction(camera_) + glm::dvec3(0.0, place_mm.y, 0.0);
 }
 
+glm::dvec3 SceneView::in_stroke(glm::dvec2 place_mm) const {
+  return place_mm.x * outward_ + glm::dvec3(0.0, place_mm.y, 0.0);
+}
+
 glm::dvec2 SceneView::in_section(const glm::dvec3& place_mm) const noexcept {
   return {glm::dot(place_mm, render::profile_direction(camera_)), place_mm.y};
 }
@@ -200,7 +204,7 @@ bool SceneView::button(const ViewModel& view, const ButtonChanged& change, Actio
   if (!rect_.holds(mouse_px_) || drag_ != Drag::none) return false;
   if (change.button == MouseButton::left)
     press(view, (change.mods & kControl) != 0, actions);
-  else
+  else if (!view.view_is_held())
     drag_ = (change.mods & kShift) != 0 ? Drag::pan : Drag::orbit;
   return true;
 }
@@ -230,6 +234,7 @@ void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, const G
   else if (!pinch_from(view, *tool, start, spec, actions))
     return;
   offset_mm_ = start - pointed_mm;
+  outward_ = render::profile_direction(camera_);
   actions.emplace_back(PressClay{
       {spec, view.settings.wheel_rpm, on_wheel(start), pinched_ ? pinched_->wall_mm : 0.0}});
   strength_ = grip.strength;
@@ -292,12 +297,12 @@ void SceneView::shape_to(const ViewModel& view, glm::dvec2 pointed_mm, const Gri
   const double bite_mm = strength_ ? bite_at(*strength_) : view.settings.bite_mm;
   std::optional<double> gap_mm;
   if (pinched_ && strength_) gap_mm = glm::mix(pinched_->wall_mm, pinched_->gap_mm, *strength_);
-  actions.emplace_back(AimTool{{on_wheel(aim), speed_mm_s, bite_mm}, gap_mm});
+  actions.emplace_back(AimTool{{in_stroke(aim), speed_mm_s, bite_mm}, gap_mm});
 }
 
-bool SceneView::scrolled(float steps) {
+bool SceneView::scrolled(const ViewModel& view, float steps) {
   if (!rect_.holds(mouse_px_)) return false;
-  zoom(static_cast<double>(steps));
+  if (!view.view_is_held()) zoom(static_cast<double>(steps));
   return true;
 }
 

@@ -36,7 +36,7 @@ class SceneView {
   // --- Mouse. A bool result: the view used the event. --------------------------------------------
   bool pointer_moved(const ViewModel& view, const PointerMoved& moved, Actions& actions);
   bool button(const ViewModel& view, const ButtonChanged& change, Actions& actions);
-  bool scrolled(float steps);
+  bool scrolled(const ViewModel& view, float steps);
   /// The mouse sets the size of the tool, or the stiffness, until a click or Esc.
   void drag_size(const ViewModel& view);
   void drag_stiffness(const ViewModel& view);
@@ -114,6 +114,7 @@ class SceneView {
   [[nodiscard]] std::optional<render::ToolView> hovering_tool(const ViewModel& view,
                                                               const Tool& tool) const;
   [[nodiscard]] glm::dvec3 on_wheel(glm::dvec2 place_mm) const;
+  [[nodiscard]] glm::dvec3 in_stroke(glm::dvec2 place_mm) const;
 
   ViewRect rect_;
   render::Camera camera_;
@@ -122,9 +123,10 @@ class SceneView {
   bool over_panel_ = false;
   std::optional<double> pen_;         // strength of the pen; none: a mouse
   std::optional<glm::dvec2> led_mm_;  // the place of another pointer
-  // Since the press: its strength, and the offset from the pointer to the tool.
+  // Since the press: its strength, the offset from the pointer to the tool, and
   std::optional<double> strength_;
   glm::dvec2 offset_mm_{0.0};
+  glm::dvec3 outward_{1.0, 0.0, 0.0};  // its plane: a view that turns does not turn the tool
   std::optional<PinchedWall> pinched_;
   ToolChoice tool_before_;         // value before a change
   double stiffness_before_ = 0.0;  // value before a change

@@ -72,6 +72,8 @@ class StrokeController {
   /// Devices begin no stroke until `resume`.
   void hold_back() noexcept { device_waits_ = false; }
   [[nodiscard]] bool throwing() const noexcept { return live_.has_value(); }
+  /// A stroke of the mouse, the gamepad or the guide, not of a device.
+  [[nodiscard]] bool by_hand() const noexcept { return throwing() && !has_device(); }
   /// How hard the mouse pulls the tool: the distance from the tool to its target [mm].
   [[nodiscard]] double stretch_mm() const noexcept { return live_ ? mouse_.stretch_mm() : 0.0; }
 

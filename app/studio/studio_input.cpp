@@ -111,7 +111,7 @@ void Studio::apply(const Input& input) {
     io.KeyCtrl = (change->mods & kControl) != 0;
     io.KeyShift = (change->mods & kShift) != 0;
   } else if (const auto* scrolled = std::get_if<Scrolled>(&input)) {
-    if (!view || !state_.scene.scrolled(scrolled->steps)) io.MouseWheel += scrolled->steps;
+    if (!view || !state_.scene.scrolled(model, scrolled->steps)) io.MouseWheel += scrolled->steps;
   } else if (const auto* pressed = std::get_if<KeyChanged>(&input)) {
     key(*pressed);
   } else if (const auto* typed = std::get_if<TextTyped>(&input)) {

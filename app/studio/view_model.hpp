@@ -40,6 +40,20 @@ struct ViewModel {
   [[nodiscard]] bool at_rest() const { return document.has_work() && !stroke.throwing(); }
   /// True if there is no stroke, or a stroke of a device, which may be ended at any time.
   [[nodiscard]] bool between_strokes() const { return at_rest() || stroke.has_device(); }
+  /// The mouse or the gamepad leads the tool through the view, which must stand still meanwhile:
+  /// seen from elsewhere, the pointer would mean another place, and pull the tool there.
+  [[nodiscard]] bool view_is_held() const {
+    return stroke.by_hand() && guide.demonstration() == Demonstration::none;
+  }
+  /// The tool of the stroke in progress; otherwise the one of the settings, which the next stroke
+  /// takes.
+  [[nodiscard]] ToolSpec tool_in_use() const {
+    return stroke.throwing() ? document.scene().tool : tool_of(settings.tool);
+  }
+  /// The pot stands on its rim while its foot is trimmed; a fallen one stays where it lies.
+  [[nodiscard]] bool upside_down() const {
+    return tool_in_use().mode == ToolMode::trim_foot && !stroke.view().fallen;
+  }
   [[nodiscard]] bool writing() const { return export_running == Exporter::Kind::files; }
   /// Problems of the last export or preview, if they belong to the pot on screen.
   [[nodiscard]] bool has_marks() const;
