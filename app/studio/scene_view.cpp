@@ -18,22 +18,22 @@ constexpr double kRoomForTool = 1.35;   // size of the view relative to the whol
 constexpr double kSizingPerPx = 0.006;  // drag: change of the logarithm of the size per pixel
 constexpr double kLessonRad = 0.22, kGrowth = 2.4;  // a pot that is pulled grows to that
 
-std::optional<Tool> chosen_tool(const ViewModel& view) {
-  auto tool = Tool::build(tool_of(view.settings.tool).shape);
+std::optional<Tool> built(const ToolSpec& spec) {
+  auto tool = Tool::build(spec.shape);
   if (!tool) return std::nullopt;
   return std::move(*tool);
 }
 
-/// The pot as it stands: upside down while its foot is trimmed.
+/// The pot as it stands.
 render::PotView shown_pot(const ViewModel& view) {
   const render::PotView& pot = view.stroke.view();
-  return view.settings.tool.mode == ToolMode::trim_foot ? render::turned(pot) : pot;
+  return view.upside_down() ? render::turned(pot) : pot;
 }
 
 /// Where a press near this place begins.
 glm::dvec2 free_in(const ViewModel& view, const Tool& tool, glm::dvec2 place_mm) {
-  const bool turned = view.settings.tool.mode == ToolMode::trim_foot;
-  return free_place(shown_pot(view), tool, place_mm, turned ? Bore::covered : Bore::open);
+  return free_place(shown_pot(view), tool, place_mm,
+                    view.upside_down() ? Bore::covered : Bore::open);
 }
 
 ToolSpec pinching(ToolChoice choice) {
@@ -135,7 +135,7 @@ glm::vec2 SceneView::pointer_px() const noexcept {
 }
 
 glm::dvec2 SceneView::free_at(const ViewModel& view, glm::dvec2 place_mm) const {
-  const auto tool = chosen_tool(view);
+  const auto tool = built(view.tool_in_use());
   return tool ? free_in(view, *tool, place_mm) : place_mm;
 }
 
@@ -222,7 +222,7 @@ void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
 /// mouse.
 void SceneView::shape_from(const ViewModel& view, glm::dvec2 pointed_mm, const Grip& grip,
                            Actions& actions) {
-  const auto tool = chosen_tool(view);
+  const auto tool = built(tool_of(view.settings.tool));
   if (!tool || !view.document.has_work() || view.stroke.has_device() || view.stroke.paused())
     return;
   ToolSpec spec =
@@ -264,7 +264,7 @@ namespace {
 /// rim. A pointer beside the wall leans on it.
 glm::dvec2 along_wall(const ViewModel& view, glm::dvec2 aim_mm) {
   constexpr double kLean = 0.35, kMostLeanMm = 4.0, kRimMm = 1.0;
-  const auto tool = chosen_tool(view);
+  const auto tool = built(view.tool_in_use());
   const render::PotView& pot = view.stroke.view();
   if (!tool) return aim_mm;
   aim_mm.y = std::max(aim_mm.y, floor_mm(pot).value_or(0.0) - tool->low());
@@ -292,7 +292,7 @@ void SceneView::shape_to(const ViewModel& view, glm::dvec2 pointed_mm, const Gri
   strength_ = grip.strength;
   glm::dvec2 aim = target_mm(pointed_mm);
   if (pinched_) aim = along_wall(view, aim);
-  const bool resisted = view.stroke.status().contact && !cuts_level(view.settings.tool.mode);
+  const bool resisted = view.stroke.status().contact && !cuts_level(view.tool_in_use().mode);
   const double speed_mm_s = resisted ? view.settings.pressing_mm_s : kReachingMmPerS;
   const double bite_mm = strength_ ? bite_at(*strength_) : view.settings.bite_mm;
   std::optional<double> gap_mm;
@@ -325,7 +325,8 @@ void SceneView::cancel(Actions& actions) {
 }
 
 std::optional<render::ToolView> SceneView::tool_view(const ViewModel& view) const {
-  const auto tool = chosen_tool(view);
+  const ToolSpec spec = view.tool_in_use();
+  const auto tool = built(spec);
   if (!tool || !view.document.has_work()) return std::nullopt;
   if (!view.stroke.throwing()) return hovering_tool(view, *tool);
   const servo::LiveStatus& status = view.stroke.status();
@@ -335,8 +336,8 @@ std::optional<render::ToolView> SceneView::tool_view(const ViewModel& view) cons
   shown.place_mm = status.tool_mm;
   shown.contact = status.contact;
   shown.force_n = status.clay_n;
-  if (view.document.scene().tool.mode == ToolMode::pinch)
-    shown.gap_mm = status.gap_mm > 0.0 ? status.gap_mm : view.settings.tool.gap_mm;
+  if (spec.mode == ToolMode::pinch)
+    shown.gap_mm = status.gap_mm > 0.0 ? status.gap_mm : spec.gap_mm;
   shown.inside = inside(shown_pot(view), status.tool_mm);
   return shown;
 }
@@ -374,8 +375,7 @@ render::Picture SceneView::picture(const ViewModel& view) const {
     picture.pot.wall_mm = walls_for(*check, picture.pot.rows.size(), picture.pot.height_mm);
     picture.wall_map = wall_map_of(*check);
   }
-  if (view.settings.tool.mode == ToolMode::trim_foot)
-    picture.pot = render::turned(std::move(picture.pot));
+  if (view.upside_down()) picture.pot = render::turned(std::move(picture.pot));
   picture.camera = camera_;
   picture.theme = view.settings.theme;
   picture.material = view.settings.material;

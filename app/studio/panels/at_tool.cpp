@@ -69,7 +69,7 @@ std::vector<std::string> figures_upright(const ViewModel& model, const render::T
     lines.push_back("floor " + thickness_text(*floor, unit));
   lines.push_back(fmt::format("radius {}", length_text(rho, unit)));
   lines.push_back(fmt::format("height {}", length_text(tool.place_mm.y, unit)));
-  const ToolMode mode = model.settings.tool.mode;
+  const ToolMode mode = model.tool_in_use().mode;
   if (cuts_level(mode) && row != nullptr)
     lines.push_back(fmt::format(
         "cuts off {}",
@@ -94,7 +94,7 @@ Span span_of(const ViewModel& model, const render::ToolView& tool, float at_px) 
 Span span_of_pot(const ViewModel& model, double y_mm, float height_px) {
   const render::PotView& pot = model.stroke.view();
   const double reach_mm = static_cast<double>(height_px / model.scene.px_per_mm());
-  const bool turned = model.settings.tool.mode == ToolMode::trim_foot;
+  const bool turned = model.upside_down();
   float widest_mm = 0.0f;
   for (double at = y_mm - reach_mm; at <= y_mm + reach_mm; at += 1.0)
     if (const render::Row* row = row_at(pot, turned ? pot.height_mm - at : at))
@@ -179,8 +179,7 @@ void draw_cut_level(const ViewModel& model, ImDrawList* draw, double y_mm, doubl
 }  // namespace
 
 std::vector<std::string> figures_at(const ViewModel& model, const render::ToolView& tool) {
-  return model.settings.tool.mode == ToolMode::trim_foot ? figures_at_foot(model, tool)
-                                                         : figures_upright(model, tool);
+  return model.upside_down() ? figures_at_foot(model, tool) : figures_upright(model, tool);
 }
 
 void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
@@ -195,7 +194,7 @@ void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   draw->PushClipRect({rect.corner_px.x, rect.corner_px.y},
                      {rect.corner_px.x + rect.size_px.x, rect.corner_px.y + rect.size_px.y});
-  const bool turned = model.settings.tool.mode == ToolMode::trim_foot;
+  const bool turned = model.upside_down();
   const render::PotView& pot = model.stroke.view();
   const render::Row* row =
       row_at(pot, turned ? pot.height_mm - tool->place_mm.y : tool->place_mm.y);
@@ -203,7 +202,7 @@ void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
   const bool near = model.stroke.throwing() || rho < widest + kFiguresMm;
   if (near && !turned && (tool->inside || rho < render::kBoreMm + 20.0))
     draw_floor(model, draw, rect.corner_px.x);
-  if (cuts_level(model.settings.tool.mode)) draw_cut_level(model, draw, tool->place_mm.y, widest);
+  if (cuts_level(model.tool_in_use().mode)) draw_cut_level(model, draw, tool->place_mm.y, widest);
   draw_pull(model, draw, at);
   if (near) draw_lines(model, draw, figures_at(model, *tool), *tool, at, rect);
   draw->PopClipRect();

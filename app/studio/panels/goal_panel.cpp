@@ -117,7 +117,7 @@ void draw_target_side(ImDrawList* draw, const render::PotView& pot, const WallLi
 void draw_target(const ViewModel& model, const ViewRect& rect) {
   const Target* target = model.ui.target.get();
   if (target == nullptr || !model.document.has_work() || !model.ui.shows<NoDialog>() ||
-      model.readings.fallen() || model.settings.tool.mode == ToolMode::trim_foot)
+      model.readings.fallen() || model.upside_down())
     return;
   const render::PotView& pot = target->view;
   ImDrawList* draw = ImGui::GetBackgroundDrawList();

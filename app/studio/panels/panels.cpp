@@ -51,7 +51,7 @@ bool draw_header(const Panel& panel, const ViewModel& model) {
   const ImVec2 padding = ImGui::GetStyle().FramePadding;
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.5f * padding.x, padding.y));
   const std::string_view title =
-      panel.draw == &draw_tool ? name_of(model.settings.tool.mode) : panel.title;
+      panel.draw == &draw_tool ? name_of(model.tool_in_use().mode) : panel.title;
   const bool shown = ImGui::CollapsingHeader(fmt::format("{}###{}", title, panel.title).c_str());
   ImGui::PopStyleVar();
   return shown;

@@ -255,7 +255,7 @@ void draw_section(const ViewModel& model, Actions& actions) {
   const OffTarget* off =
       target != nullptr && check != nullptr && check->off ? &*check->off : nullptr;
   Sheet sheet = upright;
-  if (model.settings.tool.mode == ToolMode::trim_foot) sheet.turned_mm = height;
+  if (model.upside_down()) sheet.turned_mm = height;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->PushClipRect(area.low, area.high, true);
   draw_clay(model, sheet, height, full, model.settings.wall_map ? check : nullptr, off);

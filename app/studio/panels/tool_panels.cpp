@@ -104,17 +104,37 @@ void draw_bar(float part, const std::string& text, const ImVec4& colour) {
   ImGui::Dummy({width, height});
 }
 
-}  // namespace
+/// The tool that was chosen meanwhile.
+void draw_next_tool(const ViewModel& model, const ToolSpec& used) {
+  const ToolSpec next = tool_of(model.settings.tool);
+  if (next.mode == used.mode && next.shape == used.shape) return;
+  wrapped_text(fmt::format(
+      "The next stroke: {}{}", name_of(next.mode),
+      next.shape == used.shape || cuts_level(next.mode) ? "" : ", another shape or size"));
+}
 
-void draw_tool(const ViewModel& model, Actions& actions) {
-  ToolChoice tool = model.settings.tool;
-  faint_text(model.colours(), help_text(tool.mode));
-  if (cuts_level(tool.mode)) return;
+void draw_shape(const ViewModel& model, ToolChoice tool, Actions& actions) {
   const std::size_t shapes = tool.own.t_mm.empty() ? 3 : 4;
   const int shape =
       choice_row("shape", std::span(kShapes).first(shapes), static_cast<int>(tool.shape));
   if (shape >= 0) actions.emplace_back(SetToolShape{static_cast<Shape>(shape)});
   if (draw_sizes(tool, model.settings.unit, model.colours())) actions.emplace_back(SetTool{tool});
+}
+
+}  // namespace
+
+/// A stroke by hand keeps its tool to its end; that of an arm ends with a change of the tool.
+void draw_tool(const ViewModel& model, Actions& actions) {
+  const bool held = model.stroke.by_hand();
+  const ToolSpec used = model.tool_in_use();
+  faint_text(model.colours(), help_text(used.mode));
+  if (held) draw_next_tool(model, used);
+  if (cuts_level(used.mode)) return;
+  ToolChoice tool = model.settings.tool;
+  if (held) choose(used, tool);
+  ImGui::BeginDisabled(held);
+  draw_shape(model, tool, actions);
+  ImGui::EndDisabled();
 }
 
 void draw_wheel(const ViewModel& model, Actions& actions) {
