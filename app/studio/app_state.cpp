@@ -50,6 +50,13 @@ bool succeeded(AppState& state, const Result<void>& result) {
   return result.has_value();
 }
 
+void show_present(AppState& state) {
+  state.stroke.release();
+  if (!state.document.scrubbing()) return;
+  (void)succeeded(state, state.document.show_present());
+  state.stroke.resume();
+}
+
 void note(AppState& state, Grade grade, std::string text, double seconds) {
   state.ui.notices.show(grade, std::move(text), state.now_s() + seconds);
 }

@@ -77,7 +77,9 @@ void update(AppState& state);
 void report(AppState& state, const Error& error);
 /// Reports the error, if there is one. Returns true on success.
 bool succeeded(AppState& state, const Result<void>& result);
-/// Ends the stroke and saves. Returns true on success.
+/// Ends the stroke and the moment shown, so that a file holds the pot that is shown.
+void show_present(AppState& state);
+/// Shows the current pot and saves. Returns true on success.
 bool save_document(AppState& state, const std::filesystem::path& path);
 /// Shows a note that disappears after some seconds.
 void note(AppState& state, Grade grade, std::string text, double seconds);

@@ -42,7 +42,7 @@ void apply(AppState& state, const Action& action) {
 }
 
 bool save_document(AppState& state, const std::filesystem::path& path) {
-  state.stroke.release();
+  show_present(state);
   if (!succeeded(state, state.document.save(path))) return false;
   remember(state.settings, path);
   state.settings.folder =

@@ -274,6 +274,7 @@ void Performer::open_drawing(const std::filesystem::path& path) const {
 }
 
 void Performer::ask_for_name(std::optional<Action> next) const {
+  show_present(state);
   // The name is shown with its folder, as for an export; a page has no folders.
   std::filesystem::path folder = state.settings.folder;
   if (folder.empty() && !kInPage) folder = std::filesystem::current_path();

@@ -71,7 +71,7 @@ void show_written_folder(AppState& state) {
 }
 
 void show_picture(AppState& state, bool turntable) {
-  state.stroke.release();
+  show_present(state);
   PictureState& pictures = state.ui.pictures;
   if (state.pictures.busy()) {  // show its progress
     state.ui.dialog = PictureDialog{};
@@ -122,7 +122,7 @@ void write_picture(AppState& state, bool replace) {
 }
 
 void show_export(AppState& state) {
-  state.stroke.release();
+  show_present(state);
   ExportState& exporting = state.ui.exporting;
   ExportChoices& choices = exporting.choices;
   choices.process = state.settings.process;
