@@ -98,6 +98,8 @@ class Document {
   [[nodiscard]] bool has_work() const noexcept { return work_.has_value(); }
   [[nodiscard]] const history::Work& work() const noexcept { return *work_; }
   [[nodiscard]] const Pot& pot() const noexcept { return *pot_; }
+  /// The clay has fallen: no stroke is possible on it.
+  [[nodiscard]] bool fallen() const noexcept { return work_ && pot_->collapse; }
   /// Null before there is a work. During a stroke: the pot at its start.
   [[nodiscard]] const history::SharedPot& shared_pot() const noexcept { return pot_; }
   /// The pot on screen between strokes: the current pot, or the pot at `moment`.

@@ -220,6 +220,7 @@ void Performer::operator()(const EndScrub&) const {
                    "from here as a branch; Esc goes back",
                    moment->seconds, moment->node),
        8.0);
+  state.ui.notices.keep_answer_while([](const Document& document) { return document.scrubbing(); });
 }
 
 void Performer::operator()(const BranchHere&) const {

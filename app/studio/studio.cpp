@@ -102,7 +102,6 @@ bool Studio::frame(Painting painting) {
   if (state_.ui.restyle) restyle();
   if (awake_frames_ > 0) --awake_frames_;
   if (!moving()) times_.last_ns = 0;
-  state_.ui.notices.expire(now_s);
   state_.readings.update(state_.document, state_.stroke, wanted_of(state_.settings, state_.ui),
                          now_ns, state_.log);
   // ImGui must process each input; the slow painting follows once for all of them. A closed window

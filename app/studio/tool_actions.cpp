@@ -84,10 +84,10 @@ void Performer::operator()(const Back&) const {
 }
 
 void Performer::operator()(const PressClay& press) const {
-  if (succeeded(state, state.stroke.press(press.press)))
-    state.log("stroke started");
-  else
-    state.scene.stop_shaping();
+  if (succeeded(state, state.stroke.press(press.press))) return state.log("stroke started");
+  state.scene.stop_shaping();
+  if (state.document.fallen())  // the answer tells so
+    state.ui.notices.keep_answer_while([](const Document& document) { return document.fallen(); });
 }
 
 void Performer::operator()(const AimTool& aim) const {

@@ -17,13 +17,16 @@
 
 namespace clay::studio {
 
+class Document;
+
 enum class Grade { note, warning, error };
 
 struct Notice {
   Grade grade = Grade::note;
   std::string text;
-  double until_s = 0.0;      ///< on the host's clock; 0: until the user closes it
-  std::string_view command;  ///< a button runs it; empty: none
+  double until_s = 0.0;                      ///< on the host's clock; 0: until the user closes it
+  std::string_view command;                  ///< a button runs it; empty: none
+  bool (*holds)(const Document&) = nullptr;  ///< closed as soon as this is false
 };
 
 /// Two banners at most: the answer to the latest action, and a state that lasts, such as that of an
@@ -33,6 +36,10 @@ class Notices {
   /// The latest answer replaces the one before.
   void show(Grade grade, std::string text, double until_s = 0.0, std::string_view command = {}) {
     answer_ = Notice{grade, std::move(text), until_s, command};
+  }
+  /// Closes the answer as soon as `holds` is false.
+  void keep_answer_while(bool (*holds)(const Document&)) {
+    if (answer_) answer_->holds = holds;
   }
   /// A state, until it is withdrawn. The most severe one is shown.
   void show_state(Grade grade, std::string text, double until_s = 0.0) {
@@ -44,9 +51,12 @@ class Notices {
   void withdraw_state(const std::string& text) {
     if (state_ && state_->text == text) state_.reset();
   }
-  void expire(double now_s) {
-    for (std::optional<Notice>* notice : {&answer_, &state_})
-      if (*notice && (*notice)->until_s > 0.0 && now_s > (*notice)->until_s) notice->reset();
+  void expire(double now_s, const Document& document) {
+    for (std::optional<Notice>* notice : {&answer_, &state_}) {
+      if (!*notice) continue;
+      const bool late = (*notice)->until_s > 0.0 && now_s > (*notice)->until_s;
+      if (late || ((*notice)->holds != nullptr && !(*notice)->holds(document))) notice->reset();
+    }
   }
   [[nodiscard]] const std::optional<Notice>& answer() const noexcept { return answer_; }
   [[nodiscard]] const std::optional<Notice>& state() const noexcept { return state_; }

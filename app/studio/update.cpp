@@ -92,6 +92,7 @@ void update_strokes(AppState& state) {
     state.fall.begin(state.document.shared_pot(), state.now_s());
     state.ui.notices.show(Grade::warning,
                           "The pot has fallen: the clay could not carry its own weight.");
+    state.ui.notices.keep_answer_while([](const Document& document) { return document.fallen(); });
   }
   if (news.ring_limit)
     state.ui.notices.show(Grade::warning,
@@ -119,8 +120,8 @@ void update_guide(AppState& state) {
 /// The animation of a fall ends early if another pot is shown.
 void update_fall(AppState& state) {
   if (!state.fall.running()) return;
-  const bool fallen = state.document.has_work() && state.document.pot().collapse &&
-                      !state.document.scrubbing() && !state.stroke.throwing();
+  const bool fallen =
+      state.document.fallen() && !state.document.scrubbing() && !state.stroke.throwing();
   if (!fallen) return state.fall.end();
   if (const auto place = state.fall.at(state.now_s(), state.document.view()))
     state.document.show_fall(*place);
@@ -337,6 +338,7 @@ void update_picture(AppState& state) {
 
 void update(AppState& state) {
   const std::int64_t now_ns = state.host.frame_ns();
+  state.ui.notices.expire(state.now_s(), state.document);
   update_devices(state);
   update_file_dialog(state);
   update_thumbs(state);
