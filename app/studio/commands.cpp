@@ -62,7 +62,8 @@ const char* why_no_write(View view) {
   if (view.writing()) return "an export is in progress";
   const ExportChoices& choices = view.ui.exporting.choices;
   if (const char* why = why_no_file_name(choices.name)) return why;
-  return paths_of(choices).empty() ? "no file is chosen" : nullptr;
+  if (paths_of(choices).empty()) return "no file is chosen";
+  return view.ui.exporting.refused ? "these files cannot be exported" : nullptr;
 }
 bool can_write(View view) { return why_no_write(view) == nullptr; }
 bool writing(View view) { return view.writing() || view.picture_running; }

@@ -116,6 +116,7 @@ struct ExportState {
   ExportChoices choices;
   std::optional<ExportFigures> preview{};
   std::string problem{};               ///< why there is no preview, or no file
+  bool refused = false;                ///< the preview has failed, and so would the export
   std::vector<std::string> written{};  ///< files of the last export
   std::string result{};                ///< outcome as text
   Grade grade = Grade::note;           ///< of the outcome; a warning: a limit failed

@@ -244,6 +244,13 @@ std::string result_text(const ExportFigures& figures, std::size_t count) {
   return figures.failed > 0 ? fmt::format("{}; {}", text, failed_text(figures.failed)) : text;
 }
 
+/// The library names its rings and a setting that the window does not have.
+std::string problem_of(const Exporter::Outcome& outcome, LengthUnit unit) {
+  const PotForm form = outcome.pot->collapse ? PotForm{} : form_of(outcome.pot->stack);
+  if (!form.parting_mm) return outcome.done.error().message;
+  return "The pot is " + parts_text(form, unit) + ". Only a pot in one part can be exported";
+}
+
 void take_files(AppState& state, Exporter::Outcome outcome) {
   ExportState& exporting = state.ui.exporting;
   if (outcome.cancelled) {
@@ -252,7 +259,7 @@ void take_files(AppState& state, Exporter::Outcome outcome) {
   }
   if (!outcome.done) {
     exporting.result.clear();
-    exporting.problem = outcome.done.error().message;
+    exporting.problem = problem_of(outcome, state.settings.unit);
     return state.log("error: " + exporting.problem);
   }
   exporting.written = outcome.paths;
@@ -275,7 +282,8 @@ void take_preview(AppState& state, Exporter::Outcome outcome) {
   exporting.preview.reset();
   exporting.problem.clear();
   if (!outcome.done) {
-    exporting.problem = outcome.done.error().message;
+    exporting.problem = problem_of(outcome, state.settings.unit);
+    exporting.refused = true;
     return;
   }
   mark_problems(state, outcome);
@@ -299,6 +307,7 @@ void update_export(AppState& state) {
     dialog->previewed = solid_choices(exporting.choices);
     exporting.preview.reset();
     exporting.problem.clear();
+    exporting.refused = false;
     if (!exporting.choices.meshes.empty())
       state.exporter.preview(state.document.shared_pot(), exporting.choices);
   }

@@ -118,7 +118,7 @@ void draw_certificate(const ViewModel& model, Actions&) {
     figures(*check, colours, model.settings.unit);
   } else {
     wrapped_text(check->why_not);
-    if (check->fault_mm) wrapped_text("The pot is " + parts_text(*check, model.settings.unit));
+    if (check->fault_mm) wrapped_text("The pot is " + parts_text(check->form, model.settings.unit));
   }
   remarks(*check, colours, model.settings.unit);
   // Omitted in scripts, because their pictures must be reproducible.

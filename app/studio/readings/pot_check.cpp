@@ -259,7 +259,7 @@ Verdict PotCheck::verdict() const {
 std::string ready_text(const PotCheck& check, LengthUnit unit) {
   if (check.stopped) return "Not checked";
   if (!check.proved)
-    return "Not ready: " + (check.fault_mm ? parts_text(check, unit) : "not one closed solid");
+    return "Not ready: " + (check.fault_mm ? parts_text(check.form, unit) : "not one closed solid");
   const bool ready = check.ready();
   for (const solid::Problem& problem : check.problems)
     if (problem.fails != ready)
@@ -270,10 +270,10 @@ std::string ready_text(const PotCheck& check, LengthUnit unit) {
   return check.verdict() == Verdict::lump ? "Solid clay" : "Ready to print";
 }
 
-std::string parts_text(const PotCheck& check, LengthUnit unit) {
-  const std::string height = length_text(*check.fault_mm, unit);
-  if (check.form.parts <= 2) return "in two parts at a height of " + height;
-  return fmt::format("in {} parts, the lowest up to a height of {}", check.form.parts, height);
+std::string parts_text(const PotForm& form, LengthUnit unit) {
+  const std::string height = length_text(*form.parting_mm, unit);
+  if (form.parts <= 2) return "in two parts at a height of " + height;
+  return fmt::format("in {} parts, the lowest up to a height of {}", form.parts, height);
 }
 
 std::string wall_text(const PotCheck& check, LengthUnit unit) {

@@ -112,8 +112,8 @@ using solid::process_title;
 /// "Thinnest wall 2.1 mm, at a height of 34.0 mm; porcelain requires 3.0 mm: too thin".
 [[nodiscard]] std::string wall_text(const PotCheck& check, LengthUnit unit);
 
-/// "in two parts at a height of 40.0 mm"; requires `fault_mm`.
-[[nodiscard]] std::string parts_text(const PotCheck& check, LengthUnit unit);
+/// "in two parts at a height of 40.0 mm"; requires `parting_mm`.
+[[nodiscard]] std::string parts_text(const PotForm& form, LengthUnit unit);
 
 /// "Ready to print", "Solid clay", or why not, in a few words.
 [[nodiscard]] std::string ready_text(const PotCheck& check, LengthUnit unit);
