@@ -290,6 +290,21 @@ void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size
 
 namespace {
 
+/// Whether it appeared while the present dialog was open, such as the error of a save. It belongs
+/// over the veil then. Call it in the window of the notice.
+bool answers_dialog(const ViewModel& model, const Notice& notice) {
+  ImGuiStorage& kept = *ImGui::GetStateStorage();
+  const ImGuiID text_id = ImGui::GetID("text"), dialog_id = ImGui::GetID("dialog");
+  const auto text = static_cast<int>(ImGui::GetID(notice.text.c_str()));
+  const auto dialog = static_cast<int>(model.ui.dialog.index());
+  if (kept.GetInt(text_id) != text) {
+    kept.SetInt(text_id, text);
+    kept.SetInt(dialog_id, dialog);
+  }
+  return !model.ui.shows<NoDialog>() && kept.GetInt(dialog_id) == dialog &&
+         !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
 /// Returns its lower edge, or `top_px` if it is not shown.
 float draw_notice(const ViewModel& model, const std::optional<Notice>& notice,
                   const CloseNotice& close, Actions& actions, const ViewRect& rect, float top_px) {
@@ -308,6 +323,7 @@ float draw_notice(const ViewModel& model, const std::optional<Notice>& notice,
   ImGui::PushStyleColor(ImGuiCol_Border, colour);
   ImGui::Begin(close.state ? "##state" : "##answer", nullptr,
                kBar | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  if (answers_dialog(model, *notice)) ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
   const char* grade = notice->grade == Grade::note      ? "Note"
                       : notice->grade == Grade::warning ? "Warning"
                                                         : "Error";
