@@ -184,6 +184,12 @@ void SceneView::drag(const ViewModel& view, glm::vec2 by_px, Actions& actions) {
     case Drag::shape:
       if (const auto place = pointed_mm()) shape_to(view, *place, {.strength = pen_}, actions);
       break;
+    case Drag::approach:
+      if (!view.document.scrubbing())
+        drag_ = Drag::none;  // by Esc
+      else if (const auto place = pointed_mm())
+        approach(view, *place, actions);
+      break;
     case Drag::none:
       break;
   }
@@ -211,11 +217,32 @@ bool SceneView::button(const ViewModel& view, const ButtonChanged& change, Actio
 
 void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
   led_mm_.reset();
-  if (const auto pointed = pointed_mm())
-    shape_from(view, *pointed, {.strength = pen_, .inverted = inverted}, actions);
+  inverted_ = inverted;
+  const auto pointed = pointed_mm();
+  if (!pointed) return;
+  drag_ = Drag::approach;
+  air_mm_ = *pointed;
+  approach(view, *pointed, actions);
+}
+
+/// A stroke on a moment of another one makes a branch. There, a press in the air waits until the
+/// pointer reaches the clay, so that a click makes none; a pinch finds its wall from the air.
+void SceneView::approach(const ViewModel& view, glm::dvec2 pointed_mm, Actions& actions) {
+  const bool waits = view.document.scrubbing() && !view.stroke.has_device() &&
+                     view.settings.tool.mode != ToolMode::pinch;
+  const glm::dvec2 above_wheel(pointed_mm.x, std::max(0.0, pointed_mm.y));
+  if (waits && free_at(view, pointed_mm) == above_wheel) {
+    air_mm_ = pointed_mm;
+    return;
+  }
+  drag_ = Drag::none;
+  const Grip grip{.strength = pen_, .inverted = inverted_};
+  shape_from(view, air_mm_, grip, actions);
   const bool begun = std::ranges::any_of(
       actions, [](const Action& action) { return std::holds_alternative<PressClay>(action); });
-  if (begun) drag_ = Drag::shape;
+  if (!begun) return;
+  drag_ = Drag::shape;
+  if (air_mm_ != pointed_mm) shape_to(view, pointed_mm, grip, actions);
 }
 
 /// A press on the clay moves the tool to the nearest free place; from there the tool follows the

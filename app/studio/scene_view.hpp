@@ -101,12 +101,13 @@ class SceneView {
   render::Cut cut = render::Cut::none;
 
  private:
-  enum class Drag { none, shape, orbit, pan, size, stiffness };
+  enum class Drag { none, approach, shape, orbit, pan, size, stiffness };
   /// The wall where a pinch began, and the gap that it closes to.
   struct PinchedWall {
     double wall_mm = 0.0, gap_mm = 0.0;
   };
   void press(const ViewModel& view, bool inverted, Actions& actions);
+  void approach(const ViewModel& view, glm::dvec2 pointed_mm, Actions& actions);
   [[nodiscard]] bool pinch_from(const ViewModel& view, const Tool& tool, glm::dvec2& place_mm,
                                 ToolSpec& spec, Actions& actions);
   void drag(const ViewModel& view, glm::vec2 by_px, Actions& actions);
@@ -128,6 +129,8 @@ class SceneView {
   glm::dvec2 offset_mm_{0.0};
   glm::dvec3 outward_{1.0, 0.0, 0.0};  // its plane: a view that turns does not turn the tool
   std::optional<PinchedWall> pinched_;
+  bool inverted_ = false;          // of the press that approaches the clay
+  glm::dvec2 air_mm_{0.0};         // where it was in the air last
   ToolChoice tool_before_;         // value before a change
   double stiffness_before_ = 0.0;  // value before a change
   double turn_rad_ = 0.0, wheel_radius_mm_ = 0.0;
