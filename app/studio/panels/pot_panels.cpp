@@ -17,6 +17,7 @@ void draw_pot(const ViewModel& model, Actions& actions) {
   if (readings.stack() == nullptr) return faint_text(model.colours(), "No clay on the wheel");
   const LengthUnit unit = model.settings.unit;
   const Palette& colours = model.colours();
+  if (readings.fallen()) faint_text(colours, "As it stood before the fall:");
   value_row(colours, "Height", length_text(model.stroke.view().height_mm, unit));
   value_row(colours, "Largest diameter", length_text(readings.diameter_mm(), unit));
   value_row(colours, "Clay mass", short_mass_text(readings.account().in_stack_g));
