@@ -98,8 +98,7 @@ void draw_scale(const PotCheck& check, const ViewRect& rect, float top_px, Lengt
 
 /// The pixel of a place on the pot, which stands on its rim while its foot is trimmed.
 std::optional<glm::vec2> pixel_on_pot(const ViewModel& model, glm::dvec2 place_mm) {
-  if (model.settings.tool.mode == ToolMode::trim_foot)
-    place_mm.y = model.stroke.view().height_mm - place_mm.y;
+  if (model.upside_down()) place_mm.y = model.stroke.view().height_mm - place_mm.y;
   return model.scene.pixel_of(place_mm);
 }
 
