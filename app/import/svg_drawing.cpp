@@ -2,6 +2,7 @@
 #include "app/import/readers.hpp"
 #include "app/import/svg_shapes.hpp"
 #include "core/text.hpp"
+#include "core/xml_attributes.hpp"
 
 #include <fmt/format.h>
 #include <libxml/parser.h>
@@ -246,9 +247,12 @@ Result<Drawing> read_svg(std::string_view bytes, const std::string& name, const 
     return failure(ErrorKind::bad_input,
                    fmt::format("{}: expected at most {} tags and attributes, found {}", name,
                                kMostNodes, nodes));
+  XmlAttributeLimit limit;
+  if (const auto fault = limit.take(bytes))
+    return failure(ErrorKind::bad_input, fmt::format("{}:{}: {}", name, fault->line, fault->what));
   // Fetches nothing and expands no entities: only the file itself is read. Long attributes are
   // allowed where there are no entities, because the option also lifts the limit of their growth.
-  const bool entities = bytes.find("<!ENTITY") != std::string_view::npos;
+  const bool entities = limit.wide() || bytes.find("<!ENTITY") != std::string_view::npos;
   const XmlDocument document(
       xmlReadMemory(bytes.data(), static_cast<int>(bytes.size()), nullptr, nullptr,
                     XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING |

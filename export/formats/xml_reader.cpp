@@ -115,6 +115,7 @@ Result<void> XmlReader::read(std::string_view piece) { return parse(piece, false
 Result<void> XmlReader::finish() { return parse({}, true); }
 
 Result<void> XmlReader::parse(std::string_view piece, bool last) {
+  if (const auto fault = limit_.take(piece)) fail_at(fault->line, fault->what);
   if (!fault_) {
     xmlParserCtxtPtr const context = parser_->context;
     (void)xmlParseChunk(context, piece.data(), static_cast<int>(piece.size()), last ? 1 : 0);
@@ -130,9 +131,13 @@ Result<void> XmlReader::parse(std::string_view piece, bool last) {
 }
 
 void XmlReader::fail(std::string_view what) {
-  if (fault_) return;
   xmlParserCtxtPtr const context = parser_->context;
   const int line = context->input == nullptr ? 0 : context->input->line;
+  fail_at(static_cast<std::size_t>(line), what);
+}
+
+void XmlReader::fail_at(std::size_t line, std::string_view what) {
+  if (fault_) return;
   fault_ =
       Error{ErrorKind::bad_input,
             std::string(name_).append(":").append(std::to_string(line)).append(": ").append(what)};

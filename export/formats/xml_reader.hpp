@@ -1,8 +1,9 @@
 #pragma once
 // Reads XML by events, piece by piece, by libxml2: no document in memory, no network, no document
-// types and so no entities of the file's own.
+// types and so no entities of the file's own, and a limit on the attributes of a tag.
 
 #include "claystack/core/result.hpp"
+#include "core/xml_attributes.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -47,16 +48,19 @@ class XmlReader {
   Result<void> read(std::string_view piece);
   /// After the last byte.
   Result<void> finish();
-  /// An error "NAME:LINE: WHAT"; the first one counts. Events stop at once. The parser stops at the
-  /// end of the piece: to stop it earlier frees the text that the caller may still use.
+  /// An error "NAME:LINE: WHAT", with the line that is read; the first one counts. Events stop at
+  /// once. The parser stops at the end of the piece: to stop it earlier frees the text that the
+  /// caller may still use.
   void fail(std::string_view what);
 
  private:
   struct Parser;
   Result<void> parse(std::string_view piece, bool last);
+  void fail_at(std::size_t line, std::string_view what);
 
   Events& events_;
   std::string_view name_;
+  XmlAttributeLimit limit_;
   std::unique_ptr<Parser> parser_;
   std::optional<Error> fault_;
 };

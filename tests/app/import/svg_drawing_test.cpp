@@ -218,6 +218,54 @@ TEST(SvgDrawing, ReplacesEntitiesOnceOnly) {
                 HasSubstr("pot.svg"));
 }
 
+/// A text in ASCII as UTF-16.
+std::string wide(const std::string& text, bool high_first) {
+  std::string bytes = high_first ? "\xFE\xFF" : "\xFF\xFE";
+  for (const char c : text)
+    for (const bool high : {high_first, !high_first}) bytes += high ? '\0' : c;
+  return bytes;
+}
+
+// libxml2 compares each attribute with all others of its tag: 930 KB of them took half a minute.
+TEST(SvgDrawing, RefusesTooManyAttributesOfATagInAdvance) {
+  const auto with = [](int count) {
+    std::string path = "<!-- don't --><path";
+    for (int i = 0; i < count; ++i) path += "\n data-" + std::to_string(i) + "='a=\"b>c='";
+    return page(path + " d='M 0 0 H 96 V 96 H 0 Z'/>");
+  };
+  const std::string because = "expected at most 1000 attributes of one tag, found more";
+  EXPECT_TRUE(read_drawing(with(999), "pot.svg")) << refusal_of(read_drawing(with(999), "pot.svg"));
+  EXPECT_THAT(refusal_of(read_drawing(with(1000), "pot.svg")),
+              HasSubstr("pot.svg:1001: " + because));
+  // Faults before the tag do not hide it.
+  for (const char* before : {"<g b'c>", "<g b='<", "<!DOCTYPE g [<!ENTITY e '<!--'>]>", "<!-- '"})
+    EXPECT_THAT(refusal_of(read_drawing(before + with(1000), "pot.svg")), HasSubstr(because))
+        << before;
+  for (const bool high_first : {false, true}) {
+    EXPECT_TRUE(read_drawing(wide(with(999), high_first), "pot.svg")) << high_first;
+    EXPECT_THAT(refusal_of(read_drawing(wide(with(1000), high_first), "pot.svg")),
+                HasSubstr("pot.svg:1001: " + because))
+        << high_first;
+  }
+}
+
+TEST(SvgDrawing, RefusesEncodingsThatHideTags) {
+  const std::string drawing = page("<path d='M 0 0 H 96 V 96 H 0 Z'/>");
+  const auto declared = [&](const std::string& encoding) {
+    return "<?xml version='1.0' encoding = \"" + encoding + "\"?>" + drawing;
+  };
+  for (const char* encoding : {"UTF-8", "utf-8", "ISO-8859-1", "windows-1252", "US-ASCII"})
+    EXPECT_TRUE(read_drawing(declared(encoding), "pot.svg")) << encoding;
+  for (const char* encoding : {"UTF-7", "ISO-2022-JP", "UTF-16LE", "IBM037"})
+    EXPECT_THAT(refusal_of(read_drawing(declared(encoding), "pot.svg")),
+                HasSubstr("pot.svg:1: expected the encoding UTF-8 or UTF-16, found "))
+        << encoding;
+  for (const char* encoding : {"UTF-16", "utf-16le"})
+    EXPECT_TRUE(read_drawing(wide(declared(encoding), false), "pot.svg")) << encoding;
+  EXPECT_THAT(refusal_of(read_drawing(wide(declared("UTF-16BE"), false), "pot.svg")),
+              HasSubstr("expected the encoding UTF-8 or UTF-16, found 'utf-16be'"));
+}
+
 TEST(SvgDrawing, ReadsLongAttributes) {
   std::string points = "0,0 ";
   for (int i = 0; i < 400'000; ++i)

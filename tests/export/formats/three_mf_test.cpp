@@ -135,6 +135,24 @@ TEST(ThreeMf, WritesAnObjectForEachBody) {
   EXPECT_NEAR(signed_volume(read), (2.0 - 0.001) * 1000.0 / 6.0, 1e-6);
 }
 
+TEST(ThreeMf, NumbersThePointsOfEachBodyByThemselves) {
+  // Points of two bodies in turn, and one that both use.
+  const auto corner = [](std::size_t body, std::size_t i) {
+    return tetrahedron().points[i] + glm::dvec3(0.0, 10.0 * static_cast<double>(body), 0.0);
+  };
+  const TriangleMesh mesh{
+      .points = {corner(0, 0), corner(1, 1), corner(0, 1), corner(0, 2), corner(1, 2), corner(0, 3),
+                 corner(1, 3)},
+      .triangles = {
+          {0, 3, 2}, {0, 2, 5}, {2, 3, 5}, {0, 5, 3}, {3, 4, 1}, {3, 1, 6}, {1, 4, 6}, {3, 6, 4}}};
+  const TriangleMesh expected{
+      .points = {corner(0, 0), corner(0, 1), corner(0, 2), corner(0, 3), corner(1, 1), corner(1, 0),
+                 corner(1, 2), corner(1, 3)},
+      .triangles = {
+          {0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}, {5, 6, 4}, {5, 4, 7}, {4, 6, 7}, {5, 7, 6}}};
+  EXPECT_EQ(read_model_part(encode_3mf_model(mesh, {}).xml), expected);
+}
+
 TEST(ThreeMf, WritesTheWallMapAsColoursOfCorners) {
   const std::vector<float> walls{0.0F, 5.0F, 10.0F, 40.0F};
   const std::string xml =
@@ -270,6 +288,33 @@ TEST(ThreeMf, RefusesPackagesWithoutAModel) {
         return ZipPackage::open(zip, "z").map([](const ZipPackage&) {});
       }),
       ErrorKind::bad_input, "found twice"));
+}
+
+TEST(ThreeMf, RefusesARelationshipWhoseIdIsTwiceInTheList) {
+  const auto with = [](const std::string& ids) {
+    std::string more;
+    for (const char id : ids)
+      more.append("<Relationship Id=\"").append(1, id).append("\" Target=\"/x\" Type=\"urn:x\"/>");
+    return package_of(kModel, changed(kRelationsPart, "</Rel", more + "</Rel"));
+  };
+  EXPECT_EQ(decode_3mf(with("abcd"), "p").value(), tetrahedron());
+  for (const char* ids : {"abca", "abcdr"})  // the model's own is r
+    EXPECT_TRUE(refused(decode_3mf(with(ids), "p"), ErrorKind::bad_input,
+                        "expected each Id once, found one twice"))
+        << ids;
+}
+
+TEST(ThreeMf, RefusesTooManyAttributesOfATagInAdvance) {
+  const auto with = [](int count) {
+    std::string vertex = "<vertex";
+    for (int i = 0; i < count; ++i) vertex += "\n x:a" + std::to_string(i) + "='=\">='";
+    return changed(kModel, "<vertex", vertex);
+  };
+  EXPECT_EQ(decode_3mf_model(with(997), "m").value(), tetrahedron());  // and x, y, z
+  EXPECT_TRUE(refused(decode_3mf_model(with(998), "m"), ErrorKind::bad_input,
+                      "m:999: expected at most 1000 attributes of one tag, found more"));
+  EXPECT_TRUE(refused(decode_3mf(package_of(with(998)), "p"), ErrorKind::bad_input,
+                      "expected at most 1000 attributes of one tag, found more"));
 }
 
 TEST(ThreeMf, IsCancelledWhileItsModelIsRead) {
