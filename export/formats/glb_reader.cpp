@@ -16,6 +16,7 @@
 #include <glm/vec4.hpp>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace clay::solid::inline formats {
@@ -129,10 +130,9 @@ class GlbReader {
   /// Every node has one parent: a second visit is a cycle or a fault.
   void visit(std::size_t index, const glm::dmat4& outer, std::size_t depth) {
     const Json& node = object_at(json_, "nodes", index);
-    if (depth > kMaxNodeDepth || visited_.contains(index))
+    if (depth > kMaxNodeDepth || !visited_.insert(index).second)
       throw BadGlb("expected a tree of nodes at most 32 deep, found node " + std::to_string(index) +
                    " twice or deeper");
-    visited_[index] = true;
     const glm::dmat4 matrix = outer * matrix_of(node);
     if (node.contains("mesh")) {
       const std::size_t mesh = count_in(node, "mesh");
@@ -437,7 +437,7 @@ class GlbReader {
   std::size_t morphed_ = 0, skinned_ = 0, instanced_ = 0;
   std::size_t without_surface_ = 0;  ///< primitives of points or lines
   std::map<std::size_t, TriangleMesh> meshes_;
-  std::map<std::size_t, bool> visited_;
+  std::set<std::size_t> visited_;  ///< nodes
   std::map<std::size_t, std::string> unpacked_;  ///< views by number
   std::size_t unpacked_bytes_ = 0;
   std::vector<std::pair<std::size_t, glm::dmat4>> placed_;

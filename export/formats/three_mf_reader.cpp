@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <functional>
 #include <string>
-#include <vector>
+#include <unordered_set>
 
 namespace clay::solid::inline formats {
 namespace {
@@ -56,12 +56,11 @@ bool ends_like(std::string_view path, std::string_view ending) {
 /// The path of the start part, which must be one model of the type that the package states.
 Result<std::string> model_path(const ZipPackage& package, std::string_view name) {
   std::string path;
-  std::vector<std::string> ids;
+  std::unordered_set<std::string> ids;
   auto found = each_element(package, kRelationsPath, name,
                             [&](XmlReader& reader, const XmlElement& element) {
                               if (element.name != "Relationship") return;
-                              ids.emplace_back(element.value_of("Id").value_or(""));
-                              if (std::ranges::count(ids, ids.back()) > 1)
+                              if (!ids.emplace(element.value_of("Id").value_or("")).second)
                                 return reader.fail("expected each Id once, found one twice");
                               if (element.value_of("Type") != kModelRelation) return;
                               if (!path.empty())

@@ -16,6 +16,7 @@
 #include <numeric>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace clay::solid::inline formats {
@@ -24,7 +25,7 @@ namespace {
 using namespace three_mf;
 
 constexpr std::size_t kColourSteps = 64;
-constexpr std::uint32_t kUnused = 0xFFFFFFFF;  ///< a point that no triangle of the object uses
+constexpr std::uint32_t kUnused = 0xFFFFFFFF;  ///< a point of no triangle of the object
 constexpr std::string_view kDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 
 /// For attributes and text.
@@ -69,7 +70,10 @@ class ElementText {
 class ModelWriter {
  public:
   ModelWriter(const TriangleMesh& mesh, const FileContents& contents)
-      : mesh_(mesh), contents_(contents), name_(escaped(contents.name)) {}
+      : mesh_(mesh),
+        contents_(contents),
+        name_(escaped(contents.name)),
+        number_(mesh.points.size(), kUnused) {}
 
   ModelPart write() {
     text_.reserve(48 * mesh_.points.size() + 44 * mesh_.triangles.size() + 4096);
@@ -165,35 +169,42 @@ class ModelWriter {
                   const std::vector<std::uint32_t>& triangles) {
     begin_object(id, name, coloured());
     sizes_.push_back(triangles.size());
-    const std::vector<std::uint32_t> number = numbers_of(triangles);
+    const std::vector<std::uint32_t> points = points_of(triangles);
+    for (std::uint32_t i = 0; i < points.size(); ++i) number_[points[i]] = i;
     std::string list;
-    for_each_part(2, [&](std::size_t part) {
-      if (part == 0)
-        list = triangle_list(triangles, number);
-      else
-        add_vertices(number);
-    });
+    // A thread takes longer to begin than a small list.
+    constexpr std::size_t kFew = 1000;
+    if (triangles.size() < kFew) {
+      add_vertices(points);
+      list = triangle_list(triangles);
+    } else {
+      for_each_part(2, [&](std::size_t part) {
+        if (part == 0)
+          list = triangle_list(triangles);
+        else
+          add_vertices(points);
+      });
+    }
     text_.append(list).append("</mesh>\n</object>\n");
+    for (const std::uint32_t point : points) number_[point] = kUnused;
   }
 
-  /// The number in the object of each point that the triangles use.
-  [[nodiscard]] std::vector<std::uint32_t> numbers_of(
-      const std::vector<std::uint32_t>& triangles) const {
-    std::vector<std::uint32_t> number(mesh_.points.size(), kUnused);
+  /// The points that the triangles use, in their order in the mesh. Visits no others: a mesh may
+  /// have as many bodies as points. Until their numbers are set, the points are marked by 0.
+  [[nodiscard]] std::vector<std::uint32_t> points_of(const std::vector<std::uint32_t>& triangles) {
+    std::vector<std::uint32_t> points;
     for (const std::uint32_t t : triangles)
-      for (const std::uint32_t point : mesh_.triangles[t]) number[point] = 0;
-    std::uint32_t next = 0;
-    for (std::uint32_t& n : number)
-      if (n != kUnused) n = next++;
-    return number;
+      for (const std::uint32_t point : mesh_.triangles[t])
+        if (std::exchange(number_[point], 0) == kUnused) points.push_back(point);
+    std::ranges::sort(points);
+    return points;
   }
 
-  void add_vertices(const std::vector<std::uint32_t>& number) {
+  void add_vertices(const std::vector<std::uint32_t>& points) {
     text_ += "<mesh>\n<vertices>\n";
     ElementText element;
-    for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
+    for (const std::uint32_t i : points) {
       step_of_loop();
-      if (number[i] == kUnused) continue;
       const glm::vec3 point = file_point(mesh_.points[i]);
       element.add("<vertex x=\"");
       element.add(point.x);
@@ -207,8 +218,7 @@ class ModelWriter {
     text_ += "</vertices>\n";
   }
 
-  [[nodiscard]] std::string triangle_list(const std::vector<std::uint32_t>& triangles,
-                                          const std::vector<std::uint32_t>& number) const {
+  [[nodiscard]] std::string triangle_list(const std::vector<std::uint32_t>& triangles) const {
     constexpr std::size_t kPlainBytes = 44, kColourBytes = 30;
     std::string list;
     list.reserve((kPlainBytes + (coloured() ? kColourBytes : 0)) * triangles.size() + 64);
@@ -218,11 +228,11 @@ class ModelWriter {
       step_of_loop();
       const auto& [a, b, c] = mesh_.triangles[t];
       element.add("<triangle v1=\"");
-      element.add(number[a]);
+      element.add(number_[a]);
       element.add("\" v2=\"");
-      element.add(number[b]);
+      element.add(number_[b]);
       element.add("\" v3=\"");
-      element.add(number[c]);
+      element.add(number_[c]);
       if (coloured()) add_corner_colours(element, mesh_.triangles[t]);
       element.add("\"/>\n");
       element.move_to(list);
@@ -247,6 +257,7 @@ class ModelWriter {
   const FileContents& contents_;
   std::string name_, text_, colour_id_;
   std::vector<std::size_t> sizes_;
+  std::vector<std::uint32_t> number_;  ///< of each point in the object that is written
 };
 
 std::string types_xml() {
