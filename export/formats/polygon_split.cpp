@@ -68,9 +68,10 @@ bool is_fan(const std::vector<FlatPoint>& p) {
 
 class PolygonTriangulation {
  public:
+  /// `ends`: of the outlines in the list of corners.
   PolygonTriangulation(const std::vector<std::uint32_t>& corners,
-                       const std::vector<FlatPoint>& flat)
-      : corners_(corners), flat_(flat) {}
+                       const std::vector<FlatPoint>& flat, const std::vector<std::size_t>& ends)
+      : corners_(corners), flat_(flat), ends_(ends) {}
 
   std::optional<Triangles> run() {
     if (!insert_corners() || !insert_edges()) return std::nullopt;
@@ -80,7 +81,8 @@ class PolygonTriangulation {
       if (face->info() == Side::inside)
         inside.push_back(
             {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
-    if (inside.size() != corners_.size() - 2) return std::nullopt;
+    const std::size_t holes = ends_.size() - 1;
+    if (inside.size() != corners_.size() + 2 * holes - 2) return std::nullopt;
     // An order of its own: that of the library is not documented.
     for (auto& t : inside) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     std::ranges::sort(inside);
@@ -113,17 +115,21 @@ class PolygonTriangulation {
 
   /// Returns false if edges cross, or pass through corners.
   bool insert_edges() try {
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    std::vector<std::pair<Triangulation::Vertex_handle, Triangulation::Vertex_handle>> ways;
+    for (std::size_t begin = 0; const std::size_t end : ends_) {
+      for (std::size_t i = begin; i < end; ++i)
+        ways.emplace_back(vertices_[i], vertices_[i + 1 < end ? i + 1 : begin]);
+      begin = end;
+    }
+    for (const auto& [from, to] : ways) {
       step_of_loop();
-      const auto from = vertices_[i], to = vertices_[(i + 1) % vertices_.size()];
       if (from == to) return false;
       made_.insert_constraint(from, to);
       edges_.push_back(edge_between(from->info(), to->info()));
     }
     std::ranges::sort(edges_);
-    for (std::size_t i = 0; i < vertices_.size(); ++i)
-      if (!made_.is_edge(vertices_[i], vertices_[(i + 1) % vertices_.size()])) return false;
-    return true;
+    return std::ranges::all_of(
+        ways, [&](const auto& way) { return made_.is_edge(way.first, way.second); });
   } catch (const Triangulation::Intersection_of_constraints_exception&) {
     return false;
   }
@@ -157,6 +163,7 @@ class PolygonTriangulation {
 
   const std::vector<std::uint32_t>& corners_;
   const std::vector<FlatPoint>& flat_;
+  const std::vector<std::size_t>& ends_;
   Triangulation made_;
   std::vector<Triangulation::Vertex_handle> vertices_;  ///< by corner
   std::vector<Edge> edges_;
@@ -169,9 +176,17 @@ bool split_polygon(const std::vector<std::uint32_t>& corners, const std::vector<
   if (area == glm::dvec3(0.0)) return false;
   const std::vector<FlatPoint> flat = seen_along(area, points);
   if (is_fan(flat)) return true;
-  const auto made = PolygonTriangulation(corners, flat).run();
+  const std::vector<std::size_t> ends{corners.size()};
+  const auto made = PolygonTriangulation(corners, flat, ends).run();
   if (made) std::ranges::copy(*made, triangles.begin());
   return made.has_value();
+}
+
+std::vector<std::array<std::uint32_t, 3>> split_around_holes(
+    const std::vector<std::uint32_t>& corners, const std::vector<glm::dvec3>& points,
+    const std::vector<std::size_t>& ends, const glm::dvec3& area) {
+  if (area == glm::dvec3(0.0)) return {};
+  return PolygonTriangulation(corners, seen_along(area, points), ends).run().value_or(Triangles());
 }
 
 }  // namespace clay::solid::inline formats

@@ -3,11 +3,14 @@
 #include "core/cancel.hpp"
 #include "export/formats/polygon_split.hpp"
 
+#include <CGAL/box_intersection_d.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <numeric>
 #include <utility>
 
 namespace clay::solid::inline repair {
@@ -44,47 +47,27 @@ bool encloses(const Border& border, const glm::dvec3& place) {
   return inside;
 }
 
+/// A border as one that may lie around others.
+struct Outer {
+  glm::dvec3 low{0.0}, high{0.0};  ///< of its box, with the tolerance of its plane [mm]
+  double size_mm = 0.0;
+  bool level = false;  ///< it lies in one plane
+};
+
+Outer outer_of(const Border& border) {
+  const double tolerance_mm = plane_tolerance_mm(border);
+  const bool encloses_area = border.area != glm::dvec3(0.0);
+  return {border.low - tolerance_mm, border.high + tolerance_mm, size_of(border),
+          encloses_area && in_plane_of(border, border)};
+}
+
+/// Of borders whose boxes lie in one another, the outer one in one plane.
 bool is_ring(const Border& outer, const Border& inner) {
   const double area = glm::length(outer.area), hole = glm::length(inner.area);
   constexpr double kParallel = 0.999;
   if (!(hole > 0.0) || hole >= area) return false;
   if (glm::dot(outer.area, inner.area) > -kParallel * area * hole) return false;
-  const double tolerance_mm = plane_tolerance_mm(outer);
-  for (int axis = 0; axis < 3; ++axis)
-    if (inner.low[axis] < outer.low[axis] - tolerance_mm ||
-        inner.high[axis] > outer.high[axis] + tolerance_mm)
-      return false;
-  return in_plane_of(outer, outer) && in_plane_of(outer, inner) &&
-         encloses(outer, inner.points.front());
-}
-
-/// A closed line through vertices.
-struct Outline {
-  std::vector<std::uint32_t> vertices;
-  std::vector<glm::dvec3> points;
-};
-
-/// Goes along the shortest way to the inner border, around it, and back.
-void join(Outline& outline, const Border& inner) {
-  std::size_t from = 0, to = 0;
-  double nearest = INFINITY;
-  for (std::size_t i = 0; i < outline.points.size(); ++i)
-    for (std::size_t j = 0; j < inner.points.size(); ++j)
-      if (const glm::dvec3 way = inner.points[j] - outline.points[i];
-          glm::dot(way, way) < nearest) {
-        nearest = glm::dot(way, way);
-        from = i;
-        to = j;
-      }
-  const auto joined = [&](auto line, auto round) {
-    std::rotate(round.begin(), round.begin() + static_cast<std::ptrdiff_t>(to), round.end());
-    round.push_back(round.front());
-    round.push_back(line[from]);
-    line.insert(line.begin() + static_cast<std::ptrdiff_t>(from) + 1, round.begin(), round.end());
-    return line;
-  };
-  outline.vertices = joined(std::move(outline.vertices), inner.vertices);
-  outline.points = joined(std::move(outline.points), inner.points);
+  return in_plane_of(outer, inner) && encloses(outer, inner.points.front());
 }
 
 /// Adds triangles beside those that are there, so that no vertex becomes non-manifold meanwhile.
@@ -148,25 +131,48 @@ double width_of(const Border& border) {
 }
 
 std::vector<std::size_t> borders_around(const std::vector<Border>& borders) {
-  std::vector<std::size_t> around(borders.size());
+  using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+  const auto box = [](const glm::dvec3& low, const glm::dvec3& high, std::size_t i) {
+    return Box(CGAL::Bbox_3(low.x, low.y, low.z, high.x, high.y, high.z), i);
+  };
+  std::vector<Outer> outer;
+  std::vector<Box> inner_boxes, outer_boxes;
   for (std::size_t i = 0; i < borders.size(); ++i) {
     stop_if_cancelled();
-    around[i] = i;
-    for (std::size_t j = 0; j < borders.size(); ++j)
-      if (j != i && is_ring(borders[j], borders[i]) &&
-          (around[i] == i || size_of(borders[j]) < size_of(borders[around[i]])))
-        around[i] = j;
+    outer.push_back(outer_of(borders[i]));
+    inner_boxes.push_back(box(borders[i].low, borders[i].low, i));  // a corner, to meet fewer
+    if (outer[i].level) outer_boxes.push_back(box(outer[i].low, outer[i].high, i));
   }
+  std::vector<std::size_t> around(borders.size());
+  std::iota(around.begin(), around.end(), std::size_t{0});
+  const auto before = [&](std::size_t i, std::size_t j) {
+    return std::pair(outer[i].size_mm, i) < std::pair(outer[j].size_mm, j);
+  };
+  CGAL::box_intersection_d(
+      inner_boxes.begin(), inner_boxes.end(), outer_boxes.begin(), outer_boxes.end(),
+      [&](const Box& inside, const Box& outside) {
+        step_of_loop();
+        const std::size_t i = inside.info(), j = outside.info();
+        if (i == j || !glm::all(glm::lessThanEqual(outer[j].low, borders[i].low)) ||
+            !glm::all(glm::greaterThanEqual(outer[j].high, borders[i].high)))
+          return;
+        if ((around[i] == i || before(j, around[i])) && is_ring(borders[j], borders[i]))
+          around[i] = j;
+      });
   return around;
 }
 
 std::vector<Surface::Face_index> fill_ring(Surface& surface, const Border& outer,
                                            const std::vector<const Border*>& inner) {
-  Outline outline{outer.vertices, outer.points};
-  for (const Border* border : inner) join(outline, *border);
-  std::vector<std::array<std::uint32_t, 3>> triangles(outline.vertices.size() - 2);
-  if (!formats::split_polygon(outline.vertices, outline.points, outer.area, triangles)) return {};
-  return add_faces(surface, std::move(triangles));
+  std::vector<std::uint32_t> vertices = outer.vertices;
+  std::vector<glm::dvec3> points = outer.points;
+  std::vector<std::size_t> ends{vertices.size()};
+  for (const Border* border : inner) {
+    vertices.insert(vertices.end(), border->vertices.begin(), border->vertices.end());
+    points.insert(points.end(), border->points.begin(), border->points.end());
+    ends.push_back(vertices.size());
+  }
+  return add_faces(surface, formats::split_around_holes(vertices, points, ends, outer.area));
 }
 
 }  // namespace clay::solid::inline repair

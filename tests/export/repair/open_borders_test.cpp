@@ -3,11 +3,13 @@
 #include "claystack/export/proof.hpp"
 #include "claystack/export/repair.hpp"
 #include "export/formats/file_floats.hpp"
+#include "export/repair/border_rings.hpp"
 #include "export/solid/mesh_topology.hpp"
 #include "tests/export/repair/repair_counts.hpp"
 #include "tests/export/solid/shapes.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -229,6 +231,87 @@ TEST(OpenBorders, TwoWallsOfAPipeAreJoinedByRingsOnRequest) {
     EXPECT_EQ(capped->holes.size(), 2U);
     EXPECT_EQ(check_mesh(capped->mesh).components, 1U);
     EXPECT_NEAR(signed_volume(capped->mesh), signed_volume(pipe), 1e-4 * signed_volume(pipe));
+  }
+}
+
+/// The walls of a block of 100 x 100 x 40 mm with square tunnels of 10 mm through it, around
+/// (middle, middle); without top and bottom.
+TriangleMesh walls_of_block(const std::vector<double>& middles) {
+  TriangleMesh mesh;
+  const auto add = [&](double from, double to, bool inward) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const double z : {0.0, 40.0})
+      for (const auto& [x, y] :
+           {std::pair(from, from), std::pair(to, from), std::pair(to, to), std::pair(from, to)})
+        mesh.points.emplace_back(x, y, z);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      std::uint32_t a = first + i, b = first + (i + 1) % 4;
+      if (inward) std::swap(a, b);
+      mesh.triangles.push_back({a, b, b + 4});
+      mesh.triangles.push_back({a, b + 4, a + 4});
+    }
+  };
+  add(0.0, 100.0, false);
+  for (const double middle : middles) add(middle - 5.0, middle + 5.0, true);
+  return mesh;
+}
+
+TEST(OpenBorders, ARingWithSeveralHolesIsFilledInAnyOrderOfThem) {
+  // The straight way from a corner of the block to the middle tunnel crosses another tunnel.
+  std::vector<double> middles{30.0, 50.0, 70.0};
+  do {
+    const auto capped = repair_mesh(walls_of_block(middles), {.cap_openings = true});
+    ASSERT_TRUE(capped) << capped.error().message;
+    EXPECT_EQ(times(*capped, "hole filled"), 2U) << middles[0] << " " << middles[1];
+    EXPECT_EQ(capped->repaired.size(), 1U);
+    ASSERT_EQ(capped->holes.size(), 2U);
+    for (const FilledHole& hole : capped->holes) {
+      EXPECT_EQ(hole.edges, 16U);
+      EXPECT_EQ(hole.area_mm2, 100.0 * 100.0 - 3.0 * 10.0 * 10.0);
+    }
+    EXPECT_TRUE(check_mesh(capped->mesh).sound());
+    EXPECT_EQ(signed_volume(capped->mesh), (100.0 * 100.0 - 3.0 * 10.0 * 10.0) * 40.0);
+  } while (std::ranges::next_permutation(middles).found);
+}
+
+/// A square hole around (x, y) at a height, in either turn.
+Border square(double x, double y, double z, double half, bool turned) {
+  Border border;
+  border.points = {{x - half, y - half, z},
+                   {x + half, y - half, z},
+                   {x + half, y + half, z},
+                   {x - half, y + half, z}};
+  if (turned) std::ranges::reverse(border.points);
+  border.low = {x - half, y - half, z};
+  border.high = {x + half, y + half, z};
+  border.area.z = (turned ? -4.0 : 4.0) * half * half;
+  return border;
+}
+
+RC_GTEST_PROP(OpenBorders, ABorderLiesInTheSmallestOppositeOneAroundIt, ()) {
+  std::vector<Border> borders;
+  const int count = *rc::gen::inRange(1, 60);
+  double half = 0.0;
+  for (int i = 0; i < count; ++i) {
+    // Two of each size, without rounding; sides of others lie beside each other.
+    if (i % 2 == 0) half = *rc::gen::inRange(1, 9) + i / 128.0;
+    borders.push_back(square(*rc::gen::inRange(-9, 9), *rc::gen::inRange(-9, 9),
+                             *rc::gen::inRange(0, 2), half, *rc::gen::arbitrary<bool>()));
+  }
+  const std::vector<std::size_t> around = borders_around(borders);
+  RC_ASSERT(around.size() == borders.size());
+  for (std::size_t i = 0; i < borders.size(); ++i) {
+    const Border& inner = borders[i];
+    std::size_t wanted = i;
+    for (std::size_t j = 0; j < borders.size(); ++j) {
+      const Border& outer = borders[j];
+      const bool is_around = outer.low.z == inner.low.z && outer.area.z * inner.area.z < 0.0 &&
+                             outer.low.x < inner.low.x && outer.low.y < inner.low.y &&
+                             outer.high.x > inner.high.x && outer.high.y > inner.high.y;
+      if (is_around && (wanted == i || std::abs(outer.area.z) < std::abs(borders[wanted].area.z)))
+        wanted = j;
+    }
+    RC_ASSERT(around[i] == wanted);
   }
 }
 
