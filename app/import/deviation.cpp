@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
@@ -64,18 +65,71 @@ class Levels {
       for (std::size_t row = row_at(std::min(s.from.y, s.to.y));
            row <= row_at(std::max(s.from.y, s.to.y)); ++row)
         rows_[row].push_back(&s);
+    boxes_.resize(2 * rows_.size() - 1);
+    set_box({0, 0, rows_.size()});
   }
 
   [[nodiscard]] Nearest nearest(glm::dvec2 p) const {
-    Nearest best;
-    const std::size_t start = row_at(p.y);
-    for (std::size_t i = start; i < rows_.size() && bottom(i) - p.y < best.mm; ++i)
-      search(i, p, best);
-    for (std::size_t i = start; i > 0 && p.y - bottom(i) < best.mm; --i) search(i - 1, p, best);
-    return best;
+    Search search{p, row_at(p.y), {}, 0};
+    const auto above = [&](std::size_t i) {
+      return i < rows_.size() && bottom(i) - p.y < search.best.mm;
+    };
+    const auto below = [&](std::size_t i) { return i > 0 && p.y - bottom(i) < search.best.mm; };
+    // Most points are near the outline. For those far from it, the rows are too many.
+    constexpr std::size_t kBeside = 16;
+    std::size_t up = search.start, down = search.start;
+    for (; up < search.start + kBeside && above(up); ++up) search_row(up, search);
+    for (; down + kBeside > search.start && below(down); --down) search_row(down - 1, search);
+    if (above(up) || below(down)) search_rows({0, 0, rows_.size()}, search);
+    return search.best;
   }
 
  private:
+  /// Rows above each other. They are halved down to single ones: in `boxes_`, the lower half
+  /// follows the whole, and the upper half follows all parts of the lower one.
+  struct Rows {
+    std::size_t number = 0, first = 0, count = 0;
+
+    [[nodiscard]] std::size_t half() const { return count / 2; }
+    [[nodiscard]] Rows lower() const { return {number + 1, first, half()}; }
+    [[nodiscard]] Rows upper() const {
+      return {number + 2 * half(), first + half(), count - half()};
+    }
+  };
+
+  struct Box {
+    glm::dvec2 low{1e300}, high{-1e300};
+
+    [[nodiscard]] double distance_from(glm::dvec2 p) const {
+      return glm::length(glm::max(glm::max(low - p, p - high), glm::dvec2(0.0)));
+    }
+  };
+
+  struct Search {
+    glm::dvec2 p{0.0};
+    std::size_t start = 0;  ///< the row of p
+    Nearest best;
+    std::size_t rank = 0;  ///< of the row of `best`
+  };
+
+  Box set_box(const Rows& rows) {
+    Box box;
+    if (rows.count > 1) {
+      const Box lower = set_box(rows.lower()), upper = set_box(rows.upper());
+      box = {glm::min(lower.low, upper.low), glm::max(lower.high, upper.high)};
+    } else {
+      for (const Segment* s : rows_[rows.first]) {
+        box.low = glm::min(box.low, glm::min(s->from, s->to));
+        box.high = glm::max(box.high, glm::max(s->from, s->to));
+      }
+      // The rest of a segment is in other rows.
+      const double margin_mm = 1e-6 * row_mm_;
+      box.low.y = std::max(box.low.y, bottom(rows.first) - margin_mm);
+      box.high.y = std::min(box.high.y, bottom(rows.first + 1) + margin_mm);
+    }
+    return boxes_[rows.number] = box;
+  }
+
   [[nodiscard]] double bottom(std::size_t row) const {
     return low_ + static_cast<double>(row) * row_mm_;
   }
@@ -83,13 +137,35 @@ class Levels {
     const double row = std::clamp((y - low_) / row_mm_, 0.0, static_cast<double>(rows_.size() - 1));
     return static_cast<std::size_t>(row);
   }
-  void search(std::size_t row, glm::dvec2 p, Nearest& best) const {
-    for (const Segment* s : rows_[row])
-      if (const double mm = distance(*s, p); mm < best.mm) best = {mm, s};
+
+  /// Of segments at one distance, the nearest is that of the first row from `start` upward, then
+  /// downward.
+  void search_row(std::size_t row, Search& search) const {
+    const std::size_t rank =
+        row >= search.start ? row - search.start : rows_.size() + search.start - row;
+    for (const Segment* s : rows_[row]) {
+      const double mm = distance(*s, search.p);
+      if (mm > search.best.mm || (mm == search.best.mm && rank >= search.rank)) continue;
+      search.best = {mm, s};
+      search.rank = rank;
+    }
+  }
+
+  void search_rows(const Rows& rows, Search& search) const {
+    if (rows.count == 1) return search_row(rows.first, search);
+    constexpr double kRoundingMm = 1e-9;
+    std::array parts{rows.lower(), rows.upper()};
+    std::array<double, 2> away_mm{};
+    for (std::size_t i = 0; i < 2; ++i)
+      away_mm[i] = boxes_[parts[i].number].distance_from(search.p) - kRoundingMm;
+    const std::size_t nearer = away_mm[1] < away_mm[0] ? 1 : 0;
+    for (const std::size_t i : {nearer, 1 - nearer})
+      if (away_mm[i] <= search.best.mm) search_rows(parts[i], search);
   }
 
   double low_ = 1e300, high_ = -1e300, row_mm_ = 1.0;
   std::vector<std::vector<const Segment*>> rows_;
+  std::vector<Box> boxes_;  ///< of the parts of the rows
 };
 
 /// A part of an outline, with the nearest segments of the other outline to its ends.

@@ -18,34 +18,69 @@ namespace {
 class BoreRadius {
  public:
   BoreRadius(const std::vector<Slab>& slabs, double wall_mm) : slabs_(slabs), wall_mm_(wall_mm) {
-    for (std::size_t i = 0; i < slabs.size(); i += kBlock) {
-      double least = 1e300;
-      for (const Slab& slab : std::span(slabs).subspan(i).first(std::min(kBlock, slabs.size() - i)))
-        least = std::min({least, slab.outer_from_mm, slab.outer_to_mm});
-      least_mm_.push_back(least);
-    }
+    if (slabs.empty()) return;
+    least_mm_.resize(2 * slabs.size() - 1);
+    note_least({0, slabs});
   }
 
   [[nodiscard]] double operator()(double height_mm) const {
-    const auto ends_below = [](const Slab& slab, double z) { return slab.to_mm <= z; };
-    const auto first =
-        std::lower_bound(slabs_.begin(), slabs_.end(), height_mm - wall_mm_, ends_below);
-    double radius = 1e300;
-    for (auto i = static_cast<std::size_t>(first - slabs_.begin());
-         i < slabs_.size() && slabs_[i].from_mm < height_mm + wall_mm_;) {
-      // No slab of the block can lower the radius.
-      if (i % kBlock == 0 && least_mm_[i / kBlock] - wall_mm_ >= radius) {
-        i += kBlock;
-        continue;
-      }
-      radius = std::min(radius, beside(slabs_[i], height_mm));
-      ++i;
-    }
+    double radius = kOpen;
+    if (!slabs_.empty()) lower(radius, height_mm, {0, slabs_});
     return radius;
   }
 
  private:
-  static constexpr std::size_t kBlock = 64;
+  static constexpr double kOpen = 1e300;  ///< no slab limits the bore
+
+  /// Slabs beside each other. They are halved down to single ones: in `least_mm_`, the first half
+  /// follows the whole, and the second half follows all parts of the first.
+  struct Part {
+    std::size_t number = 0;
+    std::span<const Slab> slabs;
+
+    [[nodiscard]] bool single() const { return slabs.size() == 1; }
+    [[nodiscard]] std::size_t half() const { return slabs.size() / 2; }
+    [[nodiscard]] Part first() const { return {number + 1, slabs.first(half())}; }
+    [[nodiscard]] Part second() const { return {number + 2 * half(), slabs.subspan(half())}; }
+  };
+
+  double note_least(const Part& part) {
+    const Slab& slab = part.slabs.front();
+    return least_mm_[part.number] =
+               part.single() ? std::min(slab.outer_from_mm, slab.outer_to_mm)
+                             : std::min(note_least(part.first()), note_least(part.second()));
+  }
+
+  /// Lowers the radius to that which the slabs of a part allow, those first that may allow least.
+  void lower(double& radius, double height_mm, const Part& part) const {
+    if (part.single()) {
+      if (in_reach(part, height_mm)) radius = std::min(radius, beside(part.slabs[0], height_mm));
+      return;
+    }
+    Part one = part.first(), other = part.second();
+    double one_mm = bound_of(one, height_mm), other_mm = bound_of(other, height_mm);
+    if (other_mm < one_mm) {
+      std::swap(one, other);
+      std::swap(one_mm, other_mm);
+    }
+    if (one_mm < radius) lower(radius, height_mm, one);
+    if (other_mm < radius) lower(radius, height_mm, other);
+  }
+
+  [[nodiscard]] bool in_reach(const Part& part, double height_mm) const {
+    return part.slabs.back().to_mm > height_mm - wall_mm_ &&
+           part.slabs.front().from_mm < height_mm + wall_mm_;
+  }
+
+  /// No slab of the part allows less.
+  [[nodiscard]] double bound_of(const Part& part, double height_mm) const {
+    if (!in_reach(part, height_mm)) return kOpen;
+    constexpr double kRoundingMm = 1e-6;  // of `beside`, on slabs that are almost level
+    const double d = std::max(
+        {0.0, part.slabs.front().from_mm - height_mm, height_mm - part.slabs.back().to_mm});
+    return least_mm_[part.number] - std::sqrt(std::max(0.0, wall_mm_ * wall_mm_ - d * d)) -
+           kRoundingMm;
+  }
 
   /// As far as this slab alone allows. Along a straight outside the limit is convex in d, and least
   /// where the disc touches it.
@@ -61,7 +96,7 @@ class BoreRadius {
 
   const std::vector<Slab>& slabs_;
   double wall_mm_;
-  std::vector<double> least_mm_;  ///< radius of each kBlock slabs
+  std::vector<double> least_mm_;  ///< radius of each part
 };
 
 /// A straight piece of the bore's outline. Radii are negative where there is no bore.
@@ -129,6 +164,7 @@ Result<std::vector<BorePiece>> open_bore(const std::vector<BorePiece>& pieces, d
     const double axis_mm = std::lerp(piece.from_mm, piece.to_mm, part);
     if (piece.radius_from_mm < 0.0) piece.from_mm = axis_mm, piece.radius_from_mm = 0.0;
     if (piece.radius_to_mm < 0.0) piece.to_mm = axis_mm, piece.radius_to_mm = 0.0;
+    if (!(piece.from_mm < piece.to_mm)) continue;  // rounded to nothing: it has no slope
     if (!open.empty() && ends_mm < piece.from_mm) return closed_at(ends_mm);
     ends_mm = piece.to_mm;
     open.push_back(piece);

@@ -1,5 +1,6 @@
 #include "app/import/drawn_pot.hpp"
 
+#include "app/import/deviation.hpp"
 #include "tests/app/import/solids.hpp"
 
 #include <fmt/format.h>
@@ -7,7 +8,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 namespace clay::importing {
@@ -148,6 +152,72 @@ TEST(DrawnPot, TheBoreKeepsItsDistanceFromLedges) {
               kPi * (14.0 * 14.0 * 24.0 + circle + 44.0 * 44.0 * 24.0), 1.0);
 }
 
+TEST(DrawnPot, ABoreOfAlmostNoRadiusHasNumbers) {
+  // The bore is 4e-16 mm wide from 13 to about 20 mm: the part of its slope below that is beside
+  // the axis rounds to a single height.
+  const auto section =
+      section_of("2,0\n2,10\n3.0000000000000004,10\n3.0000000000000004,20\n30,40\n", "pot.csv");
+  ASSERT_TRUE(section) << refusal_of(section);
+  const auto hollow = hollowed(*section, 3.0, "pot.csv");
+  ASSERT_TRUE(hollow) << refusal_of(hollow);
+  double height_mm = 0.0;
+  for (const Slab& slab : hollow->slabs) {
+    EXPECT_EQ(slab.from_mm, height_mm);
+    EXPECT_LT(slab.from_mm, slab.to_mm);
+    EXPECT_GE(slab.inner_from_mm, 0.0) << slab.from_mm;
+    EXPECT_GE(slab.inner_to_mm, 0.0) << slab.from_mm;
+    height_mm = slab.to_mm;
+  }
+  EXPECT_EQ(height_mm, 40.0);
+}
+
+/// The radius of the bore at a height, from every straight piece of the outside: the nearest point
+/// of the outside is a wall away. By halving, without the derivative.
+double bore_mm(const HalfSection& section, double wall_mm, double height_mm) {
+  double radius = 1e300;
+  for (const Slab& slab : section.slabs) {
+    const auto limit = [&](double z) {
+      const double d = z - height_mm;
+      const double part = (z - slab.from_mm) / (slab.to_mm - slab.from_mm);
+      return std::lerp(slab.outer_from_mm, slab.outer_to_mm, part) -
+             std::sqrt(std::max(0.0, wall_mm * wall_mm - d * d));
+    };
+    double low = std::max(slab.from_mm, height_mm - wall_mm);
+    double high = std::min(slab.to_mm, height_mm + wall_mm);
+    if (!(low < high)) continue;
+    for (int i = 0; i < 200; ++i) {  // convex
+      const double a = (2.0 * low + high) / 3.0, b = (low + 2.0 * high) / 3.0;
+      if (limit(a) < limit(b))
+        high = b;
+      else
+        low = a;
+    }
+    radius = std::min({radius, limit(low), limit(high)});
+  }
+  return radius;
+}
+
+TEST(DrawnPot, TheBoreKeepsItsDistanceFromManySteps) {
+  // A wave with steps on it; its least radius within reach is often far from the height.
+  std::string csv;
+  constexpr int kSteps = 2000;
+  for (int i = 0; i <= kSteps; ++i)
+    csv += fmt::format("{},{}\n", 60.0 + 15.0 * std::sin(0.011 * i) + 0.05 * (i % 7), 0.1 * i);
+  const auto section = section_of(csv, "pot.csv");
+  ASSERT_TRUE(section) << refusal_of(section);
+  const double wall = 20.0;
+  const auto hollow = hollowed(*section, wall, "pot.csv");
+  ASSERT_TRUE(hollow) << refusal_of(hollow);
+  for (std::size_t i = 0; i < hollow->slabs.size(); i += 97) {
+    const Slab& slab = hollow->slabs[i];
+    const double height = 0.5 * (slab.from_mm + slab.to_mm);
+    if (height < wall) continue;
+    EXPECT_NEAR(0.5 * (slab.inner_from_mm + slab.inner_to_mm), bore_mm(*section, wall, height),
+                kFlatMm)
+        << height;
+  }
+}
+
 RC_GTEST_PROP(DrawnPot, AHollowedWallIsNowhereThinner, ()) {
   std::string csv;
   double height = 0.0;
@@ -163,6 +233,42 @@ RC_GTEST_PROP(DrawnPot, AHollowedWallIsNowhereThinner, ()) {
   const double thinnest = thinnest_wall(*pot).mm;
   RC_ASSERT(thinnest > wall - 2.0 * kFlatMm);
   RC_ASSERT(thinnest < wall + 2.0 * kFlatMm);
+}
+
+/// From a segment, by halving.
+double distance_mm(const Segment& segment, glm::dvec2 p) {
+  double low = 0.0, high = 1.0;
+  const auto at = [&](double part) {
+    return glm::length(glm::mix(segment.from, segment.to, part) - p);
+  };
+  for (int i = 0; i < 100; ++i) {  // convex
+    const double a = (2.0 * low + high) / 3.0, b = (low + 2.0 * high) / 3.0;
+    if (at(a) < at(b))
+      high = b;
+    else
+      low = a;
+  }
+  return at(low);
+}
+
+RC_GTEST_PROP(DrawnPot, TheNearestSegmentIsFoundFromNearAndFar, ()) {
+  std::vector<Segment> outline;
+  glm::dvec2 end{30.0, 0.0};
+  for (int i = *rc::gen::inRange(1, 300); i > 0; --i) {
+    const glm::dvec2 start = end;
+    end += 0.01 * glm::dvec2(*rc::gen::inRange(-300, 300), *rc::gen::inRange(-20, 200));
+    outline.push_back({start, end});
+  }
+  std::vector<glm::dvec2> points;
+  for (int i = 0; i < 20; ++i)
+    points.emplace_back(*rc::gen::inRange(-100, 200), *rc::gen::inRange(-100, 400));
+  const std::vector<double> found = distances_from(outline, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    double wanted = 1e300;
+    for (const Segment& segment : outline)
+      wanted = std::min(wanted, distance_mm(segment, points[i]));
+    RC_ASSERT(std::abs(found[i] - wanted) < 1e-6);
+  }
 }
 
 TEST(DrawnPot, RefusesShapesThatNoStackCanRepresent) {
