@@ -3,6 +3,7 @@
 #include "app/cli/memory_room.hpp"
 #include "app/cli/remedies.hpp"
 #include "claystack/core/atomic_file.hpp"
+#include "claystack/export/mesh_estimate.hpp"
 
 #include <fmt/format.h>
 
@@ -18,10 +19,6 @@ namespace {
 using solid::MeshFormat;
 using solid::TriangleMesh;
 
-/// Of a file that states its triangles at no fixed place.
-constexpr std::uint64_t kUsualBytesPerTriangle = 16;
-/// Of Draco's own structures while it decodes.
-constexpr std::uint64_t kDracoBytesPerTriangle = 130;
 /// A closed mesh has half as many points as triangles.
 constexpr std::uint64_t kMeshBytesPerTriangle =
     sizeof(decltype(TriangleMesh::triangles)::value_type) + sizeof(glm::dvec3) / 2;
@@ -72,12 +69,6 @@ MeshFile MeshFile::of_bytes(std::string name, MeshFormat format, std::string byt
   return file;
 }
 
-Result<std::uint64_t> MeshFile::whole_triangles() const {
-  if (format_ == MeshFormat::drc)
-    return solid::drc_triangles(bytes_, path_).map([](std::size_t n) { return std::uint64_t{n}; });
-  return std::uint64_t{bytes_.size() / kUsualBytesPerTriangle};
-}
-
 Result<TriangleMesh> MeshFile::read(const MeshWork& work, const solid::ReadOptions& options) {
   auto mesh = decoded(work, options).map_error([&](const Error& error) {
     return Error{error.kind, with_options(error.message, path_.size())};
@@ -88,14 +79,12 @@ Result<TriangleMesh> MeshFile::read(const MeshWork& work, const solid::ReadOptio
 }
 
 Result<TriangleMesh> MeshFile::decoded(const MeshWork& work, const solid::ReadOptions& options) {
-  if (!stream_)
-    return whole_triangles()
-        .and_then([&](std::uint64_t triangles) {
-          const std::uint64_t decoding = format_ == MeshFormat::drc ? kDracoBytesPerTriangle : 0;
-          return expect_room_for(triangles, std::max(decoding, work.bytes_per_triangle), work,
-                                 path_);
-        })
+  if (!stream_) {
+    const solid::MeshEstimate mesh = solid::estimate_mesh(bytes_, format_);
+    return expect_room_for(mesh.triangles, std::max(mesh.decoding_bytes, work.bytes_per_triangle),
+                           work, path_)
         .and_then([&] { return solid::decode_mesh(bytes_, format_, path_, options); });
+  }
   const solid::ByteSource source{
       [&](std::span<char> part) { return stream_->read(part); }, *stream_->size(),
       [&](std::uint64_t triangles) {

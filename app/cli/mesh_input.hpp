@@ -45,7 +45,6 @@ class MeshFile {
 
  private:
   MeshFile(std::string path, solid::MeshFormat format) : path_(std::move(path)), format_(format) {}
-  [[nodiscard]] Result<std::uint64_t> whole_triangles() const;
   Result<solid::TriangleMesh> decoded(const MeshWork& work, const solid::ReadOptions& options);
 
   std::string path_;

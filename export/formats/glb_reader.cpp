@@ -6,6 +6,7 @@
 #include "export/formats/glb_json.hpp"
 #include "export/formats/mesh_limits.hpp"
 #include "export/formats/meshopt_view.hpp"
+#include "export/formats/stated_sizes.hpp"
 #include "export/solid/vertex_welder.hpp"
 
 #include <algorithm>
@@ -75,15 +76,35 @@ class GlbReader {
       : chunks_(chunks_of(file)), json_(parsed(chunks_.json)), name_(name), options_(options) {}
 
   Result<TriangleMesh> read() {
-    check_extensions();
-    for (const std::size_t node : first_nodes()) visit(node, glm::dmat4(1.0), 0);
+    place_meshes();
+    for (const auto& [mesh, matrix] : placed_) load(mesh);
     if (auto fits = check_limit(); !fits) return tl::make_unexpected(fits.error());
     for (const auto& [mesh, matrix] : placed_) place(meshes_.at(mesh), matrix);
     note_differences();
     return std::move(mesh_);
   }
 
+  /// By the accessors, and by the headers of Draco's meshes.
+  std::uint64_t stated_triangles() {
+    place_meshes();
+    std::map<std::size_t, std::uint64_t> stated;
+    std::uint64_t triangles = 0;
+    for (const auto& [mesh, matrix] : placed_) {
+      const auto [found, is_new] = stated.try_emplace(mesh);
+      if (is_new)
+        for (const Json& primitive : primitives_of(mesh))
+          found->second += stated_triangles_of(primitive);
+      triangles += found->second;
+    }
+    return triangles;
+  }
+
  private:
+  void place_meshes() {
+    check_extensions();
+    for (const std::size_t node : first_nodes()) visit(node, glm::dmat4(1.0), 0);
+  }
+
   void check_extensions() const {
     const auto required = json_.find("extensionsRequired");
     if (required == json_.end()) return;
@@ -136,7 +157,6 @@ class GlbReader {
     const glm::dmat4 matrix = outer * matrix_of(node);
     if (node.contains("mesh")) {
       const std::size_t mesh = count_in(node, "mesh");
-      load(mesh);
       // By the specification, only the joints of a skin move its mesh.
       const bool skinned = node.contains("skin");
       placed_.emplace_back(mesh, skinned ? glm::dmat4(1.0) : matrix);
@@ -190,12 +210,45 @@ class GlbReader {
   void load(std::size_t index) {
     if (meshes_.contains(index)) return;
     TriangleMesh& mesh = meshes_[index];
-    const Json& json = object_at(json_, "meshes", index);
+    for (const Json& primitive : primitives_of(index)) add_primitive(primitive, mesh);
+  }
+
+  /// Objects.
+  [[nodiscard]] const Json& primitives_of(std::size_t mesh) const {
+    const Json& json = object_at(json_, "meshes", mesh);
     const auto primitives = json.find("primitives");
     if (primitives == json.end() || !primitives->is_array())
       throw BadGlb("primitives: expected a list");
-    for (std::size_t i = 0; i < primitives->size(); ++i)
-      add_primitive(object_at(json, "primitives", i), mesh);
+    for (std::size_t i = 0; i < primitives->size(); ++i) (void)object_at(json, "primitives", i);
+    return *primitives;
+  }
+
+  [[nodiscard]] std::uint64_t stated_triangles_of(const Json& primitive) const {
+    const std::size_t mode = count_in(primitive, "mode", kTriangles);
+    if (mode < kTriangles) return 0;
+    if (const Json* const draco = draco_in(primitive)) {
+      const std::size_t number = count_in(*draco, "bufferView");
+      return drc_triangles(bytes_of(object_at(json_, "bufferViews", number), number), name_)
+          .value_or(0);
+    }
+    const auto attributes = primitive.find("attributes");
+    if (attributes == primitive.end()) return 0;
+    const std::size_t accessor = primitive.contains("indices") ? count_in(primitive, "indices")
+                                                               : count_in(*attributes, "POSITION");
+    const std::size_t corners = count_in(object_at(json_, "accessors", accessor), "count");
+    return std::min(triangles_of(corners, mode), kMaxTriangles + 1);
+  }
+
+  [[nodiscard]] static std::size_t triangles_of(std::size_t corners, std::size_t mode) {
+    return corners < 3 ? 0 : (corners - 3) / (mode == kTriangles ? 3 : 1) + 1;
+  }
+
+  /// The Draco extension of a primitive, or null.
+  [[nodiscard]] static const Json* draco_in(const Json& primitive) {
+    const auto extensions = primitive.find("extensions");
+    if (extensions == primitive.end() || !extensions->is_object()) return nullptr;
+    const auto found = extensions->find(kDraco);
+    return found == extensions->end() ? nullptr : &*found;
   }
 
   /// Counts triangles and points of the file, before they take memory.
@@ -214,9 +267,7 @@ class GlbReader {
     if (attributes == primitive.end() || !attributes->is_object())
       throw BadGlb("attributes: expected an object");
     const auto first = static_cast<std::uint32_t>(mesh.points.size());
-    const auto extensions = primitive.find("extensions");
-    if (extensions != primitive.end() && extensions->is_object() && extensions->contains(kDraco))
-      return add_draco((*extensions)[std::string(kDraco)], mesh);
+    if (const Json* const draco = draco_in(primitive)) return add_draco(*draco, mesh);
     add_points(count_in(*attributes, "POSITION"), mesh.points);
     const auto count = static_cast<std::uint32_t>(mesh.points.size() - first);
     std::vector<std::uint32_t> corners;
@@ -234,7 +285,7 @@ class GlbReader {
     if (mode == kTriangles && c.size() % 3 != 0)
       throw BadGlb("expected 3 corners for each triangle, found " + std::to_string(c.size()));
     const std::size_t step = mode == kTriangles ? 3 : 1;
-    expect_room(0, c.size() < 3 ? 0 : (c.size() - 3) / step + 1);
+    expect_room(0, triangles_of(c.size(), mode));
     for (std::size_t i = 0; i + 2 < c.size(); i += step) {
       step_of_loop();
       const std::size_t odd = mode == kTriangleStrip ? i % 2 : 0;
@@ -437,7 +488,7 @@ class GlbReader {
   std::size_t morphed_ = 0, skinned_ = 0, instanced_ = 0;
   std::size_t without_surface_ = 0;  ///< primitives of points or lines
   std::map<std::size_t, TriangleMesh> meshes_;
-  std::set<std::size_t> visited_;  ///< nodes
+  std::set<std::size_t> visited_;                ///< nodes
   std::map<std::size_t, std::string> unpacked_;  ///< views by number
   std::size_t unpacked_bytes_ = 0;
   std::vector<std::pair<std::size_t, glm::dmat4>> placed_;
@@ -461,6 +512,16 @@ Result<TriangleMesh> decode_glb(std::string_view bytes, std::string_view name,
       }
     });
   });
+}
+
+std::uint64_t glb_triangles(std::string_view bytes) {
+  return check_file_size(bytes, {})
+      .and_then([&] {
+        return guarded({}, [&]() -> Result<std::uint64_t> {
+          return GlbReader(bytes, {}, {}).stated_triangles();
+        });
+      })
+      .value_or(0);
 }
 
 }  // namespace clay::solid::inline formats

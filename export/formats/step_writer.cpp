@@ -48,7 +48,8 @@ class StepData {
     std::string entity;
     (entity.append(parts), ...);
     const auto [known, is_new] = numbers_.try_emplace(entity, numbers_.size() + 1);
-    Ref ref = "#" + std::to_string(known->second);
+    Ref ref("#");  // in two steps: GCC 12 gives a false warning for a sum of both
+    ref.append(std::to_string(known->second));
     if (is_new) text_.append(ref).append("=").append(entity).append(";\n");
     return ref;
   }

@@ -1,6 +1,7 @@
 #include "claystack/export/formats.hpp"
 #include "core/base64.hpp"
 #include "export/formats/mesh_limits.hpp"
+#include "export/formats/stated_sizes.hpp"
 #include "export/formats/three_mf.hpp"
 #include "export/formats/three_mf_check.hpp"
 #include "export/formats/three_mf_model.hpp"
@@ -152,6 +153,14 @@ Result<TriangleMesh> decode_3mf_model(std::string_view xml, std::string_view nam
       });
     });
   });
+}
+
+std::uint64_t bytes_of_model_in_3mf(std::string_view bytes) {
+  return with_model(bytes, {},
+                    [](const ZipPackage& package, const std::string& path) {
+                      return Result<std::uint64_t>(package.bytes_of(path));
+                    })
+      .value_or(0);
 }
 
 Result<PackedParts> parts_in_3mf(std::string_view bytes, std::string_view name) {

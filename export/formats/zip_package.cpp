@@ -179,6 +179,11 @@ Result<ZipPackage> ZipPackage::open(std::string_view bytes, std::string_view nam
 
 bool ZipPackage::has(std::string_view path) const { return state_->entries.contains(key_of(path)); }
 
+std::uint64_t ZipPackage::bytes_of(std::string_view path) const {
+  const auto found = state_->entries.find(key_of(path));
+  return found == state_->entries.end() ? 0 : found->second.bytes;
+}
+
 Result<void> ZipPackage::read(std::string_view path,
                               const std::function<Result<void>(std::string_view)>& take) const {
   const auto found = state_->entries.find(key_of(path));

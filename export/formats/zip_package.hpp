@@ -36,6 +36,8 @@ class ZipPackage {
 
   /// Ignores case and a leading slash.
   [[nodiscard]] bool has(std::string_view path) const;
+  /// The size of the entry after unpacking, as the archive states it; 0 if there is none.
+  [[nodiscard]] std::uint64_t bytes_of(std::string_view path) const;
   /// Unpacks piece by piece; `take` gets each piece, and an error that it returns ends the reading.
   /// A checksum that does not match is an error.
   Result<void> read(std::string_view path,

@@ -5,6 +5,7 @@
 #include "claystack/export/formats.hpp"
 #include "claystack/export/job.hpp"
 #include "claystack/export/maker.hpp"
+#include "claystack/export/mesh_estimate.hpp"
 #include "claystack/export/option_ranges.hpp"
 #include "claystack/export/proof.hpp"
 #include "claystack/export/repair.hpp"
