@@ -68,7 +68,7 @@ TEST(WrongKind, NamesKindFromContents) {
       {"empty.glb", "", "expected a GLB file, found an empty file"},
       {"empty.off", "", "expected an OFF file, found an empty file"},
       {"empty.ply", "", "expected a PLY file, found an empty file"},
-      {"empty.drc", "", "expected a Draco file, which begins with DRACO"}};
+      {"empty.drc", "", "expected a Draco file, found an empty file"}};
   for (const auto& [name, bytes, message] : cases) {
     const std::string path = folder.file(name), out = folder.file("out.stl");
     write_text(path, bytes);
