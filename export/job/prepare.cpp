@@ -24,11 +24,13 @@ Ring times(const Ring& ring, double factor) {
   return larger;
 }
 
-/// The crown keeps its fraction of a ring, however that ring was rounded.
+/// The crown keeps its fraction of a ring, however that ring was rounded. It exceeds a ring where
+/// the stack has no room for another.
 WideQuanta crown_of(const ClayStack& stack, const Ring& larger_top) {
-  const double part =
-      static_cast<double>(stack.crown()) / static_cast<double>(stack.rings().back().volume());
-  return std::min(times(larger_top.volume(), part), larger_top.volume() - 1);
+  const Quanta top = stack.rings().back().volume(), larger = larger_top.volume();
+  const double part = static_cast<double>(stack.crown()) / static_cast<double>(top);
+  const auto crown = static_cast<WideQuanta>(std::nearbyint(part * static_cast<double>(larger)));
+  return stack.crown() < top ? std::min(crown, static_cast<WideQuanta>(larger) - 1) : crown;
 }
 
 /// Number of rings below the bottom of the uppermost closed cavity; 0 if there is none.

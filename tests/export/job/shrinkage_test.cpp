@@ -46,6 +46,29 @@ RC_GTEST_PROP(Shrinkage, OfAnyStackEveryRadiusGrowsAlike, ()) {
   }
 }
 
+/// Where the stack has no room for more rings, the crown is as high as many of them.
+TEST(Shrinkage, AHighCrownGrowsByTheCube) {
+  Pot pot = pot_of(shapes::vase(20));
+  const ClayStack& stack = pot.stack;
+  for (const double rings : {0.4, 1.0, 7.3}) {
+    const auto crown =
+        static_cast<WideQuanta>(rings * static_cast<double>(stack.rings().back().volume()));
+    Pot crowned = pot_of(ClayStack::from_rings(stack.ring_height_mm(),
+                                               {stack.rings().begin(), stack.rings().end()}, crown,
+                                               stack.size())
+                             .value());
+    for (const double shrinkage : {0.001, 0.1, 0.5}) {
+      const auto larger = enlarged(crowned, shrinkage);
+      ASSERT_TRUE(larger) << larger.error().message;
+      const double factor = 1.0 / (1.0 - shrinkage);
+      EXPECT_NEAR(larger->stack.height_mm() / crowned.stack.height_mm(), factor, 1e-9) << rings;
+      EXPECT_NEAR(larger->stack.volume_mm3() / crowned.stack.volume_mm3(), std::pow(factor, 3),
+                  1e-9)
+          << rings;
+    }
+  }
+}
+
 TEST(Shrinkage, ZeroKeepsThePot) {
   const Pot pot = pot_of(shapes::vase(50));
   EXPECT_EQ(enlarged(pot, 0.0).value(), pot);
