@@ -122,16 +122,29 @@ double revolved_area(const ProfilePoint& a, const ProfilePoint& b) noexcept {
   return std::numbers::pi * (a.rho + b.rho) * std::hypot(b.rho - a.rho, b.y - a.y);
 }
 
+/// Calls edge(a, b) for the edges of the outer chain of a piece: around the whole polygon or from
+/// axis to axis. The other chains bound closed cavities.
+void along_outside(const Polygon& piece, auto edge) {
+  const auto widest = std::ranges::max_element(piece, {}, &ProfilePoint::rho) - piece.begin();
+  const std::size_t n = piece.size(), start = static_cast<std::size_t>(widest);
+  std::size_t i = start;
+  do {
+    edge(piece[i], piece[(i + 1) % n]);
+    i = (i + 1) % n;
+  } while (i != start && piece[i].rho > 0.0);
+  if (i == start) return;
+  for (i = start; piece[i].rho > 0.0; i = (i + n - 1) % n) edge(piece[(i + n - 1) % n], piece[i]);
+}
+
 /// The surfaces that glaze may cover.
 void measure_surface(const Profile& profile, PotState& pot) noexcept {
   constexpr double kPerCm2 = 1e-2;
   const double foot = foot_level(profile);
   double all = 0.0, inside = 0.0;
   for (const Polygon& piece : profile.pieces)
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      const ProfilePoint &a = piece[i], &b = piece[i + 1 == piece.size() ? 0 : i + 1];
+    along_outside(piece, [&](const ProfilePoint& a, const ProfilePoint& b) {
       if (a.y > foot || b.y > foot) all += revolved_area(a, b);
-    }
+    });
   const Polygon& top = profile.pieces.back();
   const bool floor =
       along_bore(top, brim_of(top), [&](const ProfilePoint& low, const ProfilePoint& high) {

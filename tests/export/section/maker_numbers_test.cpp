@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -77,6 +78,27 @@ TEST(MakerNumbers, OfACylinder) {
   const double full = (clay_g * centre + room * 33.0) / (clay_g + room);
   EXPECT_NEAR(numbers.full->centre_mm, full, 1e-9);
   EXPECT_NEAR(numbers.full->tipping_deg, std::atan(40.0 / full) * kPerRadian, 1e-9);
+}
+
+/// No glaze reaches a closed cavity: here one in a double floor.
+TEST(MakerNumbers, LeaveOutTheSurfaceOfAClosedCavity) {
+  const Polygon vessel{{0, 0},  {50, 0}, {50, 100}, {46, 100}, {46, 40},
+                       {0, 40}, {0, 34}, {44, 34},  {44, 6},   {0, 6}};
+  const double wall = 2.0 * kHalfTurn * 50.0 * 100.0;
+  const double rim = kHalfTurn * (50.0 * 50.0 - 46.0 * 46.0);
+  const double inside = 2.0 * kHalfTurn * 46.0 * 60.0 + kHalfTurn * 46.0 * 46.0;
+  // A polygon may begin anywhere.
+  for (std::size_t begin = 0; begin < vessel.size(); ++begin) {
+    Polygon piece = vessel;
+    std::rotate(piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(begin), piece.end());
+    const MakerNumbers numbers = maker_numbers({{piece}}, {});
+    EXPECT_NEAR(numbers.thrown.inside_cm2, 1e-2 * inside, 1e-9) << begin;
+    EXPECT_NEAR(numbers.thrown.outside_cm2, 1e-2 * (wall + rim), 1e-9) << begin;
+  }
+  // A hollow disc, closed on all sides.
+  const Polygon disc{{0, 0}, {30, 0}, {30, 20}, {0, 20}, {0, 15}, {25, 15}, {25, 5}, {0, 5}};
+  EXPECT_NEAR(maker_numbers({{disc}}, {}).thrown.outside_cm2,
+              1e-2 * (2.0 * kHalfTurn * 30.0 * 20.0 + kHalfTurn * 30.0 * 30.0), 1e-9);
 }
 
 TEST(MakerNumbers, OfAConeBelowItsFillLine) {
