@@ -22,6 +22,18 @@ namespace {
 using solid::MeshFormat;
 using solid::TriangleMesh;
 
+/// Few triangles may intersect where many do not. A repair writes nothing then.
+Result<void> expect_sound(const TriangleMesh& decimated, std::size_t most) {
+  return report_on(decimated).and_then([&](const solid::MeshReport& report) -> Result<void> {
+    if (report.sound()) return {};
+    const solid::MeshProblem& first = report.problems.front();
+    return failure(ErrorKind::unsound,
+                   fmt::format("--max-triangles {}: expected a sound mesh, found {} ({}) in the "
+                               "decimated one; another number of triangles may do",
+                               most, first.what, first.count));
+  });
+}
+
 /// Repairs and decimates if requested. `found` is the report on the mesh.
 Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const solid::MeshReport& found,
                                    const CheckCommand& command, RepairSummary& summary,
@@ -49,6 +61,9 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const solid::MeshReport& f
     if (!decimated) return tl::make_unexpected(decimated.error());
     summary.decimation_error_mm = decimated->max_error_mm;
     mesh = std::move(decimated->mesh);
+    if (command.repair)
+      if (auto sound = expect_sound(mesh, *command.max_triangles); !sound)
+        return tl::make_unexpected(sound.error());
   }
   return mesh;
 }

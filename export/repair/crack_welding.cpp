@@ -68,15 +68,20 @@ OpenBorder open_border(const TriangleMesh& mesh, std::optional<double> weld_mm) 
     border.edges.push_back(edges[0]);
     border.points[edges[0].low] = border.points[edges[0].high] = true;
   });
-  double shortest_mm = INFINITY;  // of the edges of triangles at the border
+  std::vector<double> lengths_mm;  // of the edges of triangles at the border
   for (const SoupEdge& edge : border.edges) {
     const Triangle& t = mesh.triangles[edge.triangle];
     for (std::size_t c = 0; c < 3; ++c) {
       const double length = glm::distance(mesh.points[t.at(c)], mesh.points[t.at((c + 1) % 3)]);
-      if (length > border.rounding_mm) shortest_mm = std::min(shortest_mm, length);
+      if (length > border.rounding_mm) lengths_mm.push_back(length);
     }
   }
-  if (std::isinf(shortest_mm)) return border;
+  if (lengths_mm.empty()) return border;
+  // The shortest one, but for slivers: a few of them do not make the cracks of a large mesh finer.
+  constexpr std::ptrdiff_t kEdgesPerSliver = 50;
+  const auto shortest = lengths_mm.begin() + std::ssize(lengths_mm) / kEdgesPerSliver;
+  std::ranges::nth_element(lengths_mm, shortest);
+  const double shortest_mm = *shortest;
   const double size_mm = glm::length(extent_of(mesh).size());
   border.crack_mm =
       std::max(border.rounding_mm, weld_mm.value_or(std::min(0.25 * shortest_mm, 1e-3 * size_mm)));

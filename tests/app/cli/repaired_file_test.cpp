@@ -131,6 +131,24 @@ TEST_F(RepairedFile, DecimatesAfterRepair) {
   EXPECT_LT(run.json().at("decimated").at("max_error_mm"), 2.0);
 }
 
+/// Two overlapping cups become one body. With few triangles its walls would intersect.
+TEST_F(RepairedFile, WritesNothingIfDecimationMakesTheResultUnsound) {
+  const std::string pot = folder.file("t.pot.json"), cup = folder.file("t.stl");
+  ASSERT_EQ(claystack("import -q " + sample("drawings/tumbler.csv") + " --wall 6 -o " + pot).status,
+            0);
+  ASSERT_EQ(claystack("export -q " + pot + " " + cup).status, 0);
+  const auto mesh = solid::decode_mesh(read_text(cup), solid::MeshFormat::stl_binary, "t.stl");
+  ASSERT_TRUE(mesh);
+  const std::string in = write("two.stl", together(*mesh, moved(*mesh, {10.0, 0.0, 0.0})));
+  const std::string out = folder.file("out.stl");
+  const Ran run = claystack("check --repair " + in + " --max-triangles 200 -o " + out);
+  EXPECT_EQ(run.status, 1) << run.out;
+  EXPECT_NE(run.err.find("--max-triangles 200: expected a sound mesh, found self-intersection"),
+            std::string::npos)
+      << run.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 /// Of a mesh with one spike through a wall, the repaired STL has all facets away from it, with the
 /// same 50 bytes and in the same order.
 TEST_F(RepairedFile, KeepsTheBytesOfFacetsAwayFromAnIntersection) {

@@ -36,7 +36,8 @@ struct SurfaceChange {
 
 struct RepairOptions {
   /// Border points within this distance become one. Unset: a quarter of the shortest edge at a
-  /// border, at most a thousandth of the size of the mesh.
+  /// border (of the shortest 2 % the longest: slivers do not count), at most a thousandth of the
+  /// size of the mesh.
   std::optional<double> weld_mm = std::nullopt;
   /// Close wide openings by caps instead of refusing them.
   bool cap_openings = false;
