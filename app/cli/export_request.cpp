@@ -68,9 +68,10 @@ struct FileOption {
   bool (*fits)(const FileRequest&);
 };
 
+/// Options of the facets of a mesh.
+constexpr std::array kFacetOptions{"--segments", "--max-triangles", "--verify"};
 /// Options of the solid that do not change a copy of the pot.
-constexpr std::array kSolidOptions{"--segments", "--max-triangles", "--verify",
-                                   "--measure-left-out"};
+constexpr std::array kSolidOptions{"--measure-left-out"};
 /// Options of the section, by which a goal scales the pot.
 constexpr std::array kSectionOptions{"--tolerance",  "--smooth", "--smooth-length",
                                      "--lip-fillet", "--drain",  "--pieces"};
@@ -81,6 +82,8 @@ constexpr std::array kFiringOptions{"--drying-shrinkage", "--water", "--ignition
 /// The options of the solid and the section that need a file other than a copy of the pot.
 std::vector<FileOption> made_options(const ExportCommand& command) {
   std::vector<FileOption> options;
+  for (const char* name : kFacetOptions)
+    options.push_back({command.given(name), name, "a mesh", is_mesh});
   const auto add = [&](const char* name) {
     options.push_back({command.given(name), name, "a mesh or its section", is_made});
   };
@@ -102,8 +105,10 @@ Result<void> check_pairs(const ExportCommand& command) {
     return refuse(
         fmt::format("--drying-shrinkage: expected at most --shrinkage, {:g}%, found {:g}%",
                     100.0 * options.shrinkage, 100.0 * drying));
-  if (command.goal.fired && command.has_goal() && options.shrinkage == 0.0)
-    return tl::make_unexpected(no_effect_without("--fired", "--shrinkage"));
+  const bool finished = options.shrinkage > 0.0 || command.glaze_mm > 0.0;
+  if (command.goal.fired && command.has_goal() && !finished)
+    return tl::make_unexpected(
+        no_effect_without("--fired", "--shrinkage above 0% or --glaze-allowance"));
   return {};
 }
 

@@ -61,8 +61,8 @@ Result<void> check_aims(const std::vector<Aim>& aims, const Goal& goal,
     return wrong(
         "goal: expected one figure, or a height or diameter with one other: capacity, weight, "
         "height or diameter");
-  if (goal.fired && options.shrinkage == 0.0)
-    return wrong("goal of the fired pot: expected a shrinkage, found none");
+  if (goal.fired && options.shrinkage == 0.0 && options.finish.glaze_mm == 0.0)
+    return wrong("goal of the fired pot: expected a shrinkage or a glaze allowance, found neither");
   return {};
 }
 
@@ -114,7 +114,7 @@ class GoalSearch {
   [[nodiscard]] const PotState& state(const ExportReport& report) const {
     const MakerNumbers& numbers = *report.maker;
     if (!goal_.fired) return numbers.thrown;
-    return numbers.glazed ? *numbers.glazed : *numbers.fired;
+    return numbers.glazed ? *numbers.glazed : numbers.in_use();
   }
 
   [[nodiscard]] bool close(const ExportReport& report) const {

@@ -85,13 +85,39 @@ TEST_F(ExportOptions, RefusesOptionsOfTheSolidForCopiesOfThePot) {
     for (const std::string& more : {std::string(), " --report " + report}) {
       const Ran nothing = claystack("export " + pot + " " + copy + " " + option + more);
       EXPECT_EQ(nothing.status, 2) << option;
-      EXPECT_NE(nothing.err.find(": expected a mesh or its section among the files to write"),
-                std::string::npos)
-          << nothing.err;
+      EXPECT_NE(nothing.err.find(": expected a mesh"), std::string::npos) << nothing.err;
+      EXPECT_NE(nothing.err.find(" among the files to write"), std::string::npos) << nothing.err;
       EXPECT_FALSE(std::filesystem::exists(copy)) << option;
     }
   }
   EXPECT_EQ(claystack("export " + pot + " " + copy).status, 0);
+}
+
+TEST_F(ExportOptions, RefusesOptionsOfFacetsForFilesWithoutFacets) {
+  for (const char* name : {"section.svg", "solid.step", "walls.csv"}) {
+    const std::string file = folder.file(name);
+    for (const char* option : {"--segments 12", "--max-triangles 1000", "--verify full"}) {
+      const Ran refused = claystack("export " + pot + " " + file + " " + option);
+      EXPECT_EQ(refused.status, 2) << option;
+      EXPECT_NE(refused.err.find(": expected a mesh among the files to write, found none"),
+                std::string::npos)
+          << refused.err;
+      EXPECT_FALSE(std::filesystem::exists(file));
+    }
+  }
+  EXPECT_EQ(run("--segments 12 " + folder.file("solid.step")).status, 0);
+}
+
+TEST_F(ExportOptions, AGlazeAloneFinishesAPot) {
+  // The glazed pot holds what is asked for, with and without a shrinkage that is almost none.
+  for (const char* shrinkage : {"", " --shrinkage 0.0001%"}) {
+    const Ran scaled =
+        run("--json --holds 100ml --fired --glaze-allowance 0.5" + std::string(shrinkage));
+    ASSERT_EQ(scaled.status, 0) << scaled.err;
+    const auto maker = scaled.json().at("maker");
+    EXPECT_NEAR(maker.at("glazed").at("capacity_ml"), 100.0, 1e-3) << shrinkage;
+    EXPECT_GT(maker.at("thrown").at("capacity_ml"), 100.5) << shrinkage;
+  }
 }
 
 TEST_F(ExportOptions, WritesNothingIfOneFileCannotBeWritten) {
@@ -109,7 +135,8 @@ TEST_F(ExportOptions, ErrorsOfTheRequestNameTheOptionAndNotThePot) {
                   "claystack: --drying-shrinkage: expected at most --shrinkage, 12%, found 13%"),
         {"--smooth none --smooth-length 9",
          "claystack: --smooth-length: expected --smooth fair, found none"},
-        {"--fired --height 100", "claystack: --fired: expected --shrinkage too"},
+        {"--fired --height 100",
+         "claystack: --fired: expected --shrinkage above 0% or --glaze-allowance too"},
         {"--height 120 --diameter 60 --holds 350ml", "claystack: goal: expected one figure"}}) {
     const Ran refused = run(options);
     EXPECT_EQ(refused.status, 2) << options;

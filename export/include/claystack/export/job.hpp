@@ -52,8 +52,8 @@ struct Goal {
   std::optional<double> height_mm;
   std::optional<double> diameter_mm;
   bool to_fill_line = false;  ///< `holds_ml` up to the fill line of the options
-  bool fired = false;         ///< all are of the finished pot: fired, which requires a shrinkage,
-                              ///< and glazed, if the options have an allowance for that
+  bool fired = false;         ///< all are of the finished pot: fired and glazed. Requires a
+                              ///< shrinkage or a glaze allowance
 };
 
 /// A goal that a pot was scaled to.
