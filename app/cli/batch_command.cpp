@@ -10,6 +10,7 @@
 #include "core/json/object_reader.hpp"
 #include "core/line_reader.hpp"
 #include "core/number_parsing.hpp"
+#include "core/system_calls.hpp"
 #include "core/text.hpp"
 
 #include <fcntl.h>
@@ -130,10 +131,11 @@ class ResultFile {
       if (flush_out()) return {};
       return failure(ErrorKind::io, "standard output: could not write");
     }
-    const auto written = ::write(descriptor_, line.data(), line.size());
-    if (written == static_cast<ssize_t>(line.size())) return {};
-    if (written >= 0) errno = ENOSPC;
-    return io_failure("cannot write");
+    const auto size = ::lseek(descriptor_, 0, SEEK_END);
+    if (write_all(descriptor_, line)) return {};
+    const auto failed = io_failure("cannot write");
+    if (size >= 0) (void)::ftruncate(descriptor_, size);  // if it fails, the next batch removes it
+    return failed;
   }
 
  private:
@@ -200,7 +202,9 @@ Json result_json(const BatchJob& job, const BatchOutcome& outcome) {
     json["error"] = fmt::format("signal {} ended it", outcome.status - 128);
   else if (outcome.status != kDone && !outcome.err.empty())
     json["error"] = first_line(outcome.err);  // a check that fails has its reasons in the output
-  if (Json printed = Json::parse(outcome.out, nullptr, false); !printed.is_discarded())
+  if (outcome.cut)
+    json["error"] = fmt::format("its output exceeds {} MiB and is left out", kMostOutput >> 20);
+  else if (Json printed = Json::parse(outcome.out, nullptr, false); !printed.is_discarded())
     json["output"] = std::move(printed);
   return json;
 }
@@ -235,6 +239,7 @@ Result<int> batch(BatchOptions options, const Console& console) {
   const auto ran =
       run_batch(runs, {options.processes, std::chrono::duration<double>(options.time_limit_s)},
                 [&](const BatchOutcome& outcome) {
+                  if (!written) return false;  // its job runs again with the next batch
                   failed += outcome.status != kDone;
                   written = results->add(result_json((*jobs)[outcome.job], outcome));
                   progress.update(++ended);

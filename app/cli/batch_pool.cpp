@@ -20,7 +20,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostOutput = std::size_t{1} << 20;
 constexpr int kPollMs = 50;
 
 tl::unexpected<Error> system_failure(const char* what) {
@@ -33,7 +32,9 @@ class Output {
  public:
   explicit Output(int descriptor) : descriptor_(descriptor) {}
   Output(Output&& other) noexcept
-      : descriptor_(std::exchange(other.descriptor_, -1)), text_(std::move(other.text_)) {}
+      : descriptor_(std::exchange(other.descriptor_, -1)),
+        text_(std::move(other.text_)),
+        cut_(other.cut_) {}
   Output& operator=(Output&&) = delete;
   ~Output() {
     if (descriptor_ != -1) ::close(descriptor_);
@@ -45,16 +46,19 @@ class Output {
     for (;;) {
       const auto count = ::read(descriptor_, part.data(), part.size());
       if (count <= 0) return;
-      text_.append(part.data(),
-                   std::min(static_cast<std::size_t>(count), kMostOutput - text_.size()));
+      const auto kept = std::min(static_cast<std::size_t>(count), kMostOutput - text_.size());
+      text_.append(part.data(), kept);
+      cut_ |= kept < static_cast<std::size_t>(count);
     }
   }
   [[nodiscard]] pollfd polled() const { return {descriptor_, POLLIN, 0}; }
   [[nodiscard]] std::string take() { return std::move(text_); }
+  [[nodiscard]] bool cut() const { return cut_; }
 
  private:
   int descriptor_;
   std::string text_;
+  bool cut_ = false;
 };
 
 struct Running {
@@ -121,6 +125,7 @@ std::optional<BatchOutcome> outcome_of(Running& running) {
                        WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status),
                        running.timed_out,
                        seconds_since(running.begin),
+                       running.out.cut(),
                        {},
                        {}};
   outcome.out = running.out.take();

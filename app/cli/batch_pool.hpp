@@ -12,6 +12,9 @@
 
 namespace clay::cli {
 
+/// Of the text that a process prints, more is dropped [bytes].
+inline constexpr std::size_t kMostOutput = std::size_t{4} << 20;
+
 struct BatchJob {
   std::string id;
   std::vector<std::string> words;  ///< the arguments of claystack: "export", "bowl.pot.json", ...
@@ -22,7 +25,8 @@ struct BatchOutcome {
   int status = -1;      ///< exit status; 128 + signal if one ended the process
   bool timed_out = false;
   double seconds = 0.0;
-  std::string out, err;  ///< what it printed: the first megabyte of each
+  bool cut = false;      ///< it printed more than `out` holds
+  std::string out, err;  ///< what it printed, the first kMostOutput bytes of each
 };
 
 struct BatchPool {

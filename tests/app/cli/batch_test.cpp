@@ -133,6 +133,49 @@ TEST_F(Batch, ResumesFromResultsThatDoNotFitInMemory) {
   EXPECT_TRUE(resumed.out.ends_with(": 1\n")) << resumed.out;
 }
 
+TEST_F(Batch, LeavesWholeLinesWhenAResultCannotBeWritten) {
+  std::vector<nlohmann::json> jobs;
+  for (int i = 0; i < 6; ++i)
+    jobs.push_back(job(std::to_string(i), {"plan", sample("cylinder.scene.json")}));
+  write_jobs(jobs);
+  const std::string results = folder.file("results.jsonl");
+  ASSERT_EQ(run("-q -o " + results).status, 0);
+  const std::string all = read_text(results);
+  std::filesystem::remove(results);
+  // Blocks of 512 bytes; one and a half results fit.
+  const std::size_t blocks = all.size() / 6 * 3 / 2 / 512;
+  const Ran full =
+      shell("ulimit -f " + std::to_string(blocks) + "; " CLAYSTACK_PROGRAM " batch -j 2 -o " +
+            results + " " + folder.file("jobs.jsonl"));
+  EXPECT_EQ(full.status, 3) << full.out << full.err;
+  EXPECT_EQ(full.out, "");
+  const std::string kept = read_text(results);
+  EXPECT_EQ(results_in(kept).size(), 1u) << kept;
+  EXPECT_TRUE(kept.ends_with('\n')) << kept;
+  const Ran again = run("-o " + results);
+  EXPECT_EQ(again.out, "6 jobs: 6 done, 0 failed; skipped, with a result in " + results + ": 1\n");
+}
+
+/// The report on a repair lists every hole: here that of each of many bodies.
+TEST_F(Batch, NamesAnOutputThatIsTooLongForAResult) {
+  const auto vertex = [](int x, int y, int z) {
+    return "vertex " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+  };
+  std::string mesh = "solid many\n";
+  for (int x = 0; x < 2 * 28'000; x += 2) {
+    const std::string a = vertex(x, 0, 0), b = vertex(x + 1, 0, 0), c = vertex(x, 1, 0),
+                      d = vertex(x, 0, 1);
+    for (const std::string& facet : {a + c + b, a + b + d, b + c + d})
+      mesh += "facet normal 0 0 1\nouter loop\n" + facet + "endloop\nendfacet\n";
+  }
+  write_text(folder.file("many.stl"), mesh + "endsolid many\n");
+  write_jobs({job("long", {"check", folder.file("many.stl"), "--repair", "--dry-run"})});
+  const auto result = results_in(run("").out).at("long");
+  EXPECT_EQ(result.at("status"), 0);
+  EXPECT_EQ(result.at("error"), "its output exceeds 4 MiB and is left out");
+  EXPECT_FALSE(result.contains("output"));
+}
+
 TEST_F(Batch, RefusesAWrongLineBeforeTheFirstJob) {
   const std::string good = thrown("a.pot.json").dump() + "\n";
   for (const auto& [line, message] :
