@@ -96,13 +96,13 @@ bool wall_table(const std::vector<std::string>& names) {
 std::vector<std::string> csv_fields(std::string_view row) {
   char between = ' ';
   for (const char mark : {';', '\t', ','}) {
-    if (row.find(mark) == std::string_view::npos) continue;
+    if (trimmed(row).find(mark) == std::string_view::npos) continue;
     between = mark;
     break;
   }
+  if (between == ' ') row = trimmed(row);  // other rows may begin or end with an empty field
   std::vector<std::string> fields;
   while (true) {
-    row = trimmed(row);
     const std::size_t end =
         std::min(between == ' ' ? row.find_first_of(" \t") : row.find(between), row.size());
     std::string_view field = trimmed(row.substr(0, end));
@@ -111,6 +111,7 @@ std::vector<std::string> csv_fields(std::string_view row) {
     fields.emplace_back(field);
     if (end == row.size()) return fields;
     row.remove_prefix(end + 1);
+    if (between == ' ') row = trimmed(row);  // several blanks separate like one
   }
 }
 

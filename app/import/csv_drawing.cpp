@@ -29,25 +29,28 @@ class Table {
   Table(const std::string& name, double scale) : name_(name), scale_(scale) {}
 
   Result<void> row(std::string_view text, std::size_t number) {
-    text = trimmed(text.substr(0, text.find('#')));
-    if (text.empty()) {
+    text = text.substr(0, text.find('#'));
+    if (trimmed(text).empty()) {
       open_ = false;
       return {};
     }
-    const std::vector<std::string> fields = csv_fields(text);
-    if (!began_ && !number_of(fields.front())) {
+    std::vector<std::string> fields = csv_fields(text);
+    const auto is_number = [](const std::string& field) { return number_of(field).has_value(); };
+    if (!began_ && std::ranges::none_of(fields, is_number)) {
       began_ = true;
+      shorten(fields, 0);
       const auto columns = csv_columns(fields);
       if (!columns) return refusal(number, columns.error().message);
       columns_ = *columns;
       return {};
     }
     began_ = true;
+    shorten(fields, columns_.count);
     const auto radius = value(fields, columns_.radius), height = value(fields, columns_.height);
     if (fields.size() != columns_.count || !radius || !height)
       return refusal(number, fmt::format("expected a radius and a height in mm, or the columns of "
                                          "the first row, found \"{}\"",
-                                         shown(text)));
+                                         shown(trimmed(text))));
     const auto inner = columns_.inner ? value(fields, *columns_.inner) : std::nullopt;
     if (columns_.inner && !inner)
       return refusal(number, fmt::format("expected an inner radius, found \"{}\"",
@@ -62,6 +65,11 @@ class Table {
   }
 
  private:
+  /// Without the empty fields at its end that exceed the count: some programs end rows with a mark.
+  static void shorten(std::vector<std::string>& fields, std::size_t count) {
+    while (fields.size() > count && fields.back().empty()) fields.pop_back();
+  }
+
   /// Continues the line; returns what is wrong with the point.
   std::string add(double radius, std::optional<double> inner, double height) {
     if (const double least = std::min(radius, inner.value_or(radius)); least < 0.0)

@@ -137,6 +137,14 @@ Result<DrawnPot> drawn_pot(const HalfSection& drawn, const DrawnPotSettings& set
                   ? drawn_rings(*section, levels, *settings.ring_height_mm, name)
                   : fitted_rings(*section, levels, settings.deviation_mm, name);
   if (!made) return tl::make_unexpected(made.error());
+  const auto empty = std::ranges::find(made->rings, Quanta{0}, &Ring::outer2);
+  if (empty != made->rings.end()) {
+    const auto ring = static_cast<double>(empty - made->rings.begin());
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}: expected clay beside the axis at each height, found none at "
+                               "{:g} mm",
+                               name, (ring + 0.5) * made->ring_mm));
+  }
   auto stack = ClayStack::from_rings(made->ring_mm, std::move(made->rings), 0);
   if (!stack)
     return failure(stack.error().kind, fmt::format("{}: {}", name, stack.error().message));

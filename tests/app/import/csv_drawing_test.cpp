@@ -19,6 +19,18 @@ TEST(CsvDrawing, ReadsRadiusAndHeightWithAnySeparator) {
   EXPECT_TRUE(drawing->axis_at_zero);
 }
 
+TEST(CsvDrawing, ReadsTablesWithEmptyCells) {
+  const std::vector<glm::dvec2> expected{{30, 0}, {40, 50}};
+  for (const char* table :
+       {"radius\theight\tnote\n30\t0\t\n40\t50\tthe rim\n",
+        "name\tradius\theight\n\t30\t0\nrim\t40\t50\n", "\tradius\theight\n0\t30\t0\n1\t40\t50\n",
+        "radius;height;\n30;0;\n40;50\n", "30,0,\n40,50,\n"}) {
+    const auto drawing = read_drawing(table, "cup.csv");
+    ASSERT_TRUE(drawing) << table << refusal_of(drawing);
+    EXPECT_EQ(drawing->lines.at(0).points_mm, expected) << table;
+  }
+}
+
 TEST(CsvDrawing, ErrorsNameTheLine) {
   EXPECT_THAT(refusal_of(read_drawing("10,0\n10,x\n", "cup.csv")), HasSubstr("cup.csv:2: "));
   EXPECT_THAT(refusal_of(read_drawing("10,0\n10\n", "cup.csv")), HasSubstr("cup.csv:2: "));
