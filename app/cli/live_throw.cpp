@@ -56,6 +56,7 @@ Result<void> fit_stiffness(SceneSpec& scene, const LiveOptions& options, const C
 struct Stage {
   std::vector<Pose> stroke;  // of the simulated hand
   SceneSpec scene;
+  std::optional<ForceSpec> force;  // of the scene, before it was softened
   std::uint64_t scene_hash = 0;
   std::optional<Wheel> wheel;
   std::optional<AtomicFile> pot_file;
@@ -104,6 +105,13 @@ Result<AtomicFile> open_pot_file(const LiveJob& job, const Pot& pot) {
   return AtomicFile::create(job.pot_path);
 }
 
+/// The pot remembers the force of the scene, not that of one throw.
+Pot thrown_pot(const Stage& stage) {
+  Pot pot = stage.wheel->pot();
+  if (pot.thrown_with == settings_of(stage.scene)) pot.thrown_with->force = stage.force;
+  return pot;
+}
+
 /// Before throwing: an unwritable output found later would lose the pot.
 Result<void> open_pot(const LiveJob& job, Stage& stage) {
   if (job.pot_path.empty()) return {};
@@ -143,6 +151,7 @@ Result<void> build(const LiveJob& job, LiveOptions& options, const Console& cons
     const std::string& file = job.scene_path.empty() ? job.from_path : job.scene_path;
     return failure(error.kind, file + ": " + error.message);
   };
+  stage.force = stage.scene.force;
   if (auto fits = fit_stiffness(stage.scene, options, console); !fits) return named(fits.error());
   start->scene = stage.scene;
   auto wheel = build_wheel(*start);
@@ -312,7 +321,7 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
   // Until pot and session are saved: a closing terminal may send its signal twice.
   std::optional<servo::ForceSignals> signals(std::in_place);
   const Result<Ending> ended = run(stage, options, console);
-  const Pot pot = stage.wheel->pot();
+  const Pot pot = thrown_pot(stage);
   const Kept kept = {keep_session(options, console, stage), keep_pot(job, stage, pot)};
   signals.reset();
 

@@ -67,6 +67,22 @@ TEST(LiveThrow, RunsWithoutHardwareAndReplaysToTheSameBytes) {
   EXPECT_EQ(replayed(folder), read_text(folder.file("a.pot.json")));
 }
 
+/// Each arm gets its own limit; the clay keeps its stiffness.
+TEST(LiveThrow, ASoftenedThrowLeavesTheStiffnessOfThePot) {
+  const ScratchFolder folder;
+  const auto stiffness = [](const std::string& path) {
+    return nlohmann::json::parse(read_text(path)).at("thrown_with").at("force").at("stiffness_n_per_mm2");
+  };
+  const std::string first = folder.file("a.pot.json"), second = folder.file("b.pot.json");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + first).status, 0);
+  const Ran soft = claystack("throw --from " + first +
+                             " --device simulated --seconds 1 --scale 2 --force-gain 1 --record " +
+                             folder.file("s.session") + " -o " + second);
+  ASSERT_EQ(soft.status, 0) << soft.err;
+  EXPECT_NE(soft.err.find("is lowered to"), std::string::npos) << soft.err;
+  EXPECT_EQ(stiffness(second), stiffness(first));
+}
+
 TEST(LiveThrow, KeepsPotAndSessionOnASignal) {
   for (const std::string signal : {"INT", "TERM", "HUP", "PIPE"}) {
     const ScratchFolder folder;
