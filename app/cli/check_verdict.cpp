@@ -11,9 +11,6 @@
 namespace clay::cli {
 namespace {
 
-constexpr std::size_t kCountingStops =
-    100'000;  // the counting limit of self-intersections, see MeshReport
-
 template <class Problems>
 Json problems_json(const Problems& problems) {
   Json json = Json::array();
@@ -230,7 +227,7 @@ Verdict not_examined(MeshState state, std::string what, std::string where) {
   Verdict verdict;
   verdict.state = state;
   verdict.examined = false;
-  verdict.mesh.problems.push_back({std::move(what), std::move(where), 1});
+  verdict.mesh.problems.push_back({std::move(what), std::move(where), 1, false});
   return verdict;
 }
 
@@ -274,9 +271,8 @@ namespace {
 
 /// "open edge (3): triangle 12 at (1, 2, 3) mm".
 std::string problem_text(const solid::MeshProblem& problem) {
-  return fmt::format("{} ({}{}): {}", problem.what,
-                     problem.count == kCountingStops ? "at least " : "", problem.count,
-                     problem.where);
+  return fmt::format("{} ({}{}): {}", problem.what, problem.at_least ? "at least " : "",
+                     problem.count, problem.where);
 }
 
 /// With --quiet: what is wrong, on standard error.

@@ -4,6 +4,7 @@
 #include "app/cli/render_job.hpp"
 #include "app/cli/usage.hpp"
 #include "core/number_parsing.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -83,9 +84,9 @@ void print_picture(const Console& console, const RenderCommand& command, const R
                                   ? "; its throwing lines and rounded rim are not in the pot"
                                   : ""));
   if (!command.turntable.empty() && command.turntable != "-")
-    console.print(fmt::format("{}: {} frames of {}, {} bytes", command.turntable,
-                              command.choices.frames, text_of(command.turntable_size),
-                              done.gif_bytes));
+    console.print(fmt::format("{}: {} of {}, {} bytes", command.turntable,
+                              counted(command.choices.frames, "frame"),
+                              text_of(command.turntable_size), done.gif_bytes));
   if (done.map)
     console.print(fmt::format(
         "walls: dark blue 0 mm to yellow {:g} mm{}; thinnest {:.3f} mm", done.map->top_mm,

@@ -203,7 +203,7 @@ class Inspection {
   }
 
   void problem(std::string what, std::string where, std::size_t count = 1) {
-    report_.problems.push_back({std::move(what), std::move(where), count});
+    report_.problems.push_back({std::move(what), std::move(where), count, false});
   }
   void problem_at_crossing(const Fault& crossings) {
     const auto corners = [&](std::size_t which) {
@@ -214,6 +214,7 @@ class Inspection {
             numbered("triangle", crossings.triangles) + " at " +
                 coordinates(crossing_place(corners(0), corners(1))),
             crossings.count);
+    report_.problems.back().at_least = crossings.count == kMaxSelfIntersections;
   }
   void problem(std::string what, const Fault& fault) {
     if (fault.found())
@@ -238,7 +239,7 @@ MeshReport check_mesh(const TriangleMesh& mesh) {
     MeshReport report;
     report.triangles = mesh.triangles.size();
     report.out_of_memory = dynamic_cast<const std::bad_alloc*>(&e) != nullptr;
-    report.problems.push_back({"check abandoned", e.what(), 1});
+    report.problems.push_back({"check abandoned", e.what(), 1, false});
     return report;
   }
 }

@@ -106,14 +106,15 @@ struct MeshProblem {
   std::string what;       ///< "open edge", "inside out", "self-intersection", ...
   std::string where;      ///< triangle numbers and coordinates in mm, for people
   std::size_t count = 1;  ///< how many of this kind; `where` shows the first
+  bool at_least = false;  ///< counting stopped at `count`
 };
 
 struct MeshReport {
   bool closed = false;    ///< no edge has only one face
   bool manifold = false;  ///< no edge of more than two faces, no vertex with two fans
   bool oriented = false;  ///< neighbours agree, and (if closed) normals point out of the clay
-  /// Pairs of triangles that intersect outside shared edges and vertices; counting stops at 100
-  /// 000.
+  /// Pairs of triangles that intersect outside shared edges and vertices; counting stops at
+  /// 100,000.
   std::size_t self_intersections = 0;
   /// Shells lie beside or inside each other with alternating orientation, possibly inside out. Also
   /// false where this is undefined: open, self-intersecting or with degenerate triangles.
