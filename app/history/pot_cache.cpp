@@ -25,11 +25,6 @@ void PotCache::put(std::size_t node, std::shared_ptr<const Pot> pot) {
   shrink();
 }
 
-void PotCache::set_budget(std::size_t bytes) {
-  budget_ = bytes;
-  shrink();
-}
-
 void PotCache::shrink() {
   while (bytes_ > budget_ && kept_.size() > 1) {
     const auto oldest =

@@ -16,7 +16,6 @@ class PotCache {
 
   [[nodiscard]] std::shared_ptr<const Pot> find(std::size_t node);  ///< null if not cached
   void put(std::size_t node, std::shared_ptr<const Pot> pot);
-  void set_budget(std::size_t bytes);
   [[nodiscard]] std::size_t size() const noexcept { return kept_.size(); }
 
  private:

@@ -15,8 +15,6 @@
 namespace clay::history {
 namespace {
 
-constexpr std::size_t kBudgetBytes = std::size_t{256} << 20;
-
 std::size_t poses_until(const WorkNode& stroke, double seconds) {
   const auto until_us = static_cast<std::int64_t>(1e6 * std::clamp(seconds, 0.0, 9e9));
   return static_cast<std::size_t>(std::distance(
@@ -82,12 +80,12 @@ struct Work::Scrubbing {
   std::size_t played = 0;
 };
 
-Work::Work(WorkRecord record, SharedPot root)
+Work::Work(WorkRecord record, SharedPot root, std::size_t kept_bytes)
     : record_(std::move(record)),
       known_(record_.nodes.size()),
       children_(record_.nodes.size()),
       root_(std::move(root)),
-      pots_(kBudgetBytes) {
+      pots_(kept_bytes) {
   for (NodeId node = 1; node < record_.nodes.size(); ++node)
     children_[record_.nodes[node].parent].push_back(node);
   known_[0] = Known{root_->stack.volume_mm3(), false};
@@ -111,11 +109,11 @@ Result<Work> Work::begin(const SceneSpec& scene, const Pot& start) {
   return open(std::move(record));
 }
 
-Result<Work> Work::open(WorkRecord record) {
+Result<Work> Work::open(WorkRecord record, std::size_t kept_bytes) {
   const SceneSpec& scene = record.scenes[record.nodes[0].scene];
   auto root = root_of(scene, record.start);
   if (!root) return tl::make_unexpected(root.error());
-  return Work(std::move(record), std::make_shared<const Pot>(std::move(*root)));
+  return Work(std::move(record), std::make_shared<const Pot>(std::move(*root)), kept_bytes);
 }
 
 std::size_t Work::index_of(const SceneSpec& scene) {
@@ -300,8 +298,6 @@ Result<void> Work::throw_all() {
       if (const auto thrown = pot(node); !thrown) return tl::make_unexpected(thrown.error());
   return {};
 }
-
-void Work::set_memory_budget(std::size_t bytes) { pots_.set_budget(bytes); }
 
 NodeView Work::view(NodeId node) const {
   const WorkNode& stroke = record_.nodes[node];

@@ -50,14 +50,18 @@ struct Added {
 /// an arm is held all the time.
 enum class Recording { one_stroke, several_strokes };
 
+/// Memory for the pots of a work.
+inline constexpr std::size_t kKeptPotBytes = std::size_t{256} << 20;
+
 class Work {
  public:
   /// Begins with the scene's lump, or with a pot. Errors as for Wheel::build. A collapsed pot may
   /// be the root, but no stroke can follow it.
   static Result<Work> begin(const SceneSpec& scene);
   static Result<Work> begin(const SceneSpec& scene, const Pot& start);
-  /// From a file. Checks that the root fits on the wheel; strokes are replayed on request.
-  static Result<Work> open(WorkRecord record);
+  /// From a file. Checks that the root fits on the wheel; strokes are replayed on request. Pots
+  /// that are not needed now are kept up to `kept_bytes`.
+  static Result<Work> open(WorkRecord record, std::size_t kept_bytes = kKeptPotBytes);
   Work(Work&&) noexcept;
   Work& operator=(Work&&) noexcept;
   ~Work();
@@ -97,7 +101,6 @@ class Work {
   Result<Added> branch(NodeId node, double seconds);
   /// Replays all remaining strokes, so that every view is complete.
   Result<void> throw_all();
-  void set_memory_budget(std::size_t bytes);  ///< of cached pots; default 256 MiB
 
   // --- The tree --------------------------------------------------------------------------------
   [[nodiscard]] NodeId at() const noexcept { return record_.at; }
@@ -117,7 +120,7 @@ class Work {
  private:
   struct Running;
   struct Scrubbing;
-  Work(WorkRecord record, SharedPot root);
+  Work(WorkRecord record, SharedPot root, std::size_t kept_bytes);
 
   [[nodiscard]] std::size_t room() const noexcept;  ///< poses that it can still hold
   std::size_t index_of(const SceneSpec& scene);

@@ -42,7 +42,8 @@ std::vector<Pose> recording(int presses, double air_s, bool level = false) {
 
 RC_GTEST_PROP(Work, EveryPotEqualsTheReplayOfItsStrokes, ()) {
   Work work = arbitrary_work(*rc::gen::inRange(1, 20));
-  if (*rc::gen::arbitrary<bool>()) work.set_memory_budget(1);  // keeps one pot only
+  if (*rc::gen::arbitrary<bool>())
+    work = Work::open(WorkRecord(work.record()), 1).value();  // keeps one pot only
   RC_ASSERT(**work.pot() == plainly_thrown(work.record(), work.at()));
   const auto node = *rc::gen::inRange<std::size_t>(0, work.size());
   RC_ASSERT(**work.pot(node) == plainly_thrown(work.record(), node));
@@ -322,8 +323,15 @@ TEST(PotCache, EvictsTheLeastRecentlyUsed) {
   cache.put(4, pot);
   EXPECT_EQ(cache.find(2), nullptr);
   EXPECT_NE(cache.find(1), nullptr);
-  cache.set_budget(0);
+  EXPECT_EQ(cache.size(), 3u);
+}
+
+TEST(PotCache, KeepsTheNewestPotWithoutAnyMemory) {
+  const auto pot = std::make_shared<const Pot>(Wheel::build(small_scene()).value().pot());
+  PotCache cache(0);
+  for (const std::size_t node : {1u, 2u}) cache.put(node, pot);
   EXPECT_EQ(cache.size(), 1u);
+  EXPECT_NE(cache.find(2), nullptr);
 }
 
 }  // namespace
