@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <system_error>
 
 namespace clay {
 namespace {
@@ -37,6 +38,11 @@ fs::path user_folder(UserFolder kind) {
     base /= config ? ".config" : ".local/state";
   }
   return base / "claystack";
+}
+
+fs::path current_folder() {
+  std::error_code none;
+  return fs::current_path(none);
 }
 
 }  // namespace clay

@@ -15,6 +15,9 @@ enum class UserFolder {
 /// Without HOME, the password file gives the home folder. Empty if neither exists.
 [[nodiscard]] std::filesystem::path user_folder(UserFolder kind);
 
+/// The folder in which the program runs; empty if it no longer exists.
+[[nodiscard]] std::filesystem::path current_folder();
+
 /// The message for an empty folder.
 inline constexpr const char* kNoHome =
     "expected a home folder, found none: HOME is not set, and the password file has no entry";

@@ -46,11 +46,14 @@ std::optional<Recoverable> look_at(const fs::path& path, bool& needless) {
 std::vector<Recoverable> recoverable(const fs::path& folder) {
   std::vector<Recoverable> all;
   std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
-    if (entry.path().extension() != ".work") continue;
+  // A range-based loop would throw where the folder cannot be read on.
+  for (fs::directory_iterator entry(folder, none), end; !none && entry != end;
+       entry.increment(none)) {
+    const fs::path& path = entry->path();
+    if (path.extension() != ".work") continue;
     bool needless = false;
-    if (auto found = look_at(entry.path(), needless)) all.push_back(std::move(*found));
-    if (needless) (void)discard(entry.path());
+    if (auto found = look_at(path, needless)) all.push_back(std::move(*found));
+    if (needless) (void)discard(path);
   }
   std::ranges::sort(all, [](const Recoverable& a, const Recoverable& b) {
     return std::pair(a.when, a.path) > std::pair(b.when, b.path);

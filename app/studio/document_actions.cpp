@@ -10,6 +10,7 @@
 #include "app/studio/samples.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "core/text.hpp"
+#include "core/user_folder.hpp"
 
 #include <fmt/format.h>
 
@@ -278,7 +279,7 @@ void Performer::ask_for_name(std::optional<Action> next) const {
   show_present(state);
   // The name is shown with its folder, as for an export; a page has no folders.
   std::filesystem::path folder = state.settings.folder;
-  if (folder.empty() && !kInPage) folder = std::filesystem::current_path();
+  if (folder.empty() && !kInPage) folder = current_folder();
   const std::filesystem::path path = unused_name(folder, state.document.name());
   if (!open_desktop_dialog(state, FileDialog::Kind::save, path))
     state.ui.dialog = SaveDialog{path.string(), std::move(next)};

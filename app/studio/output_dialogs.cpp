@@ -1,6 +1,7 @@
 #include "app/studio/output_dialogs.hpp"
 
 #include "app/studio/app_state.hpp"
+#include "core/user_folder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +32,7 @@ std::string export_name(const AppState& state) {
 }
 
 std::string export_folder(const AppState& state) {
-  return state.settings.folder.empty() ? std::filesystem::current_path().string()
-                                       : state.settings.folder;
+  return state.settings.folder.empty() ? current_folder().string() : state.settings.folder;
 }
 
 }  // namespace
