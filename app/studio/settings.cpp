@@ -57,6 +57,7 @@ void describe(PlainFields& io, Settings& s) {
   choice(io, "shape", s.tool.shape, kShapes, kShapeValues);
   choice(io, "mode", s.tool.mode, kToolModeNames, kModeValues);
   const auto size = [&](const char* name, double& mm) {
+    mm = std::clamp(mm, kSmallestToolMm, kLargestToolMm);  // the tool of a scene may be larger
     io.number(name, mm, kSmallestToolMm, kLargestToolMm);
   };
   size("sphere_radius_mm", s.tool.sphere.radius_mm);

@@ -44,6 +44,21 @@ TEST(Settings, RoundTrip) {
   EXPECT_FALSE(back->throwing_lines);
 }
 
+TEST(Settings, CanBeReadAfterASceneWithALargeTool) {
+  Settings settings;
+  for (const ToolShapeSpec& shape :
+       {ToolShapeSpec(SphereSpec{5000.0}), ToolShapeSpec(SphereSpec{0.01}),
+        ToolShapeSpec(EllipseSpec{80.0, 900.0}), ToolShapeSpec(RibSpec{70.0, 61.0})}) {
+    ToolSpec tool;
+    tool.shape = shape;
+    choose(tool, settings.tool);
+    const auto back = parse_settings(write_settings(settings), "studio.json");
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_LE(back->tool.sphere.radius_mm, kLargestToolMm);
+    EXPECT_GE(back->tool.sphere.radius_mm, kSmallestToolMm);
+  }
+}
+
 TEST(Settings, RoundTripEveryScaleAndUnit) {
   for (const float scale : {0.5f, 1.1f, 3.0f})
     for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::cm, LengthUnit::in}) {
