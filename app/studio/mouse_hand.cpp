@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <glm/geometric.hpp>
+#include <iterator>
 
 namespace clay::studio {
 namespace {
@@ -47,14 +49,15 @@ MouseDevice::Overlap MouseDevice::overlap(const glm::dvec3& place_mm) const noex
   const Tool& tool = *resistance_.tool;
   const double h = clay.ring_height_mm(), rho = std::hypot(place_mm.x, place_mm.z);
   const auto rings = clay.rings();
-  const double low_mm = place_mm.y + tool.low(), high_mm = place_mm.y + tool.high();
+  const double y_mm = upright(place_mm.y);
+  const double low_mm = y_mm + tool.low(), high_mm = y_mm + tool.high();
   Overlap sum;
   for (auto i = static_cast<std::size_t>(std::max(low_mm / h, 0.0)); i < rings.size(); ++i) {
     // The part of the ring beside the tool, so that flat ends do not enter a ring all at once.
     const double bottom = std::max(static_cast<double>(i) * h, low_mm);
     const double top = std::min(static_cast<double>(i + 1) * h, high_mm);
     if (!(bottom < top)) break;
-    const double width = tool.radius(0.5 * (bottom + top) - place_mm.y);
+    const double width = tool.radius(0.5 * (bottom + top) - y_mm);
     const double inner = std::max(rings[i].inner_mm(), rho - width);
     const double depth = std::max(0.0, std::min(rings[i].outer_mm(), rho + width) - inner);
     sum.area_mm2 += (top - bottom) * depth;
@@ -65,12 +68,21 @@ MouseDevice::Overlap MouseDevice::overlap(const glm::dvec3& place_mm) const noex
 
 /// Whether the lower end of the tool is too far below the clay that it stands on.
 bool MouseDevice::sunk(const glm::dvec3& place_mm) const noexcept {
+  const bool turned = resistance_.turned_mm.has_value();
+  const Tool& tool = *resistance_.tool;
   const double h = resistance_.clay->ring_height_mm(), rho = std::hypot(place_mm.x, place_mm.z);
   const auto rings = resistance_.clay->rings();
-  const double low_mm = std::max(place_mm.y + resistance_.tool->low(), 0.0);
-  auto i = static_cast<std::size_t>(std::min(low_mm / h, static_cast<double>(rings.size())));
-  while (i < rings.size() && rings[i].inner_mm() <= rho && rho < rings[i].outer_mm())
-    if (static_cast<double>(++i) * h - low_mm > kSunkMm) return true;
+  const double low_mm = std::max(place_mm.y + (turned ? -tool.high() : tool.low()), 0.0);
+  const auto covers = [&](std::ptrdiff_t i) {
+    if (i < 0 || i >= std::ssize(rings)) return false;
+    const Ring& ring = rings[static_cast<std::size_t>(i)];
+    return ring.inner_mm() <= rho && rho < ring.outer_mm();
+  };
+  for (auto i = static_cast<std::ptrdiff_t>(std::floor(upright(low_mm) / h)); covers(i);
+       i += turned ? -1 : 1) {
+    const double surface_mm = upright(static_cast<double>(turned ? i : i + 1) * h);
+    if (surface_mm - low_mm > kSunkMm) return true;
+  }
   return false;
 }
 

@@ -13,6 +13,7 @@
 
 #include <atomic>
 #include <glm/vec3.hpp>
+#include <optional>
 
 namespace clay::studio {
 
@@ -31,6 +32,8 @@ struct Resistance {
       nullptr;  ///< of the wheel of the servo, which reads the mouse; null: none
   const Tool* tool = nullptr;
   double wheel_rpm = 0.0;
+  /// Height of a pot that stands upside down; then `tool` is turned, too.
+  std::optional<double> turned_mm{};
 };
 
 class MouseDevice final : public falcon::HapticDevice {
@@ -75,6 +78,10 @@ class MouseDevice final : public falcon::HapticDevice {
   struct Overlap {
     double area_mm2 = 0.0, energy_mm3 = 0.0;
   };
+  /// A height of the hand in the frame of the stack.
+  [[nodiscard]] double upright(double y_mm) const noexcept {
+    return resistance_.turned_mm ? *resistance_.turned_mm - y_mm : y_mm;
+  }
   [[nodiscard]] Overlap overlap(const glm::dvec3& place_mm) const noexcept;
   [[nodiscard]] double tool_height_mm() const noexcept {
     return resistance_.tool->high() - resistance_.tool->low();

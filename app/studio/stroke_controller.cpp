@@ -78,7 +78,9 @@ Result<void> StrokeController::start_servo(const SceneSpec& scene, falcon::Hapti
     return tl::make_unexpected(live.error());
   }
   if (&device == &mouse_ && resisting_rpm_ > 0.0)
-    mouse_.meet({&wheel_->stack(), &wheel_->plan().tool, resisting_rpm_});
+    mouse_.meet({&wheel_->stack(), &wheel_->plan().tool, resisting_rpm_,
+                 scene.tool.mode == ToolMode::trim_foot ? std::optional(wheel_->stack().height_mm())
+                                                        : std::nullopt});
   live_.emplace(std::move(*live));
   auto started = live_->start(!threads_                ? servo::Pace::stepped
                               : device.info().can_push ? servo::Pace::real_time

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <vector>
 
 namespace clay::studio {
 namespace {
@@ -122,6 +123,42 @@ TEST(MouseHand, DigsNoFasterThanItsBite) {
   }
   EXPECT_LT(x, 49.5) << "it does dig";
   EXPECT_NEAR(hand.device.stretch_mm(), x, 1e-9) << "the spring, from the tool to the axis";
+}
+
+/// A pot with a wide foot: 60 mm high, of radius 40 mm up to 20 mm and 30 mm above.
+TEST(MouseHand, MeetsAPotUpsideDownWhereItIs) {
+  SceneSpec scene;
+  scene.lump = {.rings = 120, .ring_height_mm = 0.5, .outer_radius_mm = 30.0};
+  scene.tool = {SphereSpec{5.0}, ToolMode::trim_foot, {}};
+  const Wheel wheel = Wheel::build(scene).value();
+  std::vector<Ring> rings(120, Ring{quanta_from_radius(30.0), 0});
+  std::fill_n(rings.begin(), 40, Ring{quanta_from_radius(40.0), 0});
+  const ClayStack clay = ClayStack::from_rings(0.5, std::move(rings), 0).value();
+  constexpr double kHeightMm = 60.0;
+  const auto pulled = [&](double y_mm, std::optional<double> turned_mm, const glm::dvec3& way) {
+    Hand hand;
+    const glm::dvec3 begin{60.0, y_mm, 0.0};
+    hand.device.begin_at(begin);
+    hand.device.meet({&clay, &wheel.plan().tool, kRpm, turned_mm});
+    hand.tick();
+    hand.device.aim({begin + way, kPressingMmPerS, 0.0});
+    for (int i = 0; i < 2000; ++i) hand.tick();
+    return hand.tick().position_mm;
+  };
+  // Beside the clay, at each height as at the same place of the upright pot.
+  for (const double y_mm : {8.0, 15.0, 30.0, 52.0}) {
+    const double upright = pulled(y_mm, std::nullopt, {-40.0, 0.0, 0.0}).x;
+    EXPECT_NEAR(pulled(kHeightMm - y_mm, kHeightMm, {-40.0, 0.0, 0.0}).x, upright, 1e-6) << y_mm;
+    EXPECT_NEAR(upright, y_mm < 20.0 ? 45.0 : 35.0, 0.5) << y_mm;
+  }
+}
+
+/// It stands on the foot, which is at the top.
+TEST(MouseHand, DoesNotSinkIntoTheFootOfAPotUpsideDown) {
+  HandAtLump hand({20.0, 75.0, 0.0});
+  hand.device.meet({&hand.lump.wheel->stack(), &hand.lump.wheel->plan().tool, kRpm, 60.0});
+  const glm::dvec3 place = hand.pull({20.0, 0.0, 0.0}, 1000.0, 4000);
+  EXPECT_NEAR(place.y, 60.0 + 10.0 - 1.0, 0.5) << "1 mm below the surface, as on an upright pot";
 }
 
 /// Clay that yields at once does not let the hand dig faster: the ball gains the area of its bite,
