@@ -76,7 +76,9 @@ void Exporter::State::put(Job job) {
 
 void Exporter::cancel() {
   const std::lock_guard lock(state_->mutex);
-  state_->next.reset();
+  const auto waiting = std::exchange(state_->next, std::nullopt);
+  if (waiting && waiting->kind == Kind::files)
+    state_->outcome = Outcome::of_cancelled(waiting->kind, waiting->pot, waiting->choices);
   state_->stop.request_stop();
 }
 

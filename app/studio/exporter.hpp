@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace clay::studio {
@@ -22,6 +23,11 @@ class Exporter {
     Result<ExportFigures> done;
     bool cancelled = false;
     std::vector<std::string> paths;  ///< output files, in the order of the request
+
+    static Outcome of_cancelled(Kind kind, history::SharedPot pot, const ExportChoices& choices) {
+      return {kind, std::move(pot),   choices, failure(ErrorKind::io, "cancelled"),
+              true, paths_of(choices)};
+    }
   };
 
   Exporter();

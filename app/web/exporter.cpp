@@ -79,14 +79,12 @@ void Exporter::write(history::SharedPot pot, const ExportChoices& choices) {
 }
 
 void Exporter::cancel() {
-  state_->next.reset();
-  if (!state_->running) return;
-  state_->worker.stop();
-  const State::Job job = *std::exchange(state_->running, std::nullopt);
-  if (job.kind == Kind::files)
-    state_->outcome = Outcome{job.kind,    job.pot,
-                              job.choices, failure(ErrorKind::io, "cancelled"),
-                              true,        paths_of(job.choices)};
+  if (state_->running) state_->worker.stop();
+  for (auto* job : {&state_->running, &state_->next}) {
+    const auto ended = std::exchange(*job, std::nullopt);
+    if (ended && ended->kind == Kind::files)
+      state_->outcome = Outcome::of_cancelled(ended->kind, ended->pot, ended->choices);
+  }
 }
 
 bool Exporter::busy() const { return state_->running || state_->next; }

@@ -283,6 +283,18 @@ TEST_F(Exporting, CancelledExportLeavesNoFile) {
   EXPECT_EQ(files(), 0u);
 }
 
+TEST_F(Exporting, CancellingFilesThatWaitIsReported) {
+  choices.tolerance_mm = 0.001;
+  exporter.preview(pot, choices);
+  while (exporter.stage().empty() && exporter.busy()) std::this_thread::yield();
+  exporter.write(pot, choices);
+  exporter.cancel();
+  const auto cancelled = outcome();
+  EXPECT_EQ(cancelled.kind, Exporter::Kind::files);
+  EXPECT_TRUE(cancelled.cancelled);
+  EXPECT_EQ(files(), 0u);
+}
+
 TEST_F(Exporting, LeavesAllFilesOrNoneAtEveryCancellationPoint) {
   choices.step = choices.dxf = choices.pdf = choices.report = false;
   solid::ExportRequest request = job_of(choices, *pot).value().request;
