@@ -18,7 +18,8 @@ struct Sample {
   std::string_view scene_text, session_text, strokes_text;  ///< contents of the files in samples/
 };
 
-[[nodiscard]] const std::array<Sample, 4>& samples();
+inline constexpr std::size_t kSamples = 4;
+[[nodiscard]] const std::array<Sample, kSamples>& samples();
 
 Result<SceneSpec> scene_of(const Sample& sample);
 /// The pot that the session of the sample makes; takes about 0.1 s.

@@ -291,7 +291,7 @@ void take_preview(AppState& state, Exporter::Outcome outcome) {
   state.log(fmt::format("export previewed: {} triangles", exporting.preview->triangles));
 }
 
-/// The choices that change the solid.
+/// The choices that change the solid or the sizes of its files.
 ExportChoices solid_choices(ExportChoices choices) {
   choices.folder.clear();
   choices.section = choices.dxf = choices.pdf = choices.report = choices.pot = false;

@@ -90,7 +90,9 @@ EMSCRIPTEN_KEEPALIVE bool claystack_hid_plugged(int vendor, int product) {
 }
 /// `report` begins with its number.
 EMSCRIPTEN_KEEPALIVE void claystack_hid_report(const std::uint8_t* report, int size) {
-  if (plugged.reports.size() < kMostReports) plugged.reports.emplace_back(report, report + size);
+  // The newest ones count: a button must not remain pressed.
+  if (plugged.reports.size() == kMostReports) plugged.reports.pop_front();
+  plugged.reports.emplace_back(report, report + size);
 }
 EMSCRIPTEN_KEEPALIVE void claystack_hid_unplugged() { plugged = {}; }
 }

@@ -24,7 +24,7 @@ constexpr float kNameEm = 12.0f;  // longest name of a recent file
 
 /// Sections of the finished samples, computed when they are first shown.
 const render::PotView& section_of(const Sample& sample) {
-  static std::array<std::optional<render::PotView>, 4> made;
+  static std::array<std::optional<render::PotView>, kSamples> made;
   const auto index = static_cast<std::size_t>(&sample - samples().data());
   if (!made[index]) {
     auto pot = finished(sample);
