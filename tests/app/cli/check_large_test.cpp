@@ -169,14 +169,14 @@ TEST(MemoryLimit, RefusesACompressedMeshThatDoesNotFitInAdvance) {
                                       {"meshopt.glb", "--glb meshopt"},
                                       {"core.glb", "--glb core"},
                                       {"bowl.drc", ""}}) {
-    const Ran made = claystack("export --json --segments 4000 " + std::string(options) + " " + pot +
+    const Ran made = claystack("export --json --segments 2000 " + std::string(options) + " " + pot +
                                " " + folder.file(file));
     ASSERT_EQ(made.status, 0) << made.err;
     const auto triangles = made.json().at("triangles").get<std::uint64_t>();
     const auto check_with = [&](const std::string& memory) {
       return claystack("check -q --memory " + memory + " " + folder.file(file));
     };
-    const Ran refused = check_with("100MiB");
+    const Ran refused = check_with("64MiB");
     EXPECT_EQ(refused.status, 3) << file;
     EXPECT_NE(refused.err.find(std::string(file) + ": checking about " + std::to_string(triangles) +
                                " triangles needs about "),
@@ -190,9 +190,9 @@ TEST(MemoryLimit, RefusesA3mfThatUnpacksToMoreThanFitsInAdvance) {
   const ScratchFolder folder;
   const std::string pot = folder.file("bowl.pot.json"), file = folder.file("bowl.3mf");
   ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
-  const Ran made = claystack("export --json --segments 4000 " + pot + " " + file);
+  const Ran made = claystack("export --json --segments 2000 " + pot + " " + file);
   ASSERT_EQ(made.status, 0) << made.err;
-  const Ran refused = claystack("check -q --memory 100MiB " + file);
+  const Ran refused = claystack("check -q --memory 64MiB " + file);
   EXPECT_EQ(refused.status, 3);
   const std::string begin = "bowl.3mf: checking about ";
   const std::size_t at = refused.err.find(begin);
@@ -201,7 +201,7 @@ TEST(MemoryLimit, RefusesA3mfThatUnpacksToMoreThanFitsInAdvance) {
   const double triangles = made.json().at("triangles").get<double>();
   EXPECT_GT(about, triangles);
   EXPECT_LT(about, 1.5 * triangles);
-  EXPECT_EQ(claystack("check -q --memory 600MiB " + file).status, 0);
+  EXPECT_EQ(claystack("check -q --memory 400MiB " + file).status, 0);
 }
 
 TEST(MemoryLimit, RefusesTheWheelAndThePotOfMoreRingsThanFit) {
