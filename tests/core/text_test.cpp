@@ -21,7 +21,9 @@ TEST(Shown, BoundsTextAndReplacesUnprintableCharacters) {
   EXPECT_EQ(shown("abc", 3), "abc");
   EXPECT_EQ(shown("abcd", 3), "abc...");
   EXPECT_EQ(shown("a\x1b[2J\n\xc3\xa9~ "), "a?[2J???~ ");
-  EXPECT_EQ(shown(std::string(1000, 'x')), std::string(40, 'x') + "...");
+  std::string cut(40, 'x');
+  cut += "...";  // with operator+, GCC 12 warns of bounds that are kept
+  EXPECT_EQ(shown(std::string(1000, 'x')), cut);
 }
 
 TEST(NumberIn, ReadsTheWholeTextOrNothing) {
