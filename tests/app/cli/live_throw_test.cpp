@@ -71,7 +71,10 @@ TEST(LiveThrow, RunsWithoutHardwareAndReplaysToTheSameBytes) {
 TEST(LiveThrow, ASoftenedThrowLeavesTheStiffnessOfThePot) {
   const ScratchFolder folder;
   const auto stiffness = [](const std::string& path) {
-    return nlohmann::json::parse(read_text(path)).at("thrown_with").at("force").at("stiffness_n_per_mm2");
+    return nlohmann::json::parse(read_text(path))
+        .at("thrown_with")
+        .at("force")
+        .at("stiffness_n_per_mm2");
   };
   const std::string first = folder.file("a.pot.json"), second = folder.file("b.pot.json");
   ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + first).status, 0);
