@@ -87,6 +87,39 @@ TEST_F(ActionsTest, AHoveringToolIsOnTheWheelAndNotInIt) {
   EXPECT_NEAR(state.scene.tool_view(view_model(state))->place_mm.y, 0.0, 1e-9) << "where it cuts";
 }
 
+/// A change in its middle is for the next stroke.
+TEST_F(ActionsTest, AStrokeIsShownWithItsOwnTool) {
+  change();  // a groove: upside down, the pot looks different
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state, LookFrom{ViewFrom::front});
+  apply(state, SetToolMode{ToolMode::press});
+  const double beside_mm = static_cast<double>(state.stroke.view().rows.front().outer_mm) + 20.0;
+  Actions press;
+  state.scene.shape_from(view_model(state), {beside_mm, 20.0}, {}, press);
+  apply_all(state, press);
+  ASSERT_TRUE(state.stroke.by_hand());
+  const render::PotView standing = state.scene.picture(view_model(state)).pot;
+  apply(state, SetToolMode{ToolMode::trim_foot});
+  apply(state, ScaleTool{2.0});
+  EXPECT_EQ(state.scene.picture(view_model(state)).pot, standing);
+  EXPECT_EQ(view_model(state).tool_in_use(), state.document.scene().tool);
+  apply(state, ReleaseTool{});
+  EXPECT_NE(state.scene.picture(view_model(state)).pot, standing)
+      << "the next stroke is at the foot";
+  EXPECT_EQ(view_model(state).tool_in_use(), tool_of(state.settings.tool));
+}
+
+TEST_F(ActionsTest, AFallenPotIsNotTurnedOver) {
+  const auto thrown =
+      test::claystack("throw -q " + test::sample("collapse.scene.json") + " -s " +
+                      test::sample("collapse.session") + " -o " + folder.file("fallen.pot.json"));
+  ASSERT_LE(thrown.status, 1) << thrown.err;
+  apply(state, OpenFile{folder.file("fallen.pot.json")});
+  ASSERT_TRUE(state.document.fallen());
+  apply(state, SetToolMode{ToolMode::trim_foot});
+  EXPECT_EQ(state.scene.picture(view_model(state)).pot, state.document.view());
+}
+
 /// A pull of half the height stays in sight.
 TEST_F(ActionsTest, AChosenPinchHasRoomAboveTheRim) {
   state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});

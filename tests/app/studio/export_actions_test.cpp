@@ -1,7 +1,9 @@
 // Actions of the export dialog: its process, its outcome and its marks.
 
+#include "app/history/pot_scene.hpp"
 #include "app/studio/commands.hpp"
 #include "tests/app/studio/actions.hpp"
+#include "tests/app/studio/cups.hpp"
 
 #include <string>
 
@@ -22,6 +24,28 @@ TEST_F(ActionsTest, WallsAndExportHaveOneProcess) {
   EXPECT_EQ(state.settings.process, "stoneware") << "chosen in the dialog";
   apply(state, UseProcess{test::sample("workshop.process.json")});
   EXPECT_EQ(of_export(), state.settings.process);
+}
+
+TEST_F(ActionsTest, APotInPartsIsNotExportedAndTheDialogSaysSo) {
+  auto parted = test::cup_rings();
+  for (std::size_t i = 80; i < parted.size(); ++i)
+    parted[i] = {quanta_from_radius(30.0), quanta_from_radius(25.0)};
+  const history::SharedPot pot = test::pot_of(std::move(parted));
+  apply(state, BeginWork{history::scene_for(*pot, "parted"), pot, {}});
+  ASSERT_EQ(state.document.pot().stack, pot->stack) << log;
+  apply(state, ShowDialog{DialogKind::export_files});
+  update(state);
+  EXPECT_EQ(
+      state.ui.exporting.problem,
+      "The pot is in two parts at a height of 40.0 mm. Only a pot in one part can be exported");
+  const Command& write = *find_command("export.write");
+  EXPECT_FALSE(write.enabled(view_model(state)));
+  ExportChoices drawing = state.ui.exporting.choices;
+  drawing.meshes.clear();
+  drawing.section = true;
+  apply(state, EditExport{drawing});
+  update(state);
+  EXPECT_TRUE(write.enabled(view_model(state))) << "other choices have not failed";
 }
 
 TEST_F(ActionsTest, AnExportThatFailsALimitIsAWarning) {

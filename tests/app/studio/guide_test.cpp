@@ -97,6 +97,21 @@ TEST_F(Lesson, TheDemonstrationThrowsAPotThatIsReadyToPrint) {
   EXPECT_EQ(state.guide.step(), 0u);
 }
 
+/// Its tool stays in its plane, and is not pulled through the pot to that of another view.
+TEST_F(Lesson, ADemonstrationCanBeWatchedFromAnySide) {
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state, BeginLesson{kCylinder, true});
+  int waited = 0;
+  while (!state.stroke.throwing() && ++waited < 600) frames(1);
+  frames(60);
+  ASSERT_TRUE(state.stroke.throwing());
+  apply(state, LookFrom{ViewFrom::right});
+  double most_mm = 0.0;
+  for (; state.stroke.throwing(); frames(1))
+    most_mm = std::max(most_mm, std::abs(state.stroke.status().tool_mm.z));
+  EXPECT_LT(most_mm, 1.0) << "the plane of the front view";
+}
+
 TEST_F(Lesson, AnotherPotEndsTheDemonstration) {
   state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
   apply(state, BeginLesson{kCylinder, true});

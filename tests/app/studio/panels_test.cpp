@@ -159,6 +159,25 @@ TEST_F(Panels, EnterSavesUnderTheTypedName) {
   EXPECT_TRUE(std::holds_alternative<EditPath>(again[0]));
 }
 
+/// Such as that of a save; a banner from before the dialog stays behind it.
+TEST_F(Panels, TheErrorOfADialogIsOverItsVeil) {
+  const auto draw = [](const ViewModel& model, Actions& actions) {
+    draw_dialog(model, actions, kView);
+    draw_banners(model, actions, kView, 40.0f);
+  };
+  const auto in_front = [](const char* name) {
+    return ImGui::GetCurrentContext()->Windows.back() == ImGui::FindWindowByName(name);
+  };
+  report(state, {ErrorKind::io, "before"});
+  (void)frame(draw);
+  state.ui.dialog = SaveDialog{"a.work", {}};
+  for (int i = 0; i < 3; ++i) (void)frame(draw);
+  EXPECT_TRUE(in_front("##save"));
+  report(state, {ErrorKind::io, "cannot save"});
+  for (int i = 0; i < 3; ++i) (void)frame(draw);
+  EXPECT_TRUE(in_front("##answer"));
+}
+
 /// The list of choices is no stop between the arrow keys and its controls.
 TEST_F(Panels, TheKeyboardStartsInTheFirstControlOfTheExport) {
   ImGuiIO& io = ImGui::GetIO();

@@ -84,6 +84,27 @@ TEST_F(Window, AMousePinchThinsTheWallAndKeepsTheClay) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
+/// Seen from elsewhere, the pointer means another place: the view stands still in its stroke.
+TEST_F(Window, TheViewStandsStillWhileThePointerLeadsTheTool) {
+  const std::string begin = "key 1\npoint 65 18\npress left\npoint 54 18 over 0.4\nwait 0.2\n";
+  const std::string end = "move 640 320\nwait 0.5\nrelease left\nwait 0.1\nsave FOLDER/";
+  const std::string keys =  // seven frames
+      "key 3\nkey 7\nkey Home\nkey PageUp\nscroll 4\nkey D\nkey Ctrl+=\n"
+      "move 700 300\nexpect azimuth_deg 0\nexpect throwing yes\n";
+  const Ran still = run(begin + "wait 0.1167\nmove 700 300\n" + end + "still.pot.json\n");
+  ASSERT_EQ(still.status, 0) << still.err;
+  const Ran keyed = run(begin + keys + end + "keyed.pot.json\nkey 3\nexpect azimuth_deg 90\n");
+  ASSERT_EQ(keyed.status, 0) << keyed.err;
+  EXPECT_EQ(read_text(folder.file("still.pot.json")), read_text(folder.file("keyed.pot.json")));
+  const Ran pad =
+      run("key 1\ngamepad \"Test pad\"\npoint 60 18\ntrigger right 1\n"
+          "expect throwing yes\nstick right 1 0\nwait 0.3\nexpect azimuth_deg 0\n"
+          "pad R3\npad L3\npress right\nmove 500 300\nrelease right\n"
+          "expect azimuth_deg 0\ntrigger right 0\nwait 0.1\n"
+          "expect azimuth_deg below -1\n");
+  EXPECT_EQ(pad.status, 0) << pad.err;
+}
+
 TEST_F(Window, AStrokeFromAnEarlierPotIsABranch) {
   const Ran ran = run(std::string(kPress) + kDeeper +
                       "expect node 2\nsave FOLDER/two.pot.json\n"
@@ -136,6 +157,37 @@ TEST_F(Window, BranchWithinAStrokeMatchesThrow) {
   EXPECT_EQ(read_text(folder.file("again.pot.json")), read_text(folder.file("mine.pot.json")));
 }
 
+/// A moment of a stroke is shown: a file holds the current pot, which is shown first.
+TEST_F(Window, WhatIsWrittenIsWhatIsShown) {
+  const std::string scrub =
+      "move 178 570\npress left\nmove 150 570 over 0.3\nrelease left\nexpect scrubbing yes\n";
+  const Ran ran = run(std::string(kPress) + "save FOLDER/whole.pot.json\n" + scrub +
+                      "save FOLDER/again.pot.json\nexpect scrubbing no\n" + scrub +
+                      "do file.export\nexpect scrubbing no\nkey Esc\n" + scrub +
+                      "do file.picture\nexpect scrubbing no\nkey Esc\n" + scrub +
+                      "do file.save_as\nexpect scrubbing no\nkey Esc\n");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(read_text(folder.file("whole.pot.json")), read_text(folder.file("again.pot.json")));
+}
+
+TEST_F(Window, AClickInTheAirIsNoBranch) {
+  const Ran ran = run(std::string(kPress) +
+                      "move 178 570\npress left\nmove 150 570 over 0.3\nrelease left\n"
+                      "point 65 18\npress left\nwait 0.2\nrelease left\n"
+                      "expect scrubbing yes\nexpect strokes 1\n"
+                      // Esc in the air goes back, and the button that is still held does nothing.
+                      "press left\nkey Esc\nexpect scrubbing no\npoint 50 18 over 0.3\n"
+                      "expect throwing no\nrelease left\nexpect strokes 1\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
+TEST_F(Window, TheNoteOnAMomentClosesWithIt) {
+  const Ran ran = run(std::string(kPress) +
+                      "move 178 570\npress left\nmove 150 570 over 0.3\nrelease left\n"
+                      "do edit.branch\nexpect banner \"\"\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
 TEST_F(Window, UndoesSixtyFourStrokesOneByOne) {
   std::string script = "key 1\n";
   for (int i = 0; i < 64; ++i)
@@ -159,7 +211,10 @@ TEST_F(Window, AFallIsShownAndUndone) {
       "release left\nhold\nexpect fallen yes\nwait 0.1\nexpect proved yes\nexpect thin no\nkey "
       "1\nscreenshot FOLDER/fell.png\n"
       "do file.export\nwait 0.1\nexpect triangles above 100\nkey Esc\n"
-      "key Ctrl+Z\nexpect fallen no\nsave FOLDER/again.pot.json\n";
+      "point 45 30\npress left\nrelease left\nexpect throwing no\n"
+      "expect banner \"The clay has fallen: undo removes the last stroke\"\n"
+      "key Ctrl+Z\nexpect fallen no\nexpect banner \"\"\nkey Ctrl+Y\nkey Ctrl+Z\nsave "
+      "FOLDER/again.pot.json\n";
   const Ran ran = run(script);
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(read_text(folder.file("stands.pot.json")), read_text(folder.file("again.pot.json")));
