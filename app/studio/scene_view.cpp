@@ -197,7 +197,9 @@ void SceneView::drag(const ViewModel& view, glm::vec2 by_px, Actions& actions) {
 
 bool SceneView::button(const ViewModel& view, const ButtonChanged& change, Actions& actions) {
   if (!change.down) {
-    const bool was = drag_ != Drag::none && !setting();
+    const bool by_left = drag_ == Drag::shape || drag_ == Drag::approach;
+    const bool own = (change.button == MouseButton::left) == by_left;
+    const bool was = drag_ != Drag::none && !setting() && own;
     if (was && drag_ == Drag::shape) actions.emplace_back(ReleaseTool{});
     if (was) drag_ = Drag::none;
     return was;

@@ -105,6 +105,14 @@ TEST_F(Window, TheViewStandsStillWhileThePointerLeadsTheTool) {
   EXPECT_EQ(pad.status, 0) << pad.err;
 }
 
+TEST_F(Window, AnotherButtonDoesNotEndAStroke) {
+  const Ran ran =
+      run("key 1\npoint 65 18\npress left\npoint 54 18 over 0.4\n"
+          "press right\nrelease right\nexpect throwing yes\n"
+          "release left\nwait 0.1\nexpect throwing no\nexpect strokes 1\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
 TEST_F(Window, AStrokeFromAnEarlierPotIsABranch) {
   const Ran ran = run(std::string(kPress) + kDeeper +
                       "expect node 2\nsave FOLDER/two.pot.json\n"
