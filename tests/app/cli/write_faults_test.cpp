@@ -150,7 +150,7 @@ const std::string kExport =
     "export -q --segments 16 @/a.pot.json #/a.stl #/b.obj #/c.drc #/d.ply #/e.3mf #/f.glb";
 const std::vector<std::string> kMeshes = {"a.stl", "b.obj", "c.drc", "d.ply", "e.3mf", "f.glb"};
 const std::string kSection =
-    "export -q --segments 16 @/a.pot.json #/a.step #/b.svg #/c.dxf #/d.pdf #/e.csv --report "
+    "export -q @/a.pot.json #/a.step #/b.svg #/c.dxf #/d.pdf #/e.csv --report "
     "#/r.json";
 const std::vector<std::string> kDrawings = {"a.step", "b.svg", "c.dxf", "d.pdf", "e.csv", "r.json"};
 const std::string kPage =
