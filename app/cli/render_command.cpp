@@ -85,7 +85,7 @@ void print_picture(const Console& console, const RenderCommand& command, const R
                                   : ""));
   if (!command.turntable.empty() && command.turntable != "-")
     console.print(fmt::format("{}: {} of {}, {} bytes", command.turntable,
-                              counted(command.choices.frames, "frame"),
+                              counted(static_cast<std::size_t>(command.choices.frames), "frame"),
                               text_of(command.turntable_size), done.gif_bytes));
   if (done.map)
     console.print(fmt::format(

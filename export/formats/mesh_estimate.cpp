@@ -14,16 +14,17 @@ std::uint64_t usual_triangles(std::uint64_t bytes, MeshFormat format) {
 
 // The decoders were measured on a vase of 1.1 million triangles; the others need less than a check.
 MeshEstimate estimate_mesh(std::string_view bytes, MeshFormat format) {
-  constexpr std::uint64_t kDraco = 130, kModel = 160;
+  constexpr std::uint64_t kDracoBytes = 130, kModelBytes = 160;
   switch (format) {
     case MeshFormat::drc:
-      return {drc_triangles(bytes, {}).value_or(0), kDraco};
+      return {drc_triangles(bytes, {}).value_or(0), kDracoBytes};
     case MeshFormat::glb:
-      return {glb_triangles(bytes), kDraco};
+      return {glb_triangles(bytes), kDracoBytes};
     case MeshFormat::three_mf:
-      return {usual_triangles(bytes_of_model_in_3mf(bytes), MeshFormat::three_mf_model), kModel};
+      return {usual_triangles(bytes_of_model_in_3mf(bytes), MeshFormat::three_mf_model),
+              kModelBytes};
     case MeshFormat::three_mf_model:
-      return {usual_triangles(bytes.size(), format), kModel};
+      return {usual_triangles(bytes.size(), format), kModelBytes};
     default:
       return {usual_triangles(bytes.size(), format), 0};
   }

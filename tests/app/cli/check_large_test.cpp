@@ -169,12 +169,13 @@ TEST(MemoryLimit, RefusesACompressedMeshThatDoesNotFitInAdvance) {
                                       {"meshopt.glb", "--glb meshopt"},
                                       {"core.glb", "--glb core"},
                                       {"bowl.drc", ""}}) {
-    const Ran made = claystack("export --json --segments 2000 " + std::string(options) + " " + pot +
-                               " " + folder.file(file));
+    const std::string path = folder.file(file);
+    const Ran made =
+        claystack("export --json --segments 2000 " + std::string(options) + " " + pot + " " + path);
     ASSERT_EQ(made.status, 0) << made.err;
     const auto triangles = made.json().at("triangles").get<std::uint64_t>();
     const auto check_with = [&](const std::string& memory) {
-      return claystack("check -q --memory " + memory + " " + folder.file(file));
+      return claystack("check -q --memory " + memory + " " + path);
     };
     const Ran refused = check_with("64MiB");
     EXPECT_EQ(refused.status, 3) << file;

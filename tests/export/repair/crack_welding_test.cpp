@@ -3,6 +3,7 @@
 #include "tests/export/solid/shapes.hpp"
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 namespace clay::solid {
 namespace {
