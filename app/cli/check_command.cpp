@@ -139,7 +139,8 @@ void add_repair_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& comm
   constexpr double kLeastMm = 1e-3, kMostMm = 1e6;
   add_length(*sub, "--weld", command->repair_options.weld_mm,
              "With --repair: width of the cracks that are welded [mm]; default: a quarter of "
-             "the shortest edge at a border, at most 1/1000 of the size of the mesh",
+             "the shortest edge at a border, slivers left out, at most 1/1000 of the size of the "
+             "mesh",
              0.0, kMostMm);
   sub->add_flag("--cap", command->repair_options.cap_openings,
                 "With --repair: close wide openings by caps instead of refusing them");

@@ -77,7 +77,8 @@ OpenBorder open_border(const TriangleMesh& mesh, std::optional<double> weld_mm) 
     }
   }
   if (lengths_mm.empty()) return border;
-  // The shortest one, but for slivers: a few of them do not make the cracks of a large mesh finer.
+  // The shortest edge without those of slivers: a few of them do not narrow the cracks of a large
+  // mesh.
   constexpr std::ptrdiff_t kEdgesPerSliver = 50;
   const auto shortest = lengths_mm.begin() + std::ssize(lengths_mm) / kEdgesPerSliver;
   std::ranges::nth_element(lengths_mm, shortest);

@@ -19,12 +19,26 @@ TriangleMesh soup_of(const TriangleMesh& mesh) {
   return soup;
 }
 
+/// A strip of 1,000 squares of 0.1 mm: a thousandth of its length would be 0.1 mm.
 TEST(CrackWelding, WeldsCracksOfAQuarterOfTheShortestEdge) {
-  const TriangleMesh soup = soup_of(shapes::cube(10.0));
-  const OpenBorder border = open_border(soup, std::nullopt);
-  const double edge_mm = glm::distance(soup.points[0], soup.points[1]);
-  EXPECT_LE(border.crack_mm, 0.25 * edge_mm);
-  EXPECT_GT(border.crack_mm, border.rounding_mm);
+  TriangleMesh strip;
+  for (std::uint32_t i = 0; i <= 1000; ++i) {
+    strip.points.emplace_back(0.1 * i, 0.0, 0.0);
+    strip.points.emplace_back(0.1 * i, 0.1, 0.0);
+    if (i == 0) continue;
+    const std::uint32_t v = 2 * i - 2;
+    strip.triangles.push_back({v, v + 2, v + 3});
+    strip.triangles.push_back({v, v + 3, v + 1});
+  }
+  EXPECT_NEAR(open_border(soup_of(strip), std::nullopt).crack_mm, 0.025, 1e-9);
+  EXPECT_EQ(open_border(soup_of(strip), 0.04).crack_mm, 0.04);
+}
+
+/// A ball is large enough for its cracks to be a thousandth of its size.
+TEST(CrackWelding, WeldsCracksOfAtMostAThousandthOfTheSize) {
+  const TriangleMesh soup = soup_of(shapes::ball(10.0));
+  EXPECT_NEAR(open_border(soup, std::nullopt).crack_mm, 1e-3 * glm::length(extent_of(soup).size()),
+              1e-12);
 }
 
 /// One triangle that is almost a line leaves the cracks of a large mesh as wide as they were.

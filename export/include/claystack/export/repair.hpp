@@ -36,8 +36,7 @@ struct SurfaceChange {
 
 struct RepairOptions {
   /// Border points within this distance become one. Unset: a quarter of the shortest edge at a
-  /// border (of the shortest 2 % the longest: slivers do not count), at most a thousandth of the
-  /// size of the mesh.
+  /// border, without the shortest 2 % (slivers), at most a thousandth of the size of the mesh.
   std::optional<double> weld_mm = std::nullopt;
   /// Close wide openings by caps instead of refusing them.
   bool cap_openings = false;
