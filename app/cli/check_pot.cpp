@@ -25,6 +25,12 @@ std::size_t check_segments(const solid::Profile& profile) {
   return std::clamp(kQuickTriangles / each, kFewestSegments, kMostSegments);
 }
 
+std::string failure_text(const Collapse& fall) {
+  return fall.parted()
+             ? fmt::format("ring {} no longer touches the ring above it", fall.failed_ring)
+             : fmt::format("ring {} yielded at {:.4g} kPa", fall.failed_ring, fall.stress_kpa);
+}
+
 /// The figures that were compared with the limits of the process.
 std::string process_text(const solid::ExportReport& report) {
   std::string text = fmt::format("{}: {:.1f} mm wide, {:.1f} mm high",
@@ -91,9 +97,9 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command,
   if (!pot) return tl::make_unexpected(pot.error());
   if (pot->collapse)
     return not_examined(MeshState::will_not_print, "collapsed",
-                        fmt::format("ring {} yielded at {:.4g} kPa; claystack export writes the "
-                                    "fallen pot, with --pieces if it is in several",
-                                    pot->collapse->failed_ring, pot->collapse->stress_kpa));
+                        failure_text(*pot->collapse) +
+                            "; claystack export writes the fallen pot, with --pieces if it is in "
+                            "several");
   // The export with its defaults, without a file.
   solid::ExportOptions options;
   options.walls = command.walls.demand();

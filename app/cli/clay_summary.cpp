@@ -18,6 +18,7 @@ Json collapse_json(const Collapse& fall) {
   return {{"ring", fall.failed_ring},
           {"stress_kpa", fall.stress_kpa},
           {"threshold_kpa", fall.threshold_kpa},
+          {"parted", fall.parted()},
           {"angle_deg", fall.angle_rad * 180.0 / std::numbers::pi},
           {"shift_mm", {fall.shift_mm.x, fall.shift_mm.y, fall.shift_mm.z}},
           {"energy_lost_mj", fall.energy_lost_mj},
@@ -52,13 +53,17 @@ void add_export([[maybe_unused]] const Pot& pot, Json& json) {
 void print_collapse(const Console& console, const Json& summary) {
   if (!summary["collapsed"].get<bool>()) return;
   const Json& fall = summary["collapse"];
-  console.print(fmt::format(
-      "collapsed: ring {} carried {:.3f} kPa, more than the limit of {:.3f} kPa; the part above "
-      "came to rest at {:.0f} degrees and lost {:.1f} mJ, {:.1f} of them by deforming the clay "
-      "below",
-      fall["ring"].get<std::size_t>(), fall["stress_kpa"].get<double>(),
-      fall["threshold_kpa"].get<double>(), fall["angle_deg"].get<double>(),
-      fall["energy_lost_mj"].get<double>(), fall["plastic_work_mj"].get<double>()));
+  const auto ring = fall["ring"].get<std::size_t>();
+  const std::string reason =
+      fall["parted"].get<bool>()
+          ? fmt::format("ring {} no longer touches the ring above it", ring)
+          : fmt::format("ring {} carried {:.3f} kPa, more than the limit of {:.3f} kPa", ring,
+                        fall["stress_kpa"].get<double>(), fall["threshold_kpa"].get<double>());
+  console.print(
+      fmt::format("collapsed: {}; the part above came to rest at {:.0f} degrees and lost "
+                  "{:.1f} mJ, {:.1f} of them by deforming the clay below",
+                  reason, fall["angle_deg"].get<double>(), fall["energy_lost_mj"].get<double>(),
+                  fall["plastic_work_mj"].get<double>()));
 }
 
 /// "in 3 pieces that do not touch, parted at heights of 20.3 and 41.0 mm".

@@ -29,6 +29,10 @@ std::vector<double> times_of(const std::vector<FallFrame>& frames) {
 
 }  // namespace
 
+const char* fall_reason(const Collapse& fall) noexcept {
+  return fall.parted() ? "the tool parted the wall" : "the clay could not carry its own weight";
+}
+
 void FallShow::begin(history::SharedPot pot, double now_s) {
   frames_ = fall_frames(*pot);
   if (frames_.size() < 2) return end();

@@ -13,6 +13,9 @@ namespace clay::studio {
 /// Duration of the animation, long enough to follow; a real fall takes a fifth of it.
 inline constexpr double kFallS = 1.2;
 
+/// Why a pot fell, as a clause for a sentence.
+[[nodiscard]] const char* fall_reason(const Collapse& fall) noexcept;
+
 class FallShow {
  public:
   /// Starts the animation of a collapsed pot. Does nothing if the frames of its fall are unknown.

@@ -4,6 +4,7 @@
 #include "app/render/pot_view.hpp"
 #include "app/servo/words.hpp"
 #include "app/studio/app_state.hpp"
+#include "app/studio/fall_show.hpp"
 #include "app/studio/panels/timeline.hpp"
 
 #include <fmt/format.h>
@@ -90,8 +91,8 @@ void update_strokes(AppState& state) {
   if (!news.nothing_cut.empty()) note(state, Grade::note, news.nothing_cut, kCutNoteS);
   if (news.ending == servo::Ending::collapsed) {
     state.fall.begin(state.document.shared_pot(), state.now_s());
-    state.ui.notices.show(Grade::warning,
-                          "The pot has fallen: the clay could not carry its own weight.");
+    state.ui.notices.show(Grade::warning, fmt::format("The pot has fallen: {}.",
+                                                      fall_reason(*state.document.pot().collapse)));
     state.ui.notices.keep_answer_while([](const Document& document) { return document.fallen(); });
   }
   if (news.ring_limit)

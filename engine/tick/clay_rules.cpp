@@ -4,6 +4,7 @@
 #include "engine/clay/stack_writer.hpp"
 #include "engine/tick/bending.hpp"
 #include "engine/tick/heave.hpp"
+#include "engine/tick/joints.hpp"
 #include "engine/tick/relief.hpp"
 #include "engine/tick/shell.hpp"
 #include "engine/tick/smear.hpp"
@@ -231,6 +232,21 @@ WideQuanta cut_ledge(const StepPlan& plan, const Contact& contact, const ClaySta
   return writer.cut_above(tip);
 }
 
+/// Keeps the rings that one tool may have changed on their neighbours; two tools hold the wall.
+/// Returns whether some of them hardly overlapped.
+bool keep_joined(const RulePress& press, std::span<const ToolRemoval> removals,
+                 const RuleWork& work, const ClayStack& stack, StackWriter& writer) noexcept {
+  const std::size_t top = stack.size() - 1, last = std::min(work.highest, top);
+  const std::size_t from = work.lowest - std::min<std::size_t>(work.lowest, 1);
+  const double min_wall = press.plan.removal.min_wall_mm, least = kJointPart * min_wall;
+  if (!has_weak_joint(stack.rings().subspan(from, std::min(last + 1, top) + 1 - from), least))
+    return false;
+  if (removals.size() == 1)
+    join_rings(stack, work.lowest, last,
+               {removals[0].contact.side == Side::expansive, least, min_wall}, writer);
+  return true;
+}
+
 template <unsigned rules>
 Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, RuleWork& work,
                ClayStack& stack, Ledger& ledger, Rim& all_rim) noexcept {
@@ -257,6 +273,8 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
   if constexpr (rules & kSmear)
     if (!press.trim && press.tool.slow_s > 0.0)
       smear_surfaces(press, removals, work, stack, writer);
+  if constexpr (rules & kShift)
+    if (!press.trim) flow.weak = keep_joined(press, removals, work, stack, writer);
   const std::size_t top = stack.size() - 1;
   flow.lowest = std::min(work.lowest, top);
   flow.highest = std::min(work.highest, top);

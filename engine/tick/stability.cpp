@@ -1,6 +1,7 @@
 #include "engine/tick/stability.hpp"
 
 #include "engine/clay/stress.hpp"
+#include "engine/tick/joints.hpp"
 
 #include <algorithm>
 
@@ -108,11 +109,32 @@ std::optional<Failure> StabilityWatch::check(const StabilityPlan& plan, const Cl
   note_change(rings, std::min(flow.lowest, cursor_), cursor_);
   // Between the flow and the top, or below the flow, the weight has risen too.
   const bool came_on_top = !at_top && (flow.grown > 0 || stack.crown() != crown_);
-  if (came_on_top || stack.volume() > volume_) return search(plan, stack);
   std::optional<Failure> worst;
-  find_weakest(plan, rings, above_cursor_ + stack.crown(), cursor_,
-               std::min({flow.lowest, flow.lip, cursor_}), worst);
+  if (came_on_top || stack.volume() > volume_)
+    worst = search(plan, stack);
+  else
+    find_weakest(plan, rings, above_cursor_ + stack.crown(), cursor_,
+                 std::min({flow.lowest, flow.lip, cursor_}), worst);
+  if (plan.parts) note_parted(plan, stack, flow, worst);
   return worst;
+}
+
+/// A ring that does not touch the one above it fails, whatever its stress.
+void StabilityWatch::note_parted(const StabilityPlan& plan, const ClayStack& stack,
+                                 const Flow& flow, std::optional<Failure>& worst) noexcept {
+  const bool lip = flow.lip < SIZE_MAX;
+  if (!flow.weak && !lip) return;
+  const auto rings = stack.rings();
+  const std::size_t top = rings.size() - 1;
+  const std::size_t low = lip && flow.weak ? std::min(flow.lowest, flow.lip)
+                          : lip            ? flow.lip
+                                           : flow.lowest;
+  const std::size_t first = std::min(low - std::min<std::size_t>(low, 1), top);
+  const auto gap = lowest_gap(rings, first, lip ? top : std::min(flow.highest + 1, top));
+  if (!gap || (worst && worst->ring <= *gap)) return;
+  WideQuanta above = stack.crown();
+  for (std::size_t i = top; i > *gap; --i) above += rings[i].volume();
+  worst = Failure{*gap, stress_kpa(plan.kpa_per_ratio, above, rings[*gap].volume())};
 }
 
 /// Rings were added or removed, and those above them moved.

@@ -32,10 +32,10 @@ class StabilityWatch {
   void move_to(const ClayStack& stack, std::size_t highest) noexcept;
 
   /// After it, with `highest` as given to move_to: the ring of greatest stress among those above
-  /// the threshold, if any; the result of check_all, if that found none before the flow. Reads the
-  /// rings of the flow and the new ones. If clay has come on top from far below, it also reads the
-  /// suspect stretches of the others, in which the weight below them would be too much for their
-  /// thinnest ring.
+  /// the threshold, if any, or a lower one that has parted from the ring above it; the result of
+  /// check_all, if that found none before the flow. Reads the rings of the flow and the new ones.
+  /// If clay has come on top from far below, it also reads the suspect stretches of the others, in
+  /// which the weight below them would be too much for their thinnest ring.
   [[nodiscard]] std::optional<Failure> check(const StabilityPlan& plan, const ClayStack& stack,
                                              const Flow& flow) noexcept;
 
@@ -45,6 +45,8 @@ class StabilityWatch {
 
  private:
   void note_change(std::span<const Ring> rings, std::size_t first, std::size_t last) noexcept;
+  static void note_parted(const StabilityPlan& plan, const ClayStack& stack, const Flow& flow,
+                          std::optional<Failure>& worst) noexcept;
   void note_lip(std::span<const Ring> rings, const Flow& flow, bool at_top) noexcept;
   void bring_up_to_date(std::span<const Ring> rings) noexcept;
   [[nodiscard]] std::optional<Failure> search(const StabilityPlan& plan,

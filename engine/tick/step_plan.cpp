@@ -108,7 +108,8 @@ ForcePlan force_plan(const SceneSpec& s) {
 
 StabilityPlan stability_plan(const SceneSpec& s) {
   if (!s.stability) return {};
-  return {s.stability->max_stress_kpa, kpa_per_ratio(s.lump.density_g_cm3, s.lump.ring_height_mm)};
+  return {s.stability->max_stress_kpa, kpa_per_ratio(s.lump.density_g_cm3, s.lump.ring_height_mm),
+          s.clay.has_value() && s.model != Model::paper};
 }
 
 /// The same tool seen in a pot that stands upside down.

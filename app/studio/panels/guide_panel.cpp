@@ -1,6 +1,7 @@
 // The guide: a card with the present step, and the path to follow over the view.
 
 #include "app/studio/commands.hpp"
+#include "app/studio/fall_show.hpp"
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/panels/widgets.hpp"
 
@@ -93,7 +94,8 @@ void draw_present_step(const ViewModel& model, Actions& actions) {
 
 void draw_fallen(const ViewModel& model, Actions& actions) {
   draw_title(model, "The pot has fallen");
-  ImGui::TextWrapped("The clay could not carry its own weight. Undo the last stroke.");
+  ImGui::TextWrapped("Reason: %s. Undo the last stroke.",
+                     fall_reason(*model.document.pot().collapse));
   const Command& undo = *find_command("edit.undo");
   if (main_button(undo.title, model.colours(), undo.enabled(model)))
     actions.emplace_back(RunCommand{undo.id});

@@ -172,6 +172,55 @@ TEST(Stability, NewTopRingsLoadTheRingsBetween) {
   EXPECT_EQ(grown, 3u);
 }
 
+/// Ring 5 does not touch ring 6, and no ring carries much.
+ClayStack parted_stack() {
+  std::vector<Ring> rings(12, Ring{quanta_from_radius(40.0), quanta_from_radius(37.0)});
+  for (std::size_t i = 6; i < rings.size(); ++i)
+    rings[i] = {quanta_from_radius(36.5), quanta_from_radius(30.0)};
+  return ClayStack::from_rings(1.0, rings, 0).value();
+}
+
+TEST(Stability, ARingThatDoesNotTouchTheOneAboveFailsAtAnyStress) {
+  const ClayStack stack = parted_stack();
+  StabilityPlan plan = plan_of(100.0).stability;
+  const auto failed = [&](const Flow& flow) {
+    StabilityWatch watch(stack);
+    watch.move_to(stack, flow.highest);
+    return watch.check(plan, stack, flow);
+  };
+  EXPECT_FALSE(failed({.lowest = 5, .highest = 6}));  // a scene without clay rules
+  plan.parts = true;
+  for (const Flow& flow :
+       {Flow{.lowest = 5, .highest = 5}, Flow{.lowest = 6, .highest = 6},
+        Flow{.lowest = 0, .highest = 11}, Flow{.lowest = 9, .highest = 9, .lip = 6, .weak = false},
+        Flow{.lowest = 9, .highest = 9, .lip = 3, .weak = true}}) {
+    const auto failure = failed(flow);
+    ASSERT_TRUE(failure) << flow.lowest;
+    EXPECT_EQ(failure->ring, 5u);
+    EXPECT_EQ(failure->stress_kpa, stresses_kpa(stack, 1.9)[5]);
+  }
+  EXPECT_FALSE(failed({.lowest = 0, .highest = 4}));
+  EXPECT_FALSE(failed({.lowest = 7, .highest = 11}));
+  EXPECT_FALSE(failed({.lowest = 0, .highest = 11, .weak = false}));
+}
+
+/// The part above the lower failure falls.
+TEST(Stability, TheLowerOfAGapAndAnOverloadedRingFails) {
+  const ClayStack stack = parted_stack();
+  StabilityPlan plan = plan_of(1.0).stability;
+  plan.parts = true;
+  const auto stresses = stresses_kpa(stack, 1.9);
+  const auto failed_ring = [&](double threshold_kpa) {
+    plan.max_stress_kpa = threshold_kpa;
+    StabilityWatch watch(stack);
+    watch.move_to(stack, 11);
+    return watch.check(plan, stack, {.lowest = 0, .highest = 11})->ring;
+  };
+  EXPECT_EQ(failed_ring(0.999 * stresses[0]), 0u);
+  ASSERT_GT(stresses[0], stresses[5]);
+  EXPECT_EQ(failed_ring(1.001 * stresses[0]), 5u);
+}
+
 /// Walls from a tenth of the radius to solid. Some stacks have a nearly empty top ring, so that the
 /// crown becomes many rings.
 ClayStack random_stack(std::mt19937_64& random, std::size_t count) {

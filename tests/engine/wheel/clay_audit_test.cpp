@@ -4,6 +4,7 @@
 #include "claystack/engine/wheel.hpp"
 #include "engine/tick/clay_rules.hpp"
 #include "engine/tick/contact.hpp"
+#include "engine/tick/joints.hpp"
 #include "tests/engine/wheel/rule_samples.hpp"
 
 #include <gtest/gtest.h>
@@ -38,15 +39,22 @@ TEST(ClayAudit, AccountsForEveryQuantumAfterEveryTick) {
                           (rules / 7) % 4 < 2};
     Wheel wheel = Wheel::build(scene).value();
     for (const Pose& pose : random_poses(rules + 1, ticks())) {
+      if (wheel.collapsed()) wheel = Wheel::build(scene).value();
       const StepReport report = wheel.step(pose);
       const glm::dvec3 force = report.force_n();
       ASSERT_TRUE(std::isfinite(force.x + force.y + force.z));
       ASSERT_GE(wheel.stack().crown(), 0);
       expect_balanced(wheel);
+      const auto gap = lowest_gap(wheel.stack().rings(), 0, wheel.stack().size() - 1);
+      ASSERT_EQ(wheel.collapsed(), gap.has_value()) << rules;
+      if (gap) {
+        ASSERT_EQ(wheel.pot().collapse->failed_ring, *gap);
+      }
       ASSERT_EQ(wheel.stack().hollow(),
                 std::ranges::any_of(wheel.stack().rings(),
                                     [](const Ring& ring) { return ring.inner2 > 0; }));
     }
+    if (wheel.collapsed()) continue;
     // Once the hand is away, the clay under it can rise.
     for (int k = 1; k <= 20; ++k)
       wheel.step({1000 * (ticks() + k), {500.0, 500.0, 0.0}, false, 0.0});
@@ -78,6 +86,7 @@ void expect_no_gain_of_energy(const SceneSpec& scene) {
   double worst = 0.0, worst_new = 0.0;
   int seen = 0, grown = 0;
   for (const Pose& pose : random_poses(77, ticks())) {
+    if (wheel.collapsed()) wheel = Wheel::build(scene).value();
     const ClayStack before = wheel.stack();
     Contact outer, inner;
     for (Contact* contact : {&outer, &inner})

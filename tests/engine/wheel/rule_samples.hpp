@@ -55,11 +55,11 @@ double change_by_halving(double ring_height_mm, RadiiIn radii_in) {
 /// A wheel with a pot of these radii, `outer` and `inner` by the height of a ring's middle.
 inline Wheel wheel_with(const SceneSpec& scene, double height_mm,
                         const std::function<double(double)>& outer,
-                        const std::function<double(double)>& inner) {
+                        const std::function<double(double)>& inner, double ring_height_mm = kH) {
   std::vector<Ring> rings;
-  for (double up = 0.5 * kH; up < height_mm; up += kH)
+  for (double up = 0.5 * ring_height_mm; up < height_mm; up += ring_height_mm)
     rings.push_back({quanta_from_radius(outer(up)), quanta_from_radius(inner(up))});
-  Pot pot{ClayStack::from_rings(kH, rings, 0, 2400).value(),
+  Pot pot{ClayStack::from_rings(ring_height_mm, rings, 0, 2400).value(),
           {},
           Model::conserving,
           1.9,

@@ -167,7 +167,7 @@ struct Ledger {
 /// upright plane through the pot's axis and `pivot_mm`, the HIP when it happened: first
 /// turned about a horizontal axis through the pivot, then shifted (FallenPlace).
 struct Collapse {
-  std::size_t failed_ring = 0;  ///< index of the ring that yielded; it stays below
+  std::size_t failed_ring = 0;  ///< index of the ring that yielded or parted; it stays below
   glm::dvec3 pivot_mm{0.0};
   glm::dvec3 axis{0.0, 0.0, 1.0};  ///< unit, horizontal; right-handed turn
   double angle_rad = 0.0;          ///< within a full turn either way
@@ -176,6 +176,11 @@ struct Collapse {
   double threshold_kpa = 0.0;    ///< the stress that the clay bears; 0: not known
   double energy_lost_mj = 0.0;   ///< potential energy, by the upper part
   double plastic_work_mj = 0.0;  ///< of that, spent on the lower clay; the rest was damped
+
+  /// The failed ring bore its load, but a press or a cut parted it from the ring above.
+  [[nodiscard]] bool parted() const noexcept {
+    return threshold_kpa > 0.0 && stress_kpa <= threshold_kpa;
+  }
   friend bool operator==(const Collapse&, const Collapse&) = default;
 };
 

@@ -1,0 +1,99 @@
+#include "engine/tick/joints.hpp"
+
+#include "engine/clay/packs.hpp"
+#include "engine/tick/contact.hpp"
+
+#include <algorithm>
+
+namespace clay {
+namespace {
+
+// Rings that one stretch may take from the top.
+constexpr std::size_t kMostTaken = 64;
+
+bool overlap(const Ring& a, const Ring& b) noexcept {
+  return a.outer2 > b.inner2 && b.outer2 > a.inner2;
+}
+
+/// Clay that a ring can get: the crown, and the rings above it.
+WideQuanta spare_above(const ClayStack& stack, std::size_t ring) noexcept {
+  const auto rings = stack.rings();
+  WideQuanta spare = stack.crown();
+  const std::size_t count = std::min(rings.size() - 1 - ring, kMostTaken);
+  for (std::size_t k = 1; k <= count; ++k) spare += rings[rings.size() - k].volume();
+  return spare;
+}
+
+double least_overlap(const Following& following, const Ring& a, const Ring& b) noexcept {
+  return std::min(following.least_mm, 0.5 * std::min(wall_mm(a), wall_mm(b)));
+}
+
+/// `ring` where it overlaps its neighbour by enough, after a motion outward.
+Ring outward_of(const Following& following, const Ring& neighbour, const Ring& ring) noexcept {
+  if (ring.inner2 == 0) return ring;
+  const double outer = neighbour.inner_mm() + least_overlap(following, neighbour, ring);
+  if (!(outer < kMaxRadiusMm)) return ring;
+  const Quanta by = quanta_from_radius(outer) - ring.outer2;
+  if (by <= 0) return ring;
+  Ring moved{ring.outer2 + by, ring.inner2 + by};
+  const double thick = std::min(wall_mm(ring), following.min_wall_mm);
+  if (wall_mm(moved) < thick) moved.inner2 = quanta_from_radius(moved.outer_mm() - thick);
+  return moved;
+}
+
+/// The same inward. The ring becomes thicker, and its bore stays open.
+Ring inward_of(const Following& following, const Ring& neighbour, const Ring& ring) noexcept {
+  const double inner = neighbour.outer_mm() - least_overlap(following, neighbour, ring);
+  const Quanta by = ring.inner2 - quanta_from_radius(inner);
+  const Ring moved{ring.outer2 - by, ring.inner2 - by};
+  return by > 0 && moved.inner2 > 0 && moved.outer2 >= kSmallestOuter2 ? moved : ring;
+}
+
+}  // namespace
+
+/// Neighbours overlap from r to R. R^2 - r^2 is at most 2 R times the overlap, so no root is
+/// needed.
+bool has_weak_joint(std::span<const Ring> rings, double least_mm) noexcept {
+  if (rings.size() < 2) return false;
+  bool weak = false;
+  in_packs([=, from = rings.data(), joints = rings.size() - 1,
+            least = std::max(4.0 * least_mm * least_mm * kQuantaPerMm2, 1e-6),
+            to = &weak](auto n) CLAYSTACK_INLINE {
+    using D = Doubles<n>;
+    Quantas<n> found{};
+    for (std::size_t k = 0; k < joints; k += n) {
+      const RingPack<n> a = load_rings<n>(from + k, joints - k);
+      const RingPack<n> b = load_rings<n>(from + k + 1, joints - k);
+      const Quantas<n> outer = lesser(a.outer2, b.outer2), inner = greater(a.inner2, b.inner2);
+      const D shared = doubles_of(Quantas<n>(outer > inner ? outer - inner : Quantas<n>{}));
+      found |= D(shared * shared) < D(least * doubles_of(outer));
+    }
+    *to = any(found);
+  });
+  return weak;
+}
+
+std::optional<std::size_t> lowest_gap(std::span<const Ring> rings, std::size_t first,
+                                      std::size_t last) noexcept {
+  if (!has_weak_joint(rings.subspan(first, last + 1 - first), 0.0)) return std::nullopt;
+  for (std::size_t i = first; i < last; ++i)
+    if (!overlap(rings[i], rings[i + 1])) return i;
+  return std::nullopt;
+}
+
+/// One way up and one way down are enough: a ring that has followed overlaps the one that it
+/// followed, and reaches no farther than that one on the side of the press.
+void join_rings(const ClayStack& stack, std::size_t first, std::size_t last,
+                const Following& following, StackWriter& writer) noexcept {
+  const auto rings = stack.rings();
+  const auto follow = [&](std::size_t neighbour, std::size_t i) {
+    const Ring moved = following.outward ? outward_of(following, rings[neighbour], rings[i])
+                                         : inward_of(following, rings[neighbour], rings[i]);
+    const WideQuanta more = moved.volume() - rings[i].volume();
+    if (moved != rings[i] && (more <= 0 || more <= spare_above(stack, i))) writer.reshape(i, moved);
+  };
+  for (std::size_t i = std::max<std::size_t>(first, 1); i <= last; ++i) follow(i - 1, i);
+  for (std::size_t i = std::min(last + 1, rings.size() - 1); i-- > first;) follow(i + 1, i);
+}
+
+}  // namespace clay

@@ -1,0 +1,37 @@
+#pragma once
+// Whether neighbouring rings touch, and how a press keeps them together (docs/model.md, Joints).
+
+#include "claystack/engine/clay.hpp"
+#include "engine/clay/stack_writer.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace clay {
+
+/// Part of the minimum wall by which a press keeps neighbouring rings overlapping.
+inline constexpr double kJointPart = 0.25;
+
+/// Whether some neighbours overlap by less than `least_mm`. May also return true where they overlap
+/// by less than twice that.
+[[nodiscard]] bool has_weak_joint(std::span<const Ring> rings, double least_mm) noexcept;
+
+/// The lowest of the rings first..last-1 that does not overlap the one above it.
+[[nodiscard]] std::optional<std::size_t> lowest_gap(std::span<const Ring> rings, std::size_t first,
+                                                    std::size_t last) noexcept;
+
+/// How rings follow a press.
+struct Following {
+  bool outward = false;
+  double least_mm = 0.0;  ///< overlap that they keep, or half of the thinner wall if that is less
+  double min_wall_mm = 0.0;  ///< a ring at its minimum keeps its thickness, with clay of the crown
+};
+
+/// Moves those of the rings first..last that overlap a neighbour by too little, in the direction of
+/// the press. They keep their volume, unless they become thinner than the minimum. The crown may
+/// then be below 0; the rings above have enough clay for it.
+void join_rings(const ClayStack& stack, std::size_t first, std::size_t last,
+                const Following& following, StackWriter& writer) noexcept;
+
+}  // namespace clay
