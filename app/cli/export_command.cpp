@@ -6,6 +6,7 @@
 #include "app/cli/packed_pot.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
+#include "app/cli/remedies.hpp"
 #include "app/cli/report_file.hpp"
 
 #include "claystack/engine/files.hpp"
@@ -105,7 +106,7 @@ Result<int> export_pot(ExportCommand& command, Console console) {
     command.request.options.wall_spacing_mm = solid::kWallTableSpacingMm;
   const auto report = solid::export_files(*pot, command.request,
                                           [&](std::string_view stage) { progress.stage(stage); });
-  if (!report) return tl::make_unexpected(report.error());
+  if (!report) return failure(report.error().kind, with_options(report.error().message));
   if (console.json) print_json(export_json(*report, *copies, command.request.options.met_goal));
   print_export(console, *report, *copies);
   const bool fails = print_problems(console, *report);

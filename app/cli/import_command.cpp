@@ -67,6 +67,8 @@ std::vector<std::string> warnings_about(const ImportOptions& options, const Half
         "{}: expected rings within {:g} mm of the drawing, found {:.3f} mm; rings lower than {:g} "
         "mm are not closer, because details of the drawing are lower still",
         options.drawing, kDrawnDeviationMm, drawn.deviation.mm, drawn.pot.stack.ring_height_mm()));
+  if (const auto gap = gap_warning(drawn.pot.stack))
+    warnings.push_back(options.drawing + ": " + *gap + " (--ring-height)");
   return warnings;
 }
 

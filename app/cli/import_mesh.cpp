@@ -72,6 +72,7 @@ std::vector<std::string> warnings_about(const MeshPot& made, bool rings_asked) {
                     "lower than {:.4g} mm are not closer: smooth the mesh, or set the height with "
                     "--ring-height",
                     made.aimed_mm, made.off_mm, made.pot.stack.ring_height_mm()));
+  if (const auto gap = gap_warning(made.pot.stack)) warnings.push_back(*gap + " (--ring-height)");
   return warnings;
 }
 

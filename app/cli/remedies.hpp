@@ -2,6 +2,7 @@
 // The options that the messages of the library name in words.
 
 #include "claystack/export/formats.hpp"
+#include "claystack/export/job.hpp"
 #include "claystack/export/repair.hpp"
 
 #include <array>
@@ -18,7 +19,8 @@ namespace clay::cli {
   constexpr std::array kOptions{std::pair{std::string_view(solid::kThickening), "--thicken MM"},
                                 std::pair{std::string_view(solid::kCapping), "--cap"},
                                 std::pair{std::string_view(solid::kWrapping), "--wrap MM"},
-                                std::pair{std::string_view(solid::kByRepair), "check --repair"}};
+                                std::pair{std::string_view(solid::kByRepair), "check --repair"},
+                                std::pair{std::string_view(solid::kPermitPieces), "use --pieces"}};
   for (const auto& [words, option] : kOptions)
     if (const std::size_t at = text.find(words, begin); at != std::string::npos)
       text.replace(at, words.size(), option);

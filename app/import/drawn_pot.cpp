@@ -123,6 +123,18 @@ Result<DrawnRings> fitted_rings(const HalfSection& section, const std::vector<do
 
 }  // namespace
 
+std::optional<std::string> gap_warning(const ClayStack& stack) {
+  const auto rings = stack.rings();
+  const auto gap = std::ranges::adjacent_find(
+      rings, [](const Ring& below, const Ring& above) { return !above.touches(below); });
+  if (gap == rings.end()) return std::nullopt;
+  const std::size_t above = static_cast<std::size_t>(gap - rings.begin()) + 1;
+  return fmt::format(
+      "expected a pot in one piece, found rings {} and {}, {:.4g} mm above the foot, that do not "
+      "touch; a flat wall needs lower rings",
+      above - 1, above, static_cast<double>(above) * stack.ring_height_mm());
+}
+
 std::vector<Slab> slabs_of(const ClayStack& stack) {
   return slabs_of_rings(stack.rings(), stack.ring_height_mm());
 }

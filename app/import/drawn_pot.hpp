@@ -9,6 +9,7 @@
 #include "claystack/engine/clay.hpp"
 
 #include <optional>
+#include <string>
 
 namespace clay::importing {
 
@@ -31,6 +32,10 @@ struct DrawnPot {
   Deviation deviation;  ///< of the rings from the drawing; from the hollowed drawing with a wall
   std::optional<ThinnestWall> thinnest;  ///< of the hollowed drawing
 };
+
+/// A warning where the pot is in pieces: its lowest ring that does not touch the one above. Rings
+/// may be too high for a flat wall.
+[[nodiscard]] std::optional<std::string> gap_warning(const ClayStack& stack);
 
 /// The clay of a stack as slabs of constant radii.
 [[nodiscard]] std::vector<Slab> slabs_of(const ClayStack& stack);

@@ -10,7 +10,7 @@ namespace {
 
 /// Lower bound of the part of the lost energy that is motion, so that the first frames take a
 /// finite time.
-constexpr double kLeastPart = 1e-3;
+constexpr double kLeastMoving = 1e-3;
 
 /// Frames are equally spaced. The duration of each is inversely proportional to the speed, the
 /// square root of the kinetic energy gained before it.
@@ -21,7 +21,7 @@ std::vector<double> times_of(const std::vector<FallFrame>& frames) {
     const double moving_mj =
         frames.front().potential_mj - frames[i].potential_mj - frames[i].plastic_mj;
     const double part = lost_mj > 0.0 ? moving_mj / lost_mj : 1.0;
-    times[i] = times[i - 1] + 1.0 / std::sqrt(std::max(part, kLeastPart));
+    times[i] = times[i - 1] + 1.0 / std::sqrt(std::max(part, kLeastMoving));
   }
   for (double& time : times) time *= kFallS / times.back();
   return times;

@@ -111,7 +111,7 @@ glm::dvec3 MouseDevice::permitted(const glm::dvec3& step_mm, double step_s,
   unbitten_mm2_ = std::min(unbitten_mm2_ + bite_mm2, bite_mm2 + kUnevenMm2);
   glm::dvec3 moved{0.0};
   const auto bite = [&](const glm::dvec3& way) {
-    constexpr double kLeastPart = 1.0 / 64.0;
+    constexpr double kLeastOfWay = 1.0 / 64.0;
     double part = 1.0;
     for (int k = 0; k < kTries; ++k) {
       const Overlap then = overlap(place_mm_ + moved + part * way);
@@ -123,7 +123,7 @@ glm::dvec3 MouseDevice::permitted(const glm::dvec3& step_mm, double step_s,
         return;
       }
       // About in proportion to the way, if not quite.
-      part *= std::max(0.8 * unbitten_mm2_ / growth, kLeastPart);
+      part *= std::max(0.8 * unbitten_mm2_ / growth, kLeastOfWay);
     }
   };
   bite(wanted);

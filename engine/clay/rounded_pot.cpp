@@ -15,9 +15,6 @@ Ring rounded(const Ring& ring, const RadiusGrid& grid) {
   return {grid.square(grid.steps(ring.outer2)), grid.square(inner)};
 }
 
-/// True if two adjacent rings share more than an edge.
-bool touch(const Ring& a, const Ring& b) { return a.inner2 < b.outer2 && b.inner2 < a.outer2; }
-
 tl::unexpected<Error> too_coarse(std::size_t ring, double precision_mm, const std::string& why) {
   return failure(ErrorKind::bad_input, "ring " + std::to_string(ring) +
                                            ": expected radii that can be rounded to " +
@@ -35,7 +32,7 @@ Result<std::vector<Ring>> rounded_rings(const ClayStack& stack, const RadiusGrid
       return too_coarse(i, precision_mm,
                         "a wall that would vanish, from " + number_text(exact[i].inner_mm()) +
                             " mm to " + number_text(exact[i].outer_mm()) + " mm");
-    if (i > 0 && touch(exact[i - 1], exact[i]) && !touch(rings[i - 1], rings[i]))
+    if (i > 0 && exact[i].touches(exact[i - 1]) && !rings[i].touches(rings[i - 1]))
       return too_coarse(i, precision_mm, "one that would no longer touch the ring below");
   }
   return rings;

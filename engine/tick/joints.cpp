@@ -11,10 +11,6 @@ namespace {
 // Rings that one stretch may take from the top.
 constexpr std::size_t kMostTaken = 64;
 
-bool overlap(const Ring& a, const Ring& b) noexcept {
-  return a.outer2 > b.inner2 && b.outer2 > a.inner2;
-}
-
 /// Clay that a ring can get: the crown, and the rings above it.
 WideQuanta spare_above(const ClayStack& stack, std::size_t ring) noexcept {
   const auto rings = stack.rings();
@@ -77,7 +73,7 @@ std::optional<std::size_t> lowest_gap(std::span<const Ring> rings, std::size_t f
                                       std::size_t last) noexcept {
   if (!has_weak_joint(rings.subspan(first, last + 1 - first), 0.0)) return std::nullopt;
   for (std::size_t i = first; i < last; ++i)
-    if (!overlap(rings[i], rings[i + 1])) return i;
+    if (!rings[i].touches(rings[i + 1])) return i;
   return std::nullopt;
 }
 

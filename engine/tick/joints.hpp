@@ -17,7 +17,7 @@ inline constexpr double kJointPart = 0.25;
 /// by less than twice that.
 [[nodiscard]] bool has_weak_joint(std::span<const Ring> rings, double least_mm) noexcept;
 
-/// The lowest of the rings first..last-1 that does not overlap the one above it.
+/// The lowest of the rings first..last-1 that does not touch the one above it.
 [[nodiscard]] std::optional<std::size_t> lowest_gap(std::span<const Ring> rings, std::size_t first,
                                                     std::size_t last) noexcept;
 

@@ -1,5 +1,6 @@
 #include "export/job/resolution.hpp"
 
+#include "claystack/export/job.hpp"
 #include "claystack/export/solid.hpp"
 #include "core/text.hpp"
 
@@ -60,8 +61,8 @@ Result<void> check_pieces(const std::vector<PieceShape>& shapes, bool allow_piec
   return failure(ErrorKind::unsound,
                  "expected a pot in one piece, found " + std::to_string(shapes.size()) +
                      " that do not touch: rings " + std::to_string(shapes[0].last_ring) + " and " +
-                     std::to_string(shapes[1].first_ring) +
-                     " are the first that do not touch; permit several pieces to export them");
+                     std::to_string(shapes[1].first_ring) + " are the first that do not touch; " +
+                     kPermitPieces + " to export them");
 }
 
 }  // namespace clay::solid::inline job

@@ -76,6 +76,24 @@ TEST(Import, WarnsOfADrawingInAnotherUnit) {
   EXPECT_EQ(asked.err.find("mm high;"), std::string::npos) << asked.err;
 }
 
+/// The wall leans by 79 degrees: 5.1 mm wide where it is cut level, and 5 mm farther out per mm of
+/// height.
+TEST(Import, WarnsOfRingsThatAreTooHighForAFlatWall) {
+  const ScratchFolder folder;
+  const std::string drawing = folder.file("dish.csv"), pot = folder.file("dish.pot.json");
+  write_text(drawing, "radius,height\n10,0\n60,10\n");
+  const std::string dish = "import " + drawing + " --wall 1 -o " + pot;
+  const Ran high = claystack(dish + " --ring-height 2");
+  EXPECT_EQ(high.status, 0) << high.err;
+  EXPECT_THAT(high.err, HasSubstr("dish.csv: expected a pot in one piece, found rings "));
+  EXPECT_THAT(high.err, HasSubstr("a flat wall needs lower rings (--ring-height)"));
+  EXPECT_THAT(claystack(dish + " --ring-height 2 --json").json().at("warnings").dump(),
+              HasSubstr("that do not touch"));
+  const Ran low = claystack(dish + " --ring-height 0.5");
+  EXPECT_EQ(low.status, 0) << low.err;
+  EXPECT_EQ(low.err.find("do not touch"), std::string::npos) << low.err;
+}
+
 TEST(Import, AcceptsNamesInUpperCase) {
   const ScratchFolder folder;
   const std::string json = folder.file("JUG.POT.JSON"), cbor = folder.file("JUG.POT.CBOR");

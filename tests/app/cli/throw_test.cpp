@@ -50,13 +50,40 @@ TEST(Throw, AThinWallThatYieldsStaysInOnePiece) {
   EXPECT_EQ(json.at("volume_error_quanta"), 0);
 }
 
-TEST(Throw, ReportsThePiecesOfATornPot) {
-  const ScratchFolder folder;
+/// The same, where a press moves no wall, and the tool goes through a wall at its minimum.
+std::string torn_throw(const ScratchFolder& folder, bool falls) {
   auto scene = nlohmann::json::parse(read_text(sample("vase.scene.json")));
   scene["clay"].erase("thin_wall");
+  scene["clay"]["shift"] = false;
+  scene.erase("stability");
+  if (falls) scene["stability"] = {{"max_stress_kpa", 1000.0}};
   write_text(folder.file("vase.scene.json"), scene.dump());
-  const std::string torn =
-      "throw " + folder.file("vase.scene.json") + " -s " + sample("bowl.session");
+  return "throw " + folder.file("vase.scene.json") + " -s " + sample("bowl.session");
+}
+
+TEST(Throw, APotCutInTwoFalls) {
+  const ScratchFolder folder;
+  const std::string cut = torn_throw(folder, true), pot = folder.file("cut.pot.json");
+  const auto run = claystack(cut + " -o " + pot);
+  EXPECT_EQ(run.status, 0) << run.err;
+  const auto json = claystack(cut + " --json").json();
+  ASSERT_EQ(json.at("collapsed"), true);
+  const auto& fall = json.at("collapse");
+  EXPECT_EQ(fall.at("parted"), true);
+  EXPECT_LT(fall.at("stress_kpa"), 1000.0);
+  const std::string words =
+      "ring " + fall.at("ring").dump() + " no longer touches the ring above it";
+  EXPECT_NE(run.out.find("collapsed: " + words + "; the part above came to rest at "),
+            std::string::npos)
+      << run.out;
+  const auto check = claystack("check " + pot);
+  EXPECT_EQ(check.status, 1);
+  EXPECT_NE(check.out.find(words), std::string::npos) << check.out;
+}
+
+TEST(Throw, ReportsThePiecesOfATornPot) {
+  const ScratchFolder folder;
+  const std::string torn = torn_throw(folder, false);
   const auto run = claystack(torn);
   EXPECT_EQ(run.status, 0) << run.err;
   const auto json = claystack(torn + " --json").json();
@@ -68,6 +95,11 @@ TEST(Throw, ReportsThePiecesOfATornPot) {
             std::string::npos)
       << run.out;
   EXPECT_NE(run.out.find("claystack export --pieces writes them"), std::string::npos);
+  const std::string pot = folder.file("torn.pot.json");
+  ASSERT_EQ(claystack(torn + " -q -o " + pot).status, 0);
+  const auto refused = claystack("export " + pot + " " + folder.file("torn.stl"));
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.err.find("; use --pieces to export them"), std::string::npos) << refused.err;
   EXPECT_TRUE(run.out.starts_with("size ")) << run.out;  // the table of the pot
 }
 
@@ -146,6 +178,7 @@ TEST(Throw, ReportsACollapse) {
                 .at("stability")
                 .at("max_stress_kpa"));
   EXPECT_GT(fall.at("stress_kpa"), fall.at("threshold_kpa"));
+  EXPECT_EQ(fall.at("parted"), false);
   EXPECT_GT(fall.at("angle_deg"), 30.0);
   EXPECT_GT(fall.at("plastic_work_mj"), 0.0);
   EXPECT_GT(fall.at("energy_lost_mj"), fall.at("plastic_work_mj"));

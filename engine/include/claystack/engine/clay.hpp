@@ -70,6 +70,10 @@ struct Ring {
   }  ///< normalised: V / (pi h)
   [[nodiscard]] double outer_mm() const noexcept { return radius_from_quanta(outer2); }
   [[nodiscard]] double inner_mm() const noexcept { return radius_from_quanta(inner2); }
+  /// Whether it shares more than a circle with a ring on or below it.
+  [[nodiscard]] bool touches(const Ring& neighbour) const noexcept {
+    return inner2 < neighbour.outer2 && neighbour.inner2 < outer2;
+  }
   friend bool operator==(const Ring&, const Ring&) = default;
 };
 

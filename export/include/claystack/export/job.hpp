@@ -39,6 +39,9 @@ namespace clay::solid::inline job {
 /// ClayStack.
 Result<Pot> enlarged(const Pot& pot, double shrinkage);
 
+/// The remedy that the message about a pot in pieces names: `ExportOptions::allow_pieces`.
+inline constexpr const char* kPermitPieces = "permit several pieces";
+
 // ---- goal ----------------------------------------------------------------------------
 // The pot scaled to a capacity, a weight or a size.
 
