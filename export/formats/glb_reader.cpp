@@ -3,29 +3,24 @@
 #include "core/little_endian.hpp"
 #include "core/text.hpp"
 #include "export/formats/file_floats.hpp"
+#include "export/formats/glb_buffers.hpp"
 #include "export/formats/glb_json.hpp"
+#include "export/formats/glb_scene.hpp"
 #include "export/formats/mesh_limits.hpp"
-#include "export/formats/meshopt_view.hpp"
 #include "export/formats/stated_sizes.hpp"
 #include "export/solid/vertex_welder.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 #include <map>
-#include <optional>
-#include <set>
 #include <vector>
 
 namespace clay::solid::inline formats {
 namespace {
 
 using namespace glb;
-
-constexpr std::size_t kMaxNodeDepth = 32;
 
 /// The error of the reader of a compressed mesh within the file.
 struct BadStream {
@@ -73,23 +68,26 @@ Component component_of(std::size_t type) {
 class GlbReader {
  public:
   GlbReader(std::string_view file, std::string_view name, const ReadOptions& options)
-      : chunks_(chunks_of(file)), json_(parsed(chunks_.json)), name_(name), options_(options) {}
+      : chunks_(chunks_of(file)),
+        json_(parsed(chunks_.json)),
+        buffers_(json_, chunks_.binary),
+        scene_(scene_of(json_)),
+        name_(name),
+        options_(options) {}
 
   Result<TriangleMesh> read() {
-    place_meshes();
-    for (const auto& [mesh, matrix] : placed_) load(mesh);
+    for (const auto& [mesh, matrix] : scene_.placed) load(mesh);
     if (auto fits = check_limit(); !fits) return tl::make_unexpected(fits.error());
-    for (const auto& [mesh, matrix] : placed_) place(meshes_.at(mesh), matrix);
+    for (const auto& [mesh, matrix] : scene_.placed) place(meshes_.at(mesh), matrix);
     note_differences();
     return std::move(mesh_);
   }
 
   /// By the accessors, and by the headers of Draco's meshes.
   std::uint64_t stated_triangles() {
-    place_meshes();
     std::map<std::size_t, std::uint64_t> stated;
     std::uint64_t triangles = 0;
-    for (const auto& [mesh, matrix] : placed_) {
+    for (const auto& [mesh, matrix] : scene_.placed) {
       const auto [found, is_new] = stated.try_emplace(mesh);
       if (is_new)
         for (const Json& primitive : primitives_of(mesh))
@@ -100,112 +98,6 @@ class GlbReader {
   }
 
  private:
-  void place_meshes() {
-    check_extensions();
-    for (const std::size_t node : first_nodes()) visit(node, glm::dmat4(1.0), 0);
-  }
-
-  void check_extensions() const {
-    const auto required = json_.find("extensionsRequired");
-    if (required == json_.end()) return;
-    for (const Json& extension : *required) {
-      const std::string text = extension.is_string() ? extension.get<std::string>() : "";
-      if (text != kDraco && text != kMeshopt && text != kQuantization &&
-          !text.starts_with("KHR_materials_") && !text.starts_with("KHR_texture_"))
-        throw BadGlb("expected no required extension but " +
-                     std::string(kDraco).append(", ").append(kMeshopt).append(", ") +
-                     std::string(kQuantization) + " and those of materials, found '" +
-                     one_line(text.substr(0, 60)) + "'");
-    }
-  }
-
-  /// Those of the scene. A file may have no scenes: then the nodes that are no child of another.
-  [[nodiscard]] std::vector<std::size_t> first_nodes() {
-    if (json_.contains("scenes"))
-      return nodes_in(object_at(json_, "scenes", count_in(json_, "scene", 0)), "nodes");
-    no_scene_ = true;
-    const auto found = json_.find("nodes");
-    const std::size_t count = found != json_.end() && found->is_array() ? found->size() : 0;
-    std::vector<bool> child(count);
-    for (std::size_t i = 0; i < count; ++i)
-      for (const std::size_t node : nodes_in(object_at(json_, "nodes", i), "children"))
-        if (node < count) child[node] = true;
-    std::vector<std::size_t> first;
-    for (std::size_t i = 0; i < count; ++i)
-      if (!child[i]) first.push_back(i);
-    return first;
-  }
-
-  [[nodiscard]] static std::vector<std::size_t> nodes_in(const Json& json, const char* key) {
-    std::vector<std::size_t> nodes;
-    const auto found = json.find(key);
-    if (found == json.end()) return nodes;
-    if (!found->is_array()) throw BadGlb(std::string(key) + ": expected a list of nodes");
-    for (const Json& node : *found) {
-      if (!node.is_number_unsigned()) throw BadGlb(std::string(key) + ": expected numbers");
-      nodes.push_back(node.get<std::size_t>());
-    }
-    return nodes;
-  }
-
-  /// Every node has one parent: a second visit is a cycle or a fault.
-  void visit(std::size_t index, const glm::dmat4& outer, std::size_t depth) {
-    const Json& node = object_at(json_, "nodes", index);
-    if (depth > kMaxNodeDepth || !visited_.insert(index).second)
-      throw BadGlb("expected a tree of nodes at most 32 deep, found node " + std::to_string(index) +
-                   " twice or deeper");
-    const glm::dmat4 matrix = outer * matrix_of(node);
-    if (node.contains("mesh")) {
-      const std::size_t mesh = count_in(node, "mesh");
-      // By the specification, only the joints of a skin move its mesh.
-      const bool skinned = node.contains("skin");
-      placed_.emplace_back(mesh, skinned ? glm::dmat4(1.0) : matrix);
-      skinned_ += skinned;
-      morphed_ += is_morphed(node, object_at(json_, "meshes", mesh));
-      instanced_ += has_extension(node, kInstancing);
-    }
-    for (const std::size_t child : nodes_in(node, "children")) visit(child, matrix, depth + 1);
-  }
-
-  /// Whether weights other than 0 move the points. Those of the node replace those of the mesh.
-  [[nodiscard]] static bool is_morphed(const Json& node, const Json& mesh) {
-    const Json& owner = node.contains("weights") ? node : mesh;
-    const auto weights = owner.find("weights");
-    return weights != owner.end() && weights->is_array() &&
-           std::ranges::any_of(*weights, [](const Json& w) { return w.is_number() && w != 0; });
-  }
-
-  [[nodiscard]] static glm::dmat4 matrix_of(const Json& node) {
-    if (node.contains("matrix")) return whole_matrix_of(node);
-    const auto t = numbers_in(node, "translation", {0, 0, 0});
-    const auto [x, y, z, w] = rotation_of(node);
-    const auto s = numbers_in(node, "scale", {1, 1, 1});
-    return {glm::dvec4(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0) * s[0],
-            glm::dvec4(2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0) * s[1],
-            glm::dvec4(2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0) * s[2],
-            glm::dvec4(t[0], t[1], t[2], 1)};
-  }
-
-  [[nodiscard]] static glm::dmat4 whole_matrix_of(const Json& node) {
-    for (const char* other : {"translation", "rotation", "scale"})
-      if (node.contains(other))
-        throw BadGlb("expected a node with a matrix or with a " + std::string(other) +
-                     ", found one with both");
-    const auto m = numbers_in(node, "matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
-    glm::dmat4 matrix(1.0);
-    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = m[static_cast<std::size_t>(i)];
-    return matrix;
-  }
-
-  /// A unit quaternion: any other would scale the mesh too.
-  [[nodiscard]] static std::array<double, 4> rotation_of(const Json& node) {
-    const auto q = numbers_in(node, "rotation", {0, 0, 0, 1});
-    const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-    if (!(std::abs(length - 1.0) <= 1e-3))
-      throw BadGlb("rotation: expected a quaternion of length 1, found " + nine_digit_text(length));
-    return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
-  }
-
   /// Reads a mesh once, in metres and y up, without transforms.
   void load(std::size_t index) {
     if (meshes_.contains(index)) return;
@@ -227,9 +119,7 @@ class GlbReader {
     const std::size_t mode = count_in(primitive, "mode", kTriangles);
     if (mode < kTriangles) return 0;
     if (const Json* const draco = draco_in(primitive)) {
-      const std::size_t number = count_in(*draco, "bufferView");
-      return drc_triangles(bytes_of(object_at(json_, "bufferViews", number), number), name_)
-          .value_or(0);
+      return drc_triangles(buffers_.stored_view(count_in(*draco, "bufferView")), name_).value_or(0);
     }
     const auto attributes = primitive.find("attributes");
     if (attributes == primitive.end()) return 0;
@@ -296,7 +186,7 @@ class GlbReader {
 
   void add_draco(const Json& draco, TriangleMesh& mesh) {
     if (!draco.is_object()) throw BadGlb(std::string(kDraco) + ": expected an object");
-    const std::string_view bytes = view(count_in(draco, "bufferView"));
+    const std::string_view bytes = buffers_.view(count_in(draco, "bufferView"));
     auto decoded = decode_drc(bytes, name_);
     if (!decoded) throw BadStream{decoded.error()};
     expect_room(decoded->points.size(), decoded->triangles.size());
@@ -304,83 +194,6 @@ class GlbReader {
     mesh.points.insert(mesh.points.end(), decoded->points.begin(), decoded->points.end());
     for (const auto& [a, b, c] : decoded->triangles)
       mesh.triangles.push_back({first + a, first + b, first + c});
-  }
-
-  // ---- buffers
-
-  /// The meshopt extension of an element, or null.
-  [[nodiscard]] static const Json* meshopt_in(const Json& json) {
-    const auto extensions = json.find("extensions");
-    if (extensions == json.end() || !extensions->is_object()) return nullptr;
-    const auto found = extensions->find(kMeshopt);
-    if (found != extensions->end() && !found->is_object())
-      throw BadGlb(std::string(kMeshopt) + ": expected an object");
-    return found == extensions->end() ? nullptr : &*found;
-  }
-
-  [[nodiscard]] std::string_view view(std::size_t index) {
-    const Json& view = object_at(json_, "bufferViews", index);
-    const Json* const compressed = meshopt_in(view);
-    return compressed == nullptr ? bytes_of(view, index) : unpacked(*compressed, view, index);
-  }
-
-  /// The bytes in the file of a view, or of its extension.
-  [[nodiscard]] std::string_view bytes_of(const Json& view, std::size_t index) const {
-    const Json& buffer = object_at(json_, "buffers", count_in(view, "buffer"));
-    if (count_in(view, "buffer") != 0 || buffer.contains("uri"))
-      throw BadGlb("expected the buffer of the file itself, found another");
-    const std::size_t offset = count_in(view, "byteOffset", 0), size = count_in(view, "byteLength");
-    if (offset > chunks_.binary.size() || size > chunks_.binary.size() - offset)
-      throw BadGlb("bufferView " + std::to_string(index) + ": expected it within the " +
-                   std::to_string(chunks_.binary.size()) + " bytes of the buffer");
-    return chunks_.binary.substr(offset, size);
-  }
-
-  /// Each view is unpacked once.
-  [[nodiscard]] std::string_view unpacked(const Json& compressed, const Json& view,
-                                          std::size_t index) {
-    const auto [place, added] = unpacked_.try_emplace(index);
-    if (!added) return place->second;
-    const std::string place_name = "bufferView " + std::to_string(index) + ": ";
-    const std::string mode = compressed.value("mode", ""),
-                      filter = compressed.value("filter", "NONE");
-    const MeshoptView shape{mode, filter, count_in(compressed, "count"),
-                            count_in(compressed, "byteStride")};
-    const std::string_view packed = bytes_of(compressed, index);
-    if (shape.stride == 0 || shape.count > kMaxFileBytes / shape.stride ||
-        shape.count * shape.stride > kMaxFileBytes - unpacked_bytes_)
-      throw BadGlb(place_name + "expected at most 1 GiB unpacked");
-    if (count_in(view, "byteLength") != shape.count * shape.stride ||
-        count_in(view, "byteStride", shape.stride) != shape.stride)
-      throw BadGlb(place_name + "expected the length and stride of what it unpacks to, " +
-                   std::to_string(shape.count) + " times " + std::to_string(shape.stride));
-    unpacked_bytes_ += shape.count * shape.stride;
-    auto bytes = unpacked_by_meshopt(packed, shape);
-    if (!bytes) throw BadGlb(place_name + bytes.error().message);
-    return place->second = std::move(*bytes);
-  }
-
-  struct Values {
-    std::string_view bytes;
-    std::size_t count = 0, stride = 0;
-    [[nodiscard]] const char* at(std::size_t i) const { return bytes.data() + i * stride; }
-  };
-
-  /// The values of an accessor, of `size` bytes each, all within its view.
-  [[nodiscard]] Values values(const Json& accessor, std::size_t size) {
-    if (accessor.contains("sparse")) throw BadGlb("expected no sparse accessor, found one");
-    const std::size_t number = count_in(accessor, "bufferView");
-    const Json& json = object_at(json_, "bufferViews", number);
-    const std::string_view whole = view(number);
-    const std::size_t offset = count_in(accessor, "byteOffset", 0);
-    const Values found{whole.substr(std::min(offset, whole.size())), count_in(accessor, "count"),
-                       count_in(json, "byteStride", size)};
-    const std::size_t room = found.bytes.size();
-    if (found.count == 0 || found.stride < size || found.stride > 252 || room < size ||
-        (found.count - 1) > (room - size) / found.stride)
-      throw BadGlb("expected " + std::to_string(found.count) + " values within bufferView " +
-                   std::to_string(number));
-    return found;
   }
 
   /// Whole numbers are values or, if normalised, fractions of the largest number.
@@ -391,7 +204,7 @@ class GlbReader {
     if (component.size == 0 || accessor.value("type", "") != "VEC3" ||
         (normalized && component.most == 0.0))
       throw BadGlb("POSITION: expected 3 float32, or whole numbers of 8 or 16 bits");
-    const Values found = values(accessor, 3 * component.size);
+    const Values found = buffers_.values(accessor, 3 * component.size);
     expect_room(found.count, 0);
     for (std::size_t i = 0; i < found.count; ++i) {
       step_of_loop();
@@ -413,7 +226,7 @@ class GlbReader {
     const std::size_t size = type == kUint8 ? 1 : type == kUint16 ? 2 : type == kUint32 ? 4 : 0;
     if (size == 0 || accessor.value("type", "") != "SCALAR")
       throw BadGlb("indices: expected whole numbers of 8, 16 or 32 bits");
-    const Values found = values(accessor, size);
+    const Values found = buffers_.values(accessor, size);
     if (found.count > 3 * kMaxTriangles) throw BadGlb(expected_at_most(kMaxTriangles, "triangles"));
     std::vector<std::uint32_t> corners(found.count);
     for (std::size_t i = 0; i < found.count; ++i) {
@@ -434,7 +247,7 @@ class GlbReader {
   [[nodiscard]] Result<void> check_limit() const {
     constexpr std::uint64_t kFree = 1'000'000, kMostCopies = 64;
     std::uint64_t points = 0, triangles = 0;
-    for (const auto& [mesh, matrix] : placed_) {
+    for (const auto& [mesh, matrix] : scene_.placed) {
       points += meshes_.at(mesh).points.size();
       triangles += meshes_.at(mesh).triangles.size();
     }
@@ -471,27 +284,23 @@ class GlbReader {
     const auto note = [&](std::size_t count, std::string_view noun, std::string_view what) {
       if (count > 0) options_.notes->push_back(counted(count, noun).append(what));
     };
-    if (no_scene_) options_.notes->push_back("no scene in the file: all its root nodes are read");
-    note(morphed_, "node", " with morph weights, which are not applied");
-    note(skinned_, "node", " with a skin, whose skeleton is not applied");
-    note(instanced_, "node",
+    if (scene_.missing)
+      options_.notes->push_back("no scene in the file: all its root nodes are read");
+    note(scene_.morphed, "node", " with morph weights, which are not applied");
+    note(scene_.skinned, "node", " with a skin, whose skeleton is not applied");
+    note(scene_.instanced, "node",
          " with EXT_mesh_gpu_instancing, which is not applied: the mesh is read once");
     note(without_surface_, "primitive", " of points or lines not read");
   }
 
   Chunks chunks_;
   Json json_;
+  Buffers buffers_;
+  Scene scene_;
   std::string_view name_;
   ReadOptions options_;
-  bool no_scene_ = false;
-  /// Nodes with a mesh that another program shows in another shape or place.
-  std::size_t morphed_ = 0, skinned_ = 0, instanced_ = 0;
   std::size_t without_surface_ = 0;  ///< primitives of points or lines
   std::map<std::size_t, TriangleMesh> meshes_;
-  std::set<std::size_t> visited_;                ///< nodes
-  std::map<std::size_t, std::string> unpacked_;  ///< views by number
-  std::size_t unpacked_bytes_ = 0;
-  std::vector<std::pair<std::size_t, glm::dmat4>> placed_;
   std::uint64_t stored_ = 0, stored_points_ = 0;  ///< triangles and points of all meshes read
   TriangleMesh mesh_;
   VertexWelder welder_{mesh_.points, 0};
