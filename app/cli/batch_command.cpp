@@ -197,13 +197,13 @@ Json result_json(const BatchJob& job, const BatchOutcome& outcome) {
                {"status", outcome.status},
                {"seconds", std::round(1e3 * outcome.seconds) / 1e3}};
   if (outcome.timed_out)
-    json["error"] = "the time limit ended it";
+    json["error"] = "ended by the time limit";
   else if (outcome.status > 128)
-    json["error"] = fmt::format("signal {} ended it", outcome.status - 128);
+    json["error"] = fmt::format("ended by signal {}", outcome.status - 128);
   else if (outcome.status != kDone && !outcome.err.empty())
     json["error"] = first_line(outcome.err);  // a check that fails has its reasons in the output
   if (outcome.cut)
-    json["error"] = fmt::format("its output exceeds {} MiB and is left out", kMostOutput >> 20);
+    json["error"] = fmt::format("the output exceeds {} MiB and is omitted", kMostOutput >> 20);
   else if (Json printed = Json::parse(outcome.out, nullptr, false); !printed.is_discarded())
     json["output"] = std::move(printed);
   return json;
@@ -255,9 +255,9 @@ Result<int> batch(BatchOptions options, const Console& console) {
                 {"skipped", skipped},
                 {"results", options.results}});
   else if (!console.quiet)
-    console.print(fmt::format("{}: {} done, {} failed; skipped, with a result in {}: {}",
-                              counted(asked, "job"), asked - failed, failed, options.results,
-                              skipped));
+    console.print(fmt::format("{}: {} done, {} failed; {} skipped, because {} has their results",
+                              counted(asked, "job"), asked - failed, failed, skipped,
+                              options.results));
   return failed == 0 ? kDone : kUnsound;
 }
 

@@ -114,7 +114,7 @@ int check(CheckCommand& command, Console& console) {
 
 /// Options for requirements on the file.
 void add_demands(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
-  begin_group(*sub, "Demands");
+  begin_group(*sub, "Requirements");
   command->walls.add_to(*sub);
   sub->add_option("--wall-samples", command->wall_samples_asked,
                   "Number of rays that sample the walls of a mesh; they may "

@@ -43,10 +43,10 @@ Result<void> check_packed_pot(const solid::PackedParts& parts, const TriangleMes
   return holds(pot.map([](const Pot&) {}), "contents", "the pot inside", verdict)
       .map([&](bool reads) {
         if (!reads) return;
-        verdict.add("contents", Grade::pass, "carries the pot; throw --from continues it");
+        verdict.add("contents", Grade::pass, "contains the pot, for claystack throw --from");
         const auto sizes = pot->collapse ? std::nullopt : other_size(mesh, *pot);
         if (sizes)
-          verdict.notes.push_back("the pot inside is before shrinkage and finish: " + *sizes);
+          verdict.notes.push_back("the pot inside has no shrinkage and no finish: " + *sizes);
         if (!parts.certificate.empty()) return;  // the mesh is compared with the certificate
         if (const auto difference = mesh_differs(mesh, *pot))
           verdict.add("contents", Grade::warn, *difference);

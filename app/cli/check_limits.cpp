@@ -109,7 +109,7 @@ void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckC
       return verdict.add(check_name(ProblemKind::overhang), Grade::warn,
                          solid::overhang_text(steepest->angle_deg, steepest->height_mm, *process));
     if (steepest)
-      passed += fmt::format(", overhang of {:.0f} degrees at most", steepest->angle_deg);
+      passed += fmt::format(", largest overhang {:.0f} degrees", steepest->angle_deg);
     else
       passed += outward ? ", overhangs not measured"
                         : ", overhangs not measured: some or all faces point into the clay";

@@ -39,9 +39,8 @@ void warn_of_filled_gaps(const RepairSummary& summary, Verdict& verdict) {
   if (!summary.thickened || summary.thickened->filled_share <= kMostShare) return;
   verdict.add(
       "geometry", Grade::warn,
-      fmt::format("the wall of {:.4g} mm fills gaps: just beyond it, {:.0f} % of the places "
-                  "beside the surface are clay, sampled; a thinner --thicken leaves them "
-                  "open",
+      fmt::format("the wall of {:.4g} mm fills gaps: {:.0f} % of the places sampled just beyond "
+                  "the wall are clay; a smaller --thicken leaves the gaps open",
                   summary.thickened->asked_mm, 100.0 * summary.thickened->filled_share));
 }
 
@@ -105,8 +104,9 @@ Result<solid::MeshReport> report_on(const TriangleMesh& mesh) {
   solid::MeshReport report = solid::check_mesh(mesh);
   // The estimate was too low for this mesh.
   if (report.out_of_memory)
-    return failure(ErrorKind::io, fmt::format("{} needs more memory than the {} left under {}", job,
-                                              gigabytes(room.bytes), room.limit));
+    return failure(ErrorKind::io,
+                   fmt::format("{} needs more memory than the {} available within {}", job,
+                               gigabytes(room.bytes), room.limit));
   return report;
 }
 

@@ -37,7 +37,7 @@ std::string process_text(const solid::ExportReport& report) {
                                  solid::process_title(report.process.limits->name),
                                  report.size.diameter_mm, report.size.height_mm);
   if (report.process.overhang)
-    text += fmt::format(", overhang of {:.0f} degrees at most", report.process.overhang->angle_deg);
+    text += fmt::format(", largest overhang {:.0f} degrees", report.process.overhang->angle_deg);
   return text;
 }
 

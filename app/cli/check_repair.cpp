@@ -29,7 +29,7 @@ Result<void> expect_sound(const TriangleMesh& decimated, std::size_t most) {
     const solid::MeshProblem& first = report.problems.front();
     return failure(ErrorKind::unsound,
                    fmt::format("--max-triangles {}: expected a sound mesh, found {} ({}) in the "
-                               "decimated one; another number of triangles may do",
+                               "decimated one; try another number of triangles",
                                most, first.what, first.count));
   });
 }

@@ -138,7 +138,7 @@ void print_repair(const Console& console, const RepairSummary& summary, const Ve
   const std::string before =
       summary.volume_before_mm3
           ? fmt::format("{:.6g} cm3 before", *summary.volume_before_mm3 / 1e3)
-          : std::string("none before, because the mesh was not closed and consistent");
+          : std::string("none before, because the mesh was not closed and oriented");
   console.print(
       fmt::format("  volume: {}, {:.6g} cm3 after", before, verdict.mesh.volume_mm3 / 1e3));
   const std::string_view state = name_of(verdict.state);

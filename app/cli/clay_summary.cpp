@@ -60,8 +60,8 @@ void print_collapse(const Console& console, const Json& summary) {
           : fmt::format("ring {} carried {:.3f} kPa, more than the limit of {:.3f} kPa", ring,
                         fall["stress_kpa"].get<double>(), fall["threshold_kpa"].get<double>());
   console.print(
-      fmt::format("collapsed: {}; the part above came to rest at {:.0f} degrees and lost "
-                  "{:.1f} mJ, {:.1f} of them by deforming the clay below",
+      fmt::format("collapsed: {}; the part above came to rest, tilted by {:.0f} degrees; it lost "
+                  "{:.1f} mJ of energy, {:.1f} mJ of that by deforming the clay below",
                   reason, fall["angle_deg"].get<double>(), fall["energy_lost_mj"].get<double>(),
                   fall["plastic_work_mj"].get<double>()));
 }

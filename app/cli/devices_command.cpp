@@ -125,7 +125,8 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
       "devices", "List connected devices, whether each can be used, and what to do if not");
   command
       ->add_option("device", options->device,
-                   "Device to open: auto, falcon, bridge, spacemouse, simulated, or its place")
+                   "Device to open: auto, falcon, bridge, spacemouse, simulated, or a place from "
+                   "the list, such as usb:1-2 or /dev/hidraw0")
       ->check(check_device_name);
   add_falcon_options(*command, options->falcon);
   CLI::Option* const monitor = command->add_flag("--monitor", options->monitor,
@@ -139,7 +140,8 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
   command->footer(
       "\nExamples:\n  claystack devices\n  claystack devices falcon --firmware FILE --monitor\n"
       "  claystack devices simulated --monitor --seconds 5\n\n"
-      "Exit status: 0, or 4 when the named device cannot be opened or fails.");
+      "Exit status: 0; 2 for a bad option or firmware file; 3 if that file cannot be read; 4 if "
+      "the device cannot be opened or fails.");
   command->callback([options, &console, &exit] {
     falcon::DeviceSettings settings;
     settings.falcon = options->falcon;

@@ -43,7 +43,7 @@ Finding examine_memory() {
   const MemoryRoom room = memory_room();
   Finding finding{"memory",
                   room.bytes >= kLeast,
-                  gigabytes(room.bytes) + " left under " + std::string(room.limit),
+                  gigabytes(room.bytes) + " available within " + std::string(room.limit),
                   "checking large meshes takes up to 2 GB",
                   {}};
   if (!finding.good) finding.fix = "close other programs, or raise the limit: ulimit -v unlimited";

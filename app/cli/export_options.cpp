@@ -102,8 +102,8 @@ void add_clay_options(CLI::App& sub, ExportCommand& command) {
            "Loss in firing, in percent of the dry weight (default: 9%)",
            [](solid::ExportOptions& options) -> double& { return options.clay.ignition_loss; });
   add_length(sub, "--fill-line", command.request.options.fill_line_mm,
-             "Fill line for the capacity, below the brim of the finished pot, fired and glazed "
-             "[mm]; with --holds the capacity is up to this line",
+             "Fill line, below the brim of the finished pot, fired and glazed [mm]; if it is given "
+             "with --holds, the capacity of --holds is measured up to it, not to the brim",
              solid::kFillLineRange.lowest, solid::kFillLineRange.highest)
       ->capture_default_str();
 }
@@ -136,7 +136,7 @@ void add_goal_options(CLI::App& sub, ExportCommand& command) {
   add_size("--diameter", command.goal.diameter_mm, "Scale the pot to this largest diameter");
   sub.add_flag("--fired", command.goal.fired,
                "The goal applies to the finished pot: after --shrinkage, and with the glaze of "
-               "--glaze-allowance, which has no weight (default: to the pot as thrown)");
+               "--glaze-allowance, whose weight is not counted (default: to the pot as thrown)");
 }
 
 /// How the steps of the rings become walls.
@@ -154,10 +154,9 @@ void add_smoothing_options(CLI::App& sub, ExportCommand& command) {
              command.length_of_tool = !*length;
            }
          },
-         "With --smooth fair: continuous curvature; marks shorter along the height than this are "
-         "smoothed away, such as 9mm; tool: the radius of the pot's tool; 0: straight from ring to "
-         "ring (default: tool; 0 without clay rules, "
-         "or for a tolerance above 0.1 mm)")
+         "With --smooth fair: smooths away marks that are shorter along the height than this "
+         "length, such as 9mm. tool: the radius of the pot's tool; 0: straight walls from ring to "
+         "ring (default: tool; 0 for a pot without clay rules, or for a tolerance above 0.1 mm)")
       ->type_name(std::string(kLengthName) + "|tool")
       ->check([](const std::string& text) {
         const auto length = smooth_length_of(text);

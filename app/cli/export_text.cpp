@@ -67,8 +67,8 @@ void print_fairing(const Console& console, const solid::FairingReport& fairing) 
   if (fairing.shortened.empty()) return;
   const solid::ShortenedFairing& first = fairing.shortened.front();
   console.detail(fmt::format(
-      "fairing shortened for walls in {}, the first from {:.2f} to {:.2f} mm ({:.3g} mm "
-      "there)",
+      "smoothing length reduced in {}; the first, at heights from {:.2f} to {:.2f} mm, has {:.3g} "
+      "mm",
       counted(fairing.shortened.size(), "place"), first.from_mm, first.to_mm, first.length_mm));
 }
 
@@ -82,8 +82,8 @@ void print_smoothing(const Console& console, const ExportReport& report) {
                                     report.section.smoothed.guard.end(), is);
     if (first == report.section.smoothed.guard.end()) continue;
     console.detail(fmt::format(
-        "steps kept for {} in {}, the first from {:.2f} to {:.2f} mm ({:.3f} mm if "
-        "smoothed)",
+        "steps kept (reason: {}) in {}; the first at heights from {:.2f} to {:.2f} mm, where the "
+        "smoothed wall would have {:.3f} mm",
         solid::name_of(reason),
         counted(static_cast<std::size_t>(std::ranges::count_if(report.section.smoothed.guard, is)),
                 "place"),

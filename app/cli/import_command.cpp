@@ -180,8 +180,8 @@ void add_drawing_options(CLI::App* command, ImportOptions& options) {
   command->add_option(
       "--axis", options.axis,
       "Axis of the pot in the drawing: left, middle, or its x position [mm]; default: "
-      "a separate vertical line, the middle of a symmetric drawing, a straight edge at its "
-      "right end alone, or its left end");
+      "a separate vertical line; else the middle of a symmetric drawing; else a straight edge at "
+      "its right end, if the left end has none; else its left end");
   command->add_option("--layer", options.layer,
                       "The only layer of an SVG or DXF drawing to read, by its name (default: all "
                       "that are shown)");

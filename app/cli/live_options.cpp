@@ -56,15 +56,17 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
   begin_group(command, "Throw by hand");
   command
       .add_option("--device", options.device,
-                  "Device to throw with: auto, falcon, bridge, spacemouse, simulated, or its place")
+                  "Device to throw with: auto, falcon, bridge, spacemouse, simulated, or a place "
+                  "from claystack devices, such as usb:1-2 or /dev/hidraw0")
       ->check(check_device_name);
   command.add_option("--record", options.record, "File in which to record the session");
   command.add_option(
       "--seconds", settings.seconds,
       "Duration of the throw [s] (default: until ended; simulated: until its stroke ends)");
   command
-      .add_option("--patience", settings.patience_s,
-                  "Maximum time to wait for homing, with --seconds [s]")
+      .add_option(
+          "--patience", settings.patience_s,
+          "With --seconds: maximum time to wait for homing [s]; --seconds, if that is longer")
       ->capture_default_str();
   command.add_option("--rate", settings.rate_hz, "Servo rate [Hz]")->capture_default_str();
   command.add_option("--clay-rate", settings.clay_rate_hz,
@@ -86,8 +88,8 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
   add_place_options(command, settings.mapping);
   command.add_option(
       "--force-gain", settings.mapping.force_gain,
-      "Scale of force: N at the hand per N at the tool (default: 1 / scale, which keeps "
-      "the stiffness of the clay; = scale: the hand does the work of the tool)");
+      "Scale of force: N at the hand per N at the tool (default: 1 / --scale, so that the clay "
+      "feels as stiff as in the scene; equal to --scale: the hand does the same work as the tool)");
 }
 
 Error by_option(Error error) {

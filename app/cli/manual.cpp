@@ -248,7 +248,8 @@ std::string manual_page(const CLI::App& app, const CLI::App* command) {
             "examples.\n";
   } else {
     page << ".SH EXIT STATUS\n0 done and sound; 1 done, but a check failed; 2 bad usage or bad "
-            "input; 3 could not read or write; 4 a device failed.\n";
+            "input; 3 could not read or write; 4 a device failed, or no display or OpenGL was "
+            "found.\n";
   }
   page << ".SH SEE ALSO\n";
   std::vector<std::string> others;

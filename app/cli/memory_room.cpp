@@ -60,7 +60,7 @@ Result<void> expect_room(std::string_view job, std::uint64_t bytes) {
   const MemoryRoom room = memory_room();
   if (bytes <= room.bytes) return {};
   return failure(ErrorKind::io,
-                 fmt::format("{} needs about {} of memory, found {} left under {}", job,
+                 fmt::format("{} needs about {} of memory, found {} available within {}", job,
                              gigabytes(bytes), gigabytes(room.bytes), room.limit));
 }
 

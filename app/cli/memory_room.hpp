@@ -27,7 +27,7 @@ struct MemoryRoom {
 [[nodiscard]] MemoryRoom memory_room();
 
 /// An error of kind `io` if `job` needs more memory than there is room for: "JOB needs about 3 GB
-/// of memory, found 1 GB left under ...".
+/// of memory, found 1 GB available within ...".
 [[nodiscard]] Result<void> expect_room(std::string_view job, std::uint64_t bytes);
 
 /// The same for a picture of this many pixels: drivers of OpenGL crash when they run out of memory,

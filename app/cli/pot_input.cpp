@@ -117,7 +117,7 @@ std::optional<std::string> mesh_differs(const solid::TriangleMesh& mesh, const P
   return fmt::format(
       "the mesh is {:.1f} mm wide and {:.1f} mm high, the pot inside {:.1f} mm and {:.1f} mm: {}",
       sizes.mesh_width_mm, sizes.mesh_height_mm, sizes.pot_width_mm, sizes.pot_height_mm,
-      enlarged ? fmt::format("{:.2f} times as much is more than for the shrinkage of clays, so "
+      enlarged ? fmt::format("{:.2f} times the size is more than the shrinkage of a clay needs, so "
                              "another program may have scaled the mesh",
                              up)
                : "another program changed the mesh");
@@ -143,8 +143,9 @@ Result<Pot> read_pot(const std::string& path, [[maybe_unused]] const Console& co
         const auto mesh = solid::decode_3mf(bytes, path);
         if (!mesh || pot.collapse) return pot;
         if (const auto sizes = other_size(*mesh, pot))
-          console.print(fmt::format(
-              "note: {}: the pot inside is used, before shrinkage and finish: {}", path, *sizes));
+          console.print(
+              fmt::format("note: {}: the pot inside is used; it has no shrinkage and no finish: {}",
+                          path, *sizes));
         // Slicers drop the certificate when they write a package again.
         const auto parts = solid::parts_in_3mf(bytes, path);
         const bool foreign = parts && parts->certificate.empty();

@@ -107,8 +107,8 @@ Result<Start> load_start(const std::string& scene_path, const std::string& pot_p
   start.scene = std::move(*scene);
   const auto& kept = start.pot ? start.pot->thrown_with : std::nullopt;
   if (kept && *kept != settings_of(start.scene))
-    console.warn(pot_path + ": was thrown with another tool or other clay than those of " +
-                 scene_path + ", which are used");
+    console.warn(pot_path + ": was thrown with another tool or clay; the tool and clay of " +
+                 scene_path + " are used");
   return start;
 }
 

@@ -25,7 +25,7 @@ Result<glm::ivec2> size_of(const std::string& text) {
 void add_device_options(CLI::App& parser, StudioOptions& options) {
   parser
       .add_option("--device", options.device,
-                  "Device: none, or one of those of claystack throw (default: auto)")
+                  "Device: none (mouse only), or a device as for claystack throw (default: auto)")
       ->check([](const std::string& which) {
         return which == "none" ? std::string() : check_device_name(which);
       });
@@ -36,8 +36,8 @@ void add_report_options(CLI::App& parser, StudioOptions& options) {
   auto* report =
       parser
           .add_option("--servo-report", options.servo_report_s,
-                      "Time for which a simulated hand (or --device) throws in the window [s]; "
-                      "then prints the timings of servo and window")
+                      "Duration of a measurement [s]: a simulated hand (or the device of --device) "
+                      "throws in the window; then the timings of servo and window are printed")
           ->check(in_range(1.0, 3600.0))
           ->excludes("--script")
           ->excludes("--screenshot");

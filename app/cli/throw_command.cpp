@@ -330,8 +330,8 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
                        (options.scene.empty() ? "no file, only --from" : options.scene));
   if (!options.from.empty() && !options.error_plot.empty())
     return failure(ErrorKind::bad_input,
-                   "--error-plot: expected no --from, because it throws with both models and a pot "
-                   "belongs to one");
+                   "--error-plot: expected no --from, because the plot needs both models, and a "
+                   "pot can be continued only with its own model");
 #ifdef CLAYSTACK_FALCON
   if (!options.live.device.empty()) {
     if (!options.trace.empty() || !options.error_plot.empty())

@@ -13,8 +13,8 @@ void WallOptions::add_to(CLI::App& command) {
              solid::kMinWallRange.lowest, solid::kMinWallRange.highest);
   command.add_option(
       "--process", process_,
-      "Process that sets the minimum wall: fdm, sla, earthenware, stoneware, porcelain, or a .json "
-      "file with custom limits (default: none)");
+      "Process whose limits apply to the minimum wall, the overhang and the size: fdm, sla, "
+      "earthenware, stoneware, porcelain, or a .json file with custom limits (default: none)");
 }
 
 Result<void> WallOptions::load() {

@@ -25,7 +25,7 @@ std::string words_of_safe(SafeCause cause, std::string_view rearm_key) {
     case SafeCause::overrun:
       return "no force: the servo was delayed";
     case SafeCause::paused:
-      return rearm_after("on request");
+      return rearm_after("it was set to zero");
     default:
       return "no force";
   }

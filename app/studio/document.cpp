@@ -32,8 +32,8 @@ Result<SceneSpec> scene_in(const std::string& text, const std::string& name) {
   if (std::ranges::any_of(kMeshes,
                           [&](const char* ending) { return ends_ignoring_case(name, ending); }))
     return failure(ErrorKind::bad_input,
-                   fmt::format("{}: expected {}, found a mesh. The window opens no mesh; the "
-                               "command `claystack import` makes a pot of it in a terminal",
+                   fmt::format("{}: expected {}, found a mesh. The window does not open meshes; "
+                               "`claystack import` in a terminal makes a pot from a mesh",
                                name, kOpened));
   const std::string_view begun = without_byte_order_mark(text);
   const std::size_t first = begun.find_first_not_of(" \t\r\n");

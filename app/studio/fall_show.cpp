@@ -30,7 +30,7 @@ std::vector<double> times_of(const std::vector<FallFrame>& frames) {
 }  // namespace
 
 const char* fall_reason(const Collapse& fall) noexcept {
-  return fall.parted() ? "the tool parted the wall" : "the clay could not carry its own weight";
+  return fall.parted() ? "the tool cut the wall" : "the clay could not carry its own weight";
 }
 
 void FallShow::begin(history::SharedPot pot, double now_s) {

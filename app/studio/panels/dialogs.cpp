@@ -144,7 +144,7 @@ void draw(const DiscardDialog& dialog, const ViewModel& model, Actions& actions,
   begin_dialog("##discard", rect, 38.0f);
   dialog_title(model, "Discard this work?");
   wrapped_text(text_of(model.recoverable[dialog.index]));
-  wrapped_text("It was not saved, and is deleted.");
+  wrapped_text("It was not saved. Discard deletes it.");
   ImGui::Spacing();
   if (main_button("Keep (Esc)", model.colours())) actions.emplace_back(CloseDialog{});
   same_line_if_room("Discard (Ctrl+Shift+D)");

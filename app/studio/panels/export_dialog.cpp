@@ -108,7 +108,7 @@ void draw_finish(const ViewModel& model, ExportChoices& choices) {
   choose_tenths("Fillet at the lip", choices.lip_fillet_mm, 0.0, kLargestFilletMm, unit,
                 choices.process.empty() ? "none" : "by the process");
   choose_tenths("Glaze allowance", choices.glaze_mm, 0.0, kThickestGlazeMm, unit, "none");
-  tip("The thickness of the glaze. The pot is thinner by this thickness, except at the foot.");
+  tip("The thickness of the fired glaze. Every face except the foot is set back by it.");
   const auto& preview = model.ui.exporting.preview;
   if (!(choices.drain_mm > 0.0) && !(preview && preview->closed_cavity)) return;
   choose_tenths("Drain hole", choices.drain_mm, 0.0, kWidestDrainMm, unit, "none");
@@ -188,7 +188,8 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
     // Rounded to tenths, as shown, so that the command line gives the same file for the same
     // number.
     choices.shrinkage_percent = std::round(10.0 * static_cast<double>(percent)) / 10.0;
-  tip("How much shorter each length becomes in firing. The file is enlarged to compensate.");
+  tip("How much shorter each length becomes in drying and firing. The file is enlarged to "
+      "compensate.");
   if (model.document.pot().collapse) return;
   draw_size(model, choices);
   draw_finish(model, choices);

@@ -145,8 +145,8 @@ void add_figures(const ViewModel& model, std::vector<Part>& parts) {
   const Palette& colours = model.colours();
   if (model.stroke.throwing())
     parts.push_back({fmt::format("{:.0f} Hz", model.stroke.tick_rate_hz()), colours.faint});
-  parts.push_back(
-      {fmt::format("{} late", status.missed), status.missed > 0 ? colours.warning : colours.faint});
+  parts.push_back({fmt::format("{} missed ticks", status.missed),
+                   status.missed > 0 ? colours.warning : colours.faint});
   if (model.document.has_work())
     parts.push_back({fmt::format("clay unaccounted for: {:.0f}", std::abs(status.volume_error)),
                      status.volume_error != 0.0 ? colours.fault : colours.faint});

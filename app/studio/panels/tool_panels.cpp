@@ -109,8 +109,8 @@ void draw_next_tool(const ViewModel& model, const ToolSpec& used) {
   const ToolSpec next = tool_of(model.settings.tool);
   if (next.mode == used.mode && next.shape == used.shape) return;
   wrapped_text(fmt::format(
-      "The next stroke: {}{}", name_of(next.mode),
-      next.shape == used.shape || cuts_level(next.mode) ? "" : ", another shape or size"));
+      "The next stroke uses: {}{}", name_of(next.mode),
+      next.shape == used.shape || cuts_level(next.mode) ? "" : ", with another shape or size"));
 }
 
 void draw_shape(const ViewModel& model, ToolChoice tool, Actions& actions) {

@@ -272,14 +272,14 @@ std::string ready_text(const PotCheck& check, LengthUnit unit) {
 
 std::string parts_text(const PotForm& form, LengthUnit unit) {
   const std::string height = length_text(*form.parting_mm, unit);
-  if (form.parts <= 2) return "in two parts at a height of " + height;
+  if (form.parts <= 2) return "in two parts, separated at a height of " + height;
   return fmt::format("in {} parts, the lowest up to a height of {}", form.parts, height);
 }
 
 std::string wall_text(const PotCheck& check, LengthUnit unit) {
   if (check.fallen) return "Fallen: walls are not measured";
   if (check.stopped) return "Walls unknown: the pot is not checked";
-  if (!check.proved) return "Walls unknown: the section is not that of one solid";
+  if (!check.proved) return "Walls unknown: the pot is not one closed solid";
   if (!check.form.hollow && !check.thin()) return "Solid clay: there are no walls yet";
   std::string words = fmt::format(
       "Thinnest wall {}, {}", thickness_text(check.thinnest_mm, unit),

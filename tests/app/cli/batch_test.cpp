@@ -80,7 +80,8 @@ TEST_F(Batch, ResumesAfterTheJobsThatHaveAVerdict) {
       0);
   const Ran again = run("-o " + results);
   EXPECT_EQ(again.status, 0) << again.err;
-  EXPECT_EQ(again.out, "2 jobs: 2 done, 0 failed; skipped, with a result in " + results + ": 1\n");
+  EXPECT_EQ(again.out,
+            "2 jobs: 2 done, 0 failed; 1 skipped, because " + results + " has their results\n");
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json"))) << "it was not thrown again";
   EXPECT_EQ(results_in(read_text(results)).at("absent").at("status"), 0);
   const nlohmann::json summary = nlohmann::json::parse(run("--json -o " + results).out);
@@ -96,7 +97,7 @@ TEST_F(Batch, IsolatesAJobThatTakesTooLong) {
   const Ran ran = run("-j 1 --time-limit 5");
   EXPECT_EQ(ran.status, 1);
   const auto results = results_in(ran.out);
-  EXPECT_EQ(results.at("stuck").at("error"), "the time limit ended it");
+  EXPECT_EQ(results.at("stuck").at("error"), "ended by the time limit");
   EXPECT_EQ(results.at("stuck").at("status"), 137);
   EXPECT_EQ(results.at("a.pot.json").at("status"), 0);
 }
@@ -153,7 +154,8 @@ TEST_F(Batch, LeavesWholeLinesWhenAResultCannotBeWritten) {
   EXPECT_EQ(results_in(kept).size(), 1u) << kept;
   EXPECT_TRUE(kept.ends_with('\n')) << kept;
   const Ran again = run("-o " + results);
-  EXPECT_EQ(again.out, "6 jobs: 6 done, 0 failed; skipped, with a result in " + results + ": 1\n");
+  EXPECT_EQ(again.out,
+            "6 jobs: 6 done, 0 failed; 1 skipped, because " + results + " has their results\n");
 }
 
 /// The report on a repair lists every hole: here that of each of many bodies.
@@ -172,7 +174,7 @@ TEST_F(Batch, NamesAnOutputThatIsTooLongForAResult) {
   write_jobs({job("long", {"check", folder.file("many.stl"), "--repair", "--dry-run"})});
   const auto result = results_in(run("").out).at("long");
   EXPECT_EQ(result.at("status"), 0);
-  EXPECT_EQ(result.at("error"), "its output exceeds 4 MiB and is left out");
+  EXPECT_EQ(result.at("error"), "the output exceeds 4 MiB and is omitted");
   EXPECT_FALSE(result.contains("output"));
 }
 

@@ -92,7 +92,7 @@ TEST(CheckLarge, RefusesAMeshThatNeedsTooMuchMemoryInAdvance) {
   EXPECT_NE(run.err.find("big.stl: checking about 20000000 triangles needs about "),
             std::string::npos)
       << run.err;
-  EXPECT_NE(run.err.find(" GB left under the limit on address space (ulimit -v)"),
+  EXPECT_NE(run.err.find(" GB available within the limit on address space (ulimit -v)"),
             std::string::npos)
       << run.err;
 }
@@ -128,7 +128,8 @@ TEST(MemoryLimit, RefusesAPotThatDoesNotFitInAdvance) {
       refused.err.find("tall.pot.json: reading the pot needs about 0.058 GB of memory, found"),
       std::string::npos)
       << refused.err;
-  EXPECT_NE(refused.err.find("left under the limit --memory"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("available within the limit --memory"), std::string::npos)
+      << refused.err;
   EXPECT_FALSE(std::filesystem::exists(folder.file("copy.pot.cbor")));
   const Ran done = copy_with("200MiB");
   EXPECT_EQ(done.status, 0) << done.err;

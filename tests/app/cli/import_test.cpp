@@ -195,13 +195,12 @@ TEST(Export, NotesThePotInA3mf) {
   const Ran run = claystack("export " + package + " " + folder.file("b.stl"));
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.out.find("note: " + package +
-                         ": the pot inside is used, before shrinkage and "
-                         "finish: "),
+                         ": the pot inside is used; it has no shrinkage and no finish: "),
             std::string::npos)
       << run.out;
   EXPECT_NE(run.out.find(", 1.25 and 1.25 times as much"), std::string::npos) << run.out;
   EXPECT_EQ(run.err, "");
-  EXPECT_NE(claystack("check " + package).out.find("the pot inside is before shrinkage and finish"),
+  EXPECT_NE(claystack("check " + package).out.find("the pot inside has no shrinkage and no finish"),
             std::string::npos);
 }
 

@@ -116,7 +116,7 @@ TEST(LiveKeys, KeysPauseReleaseRearmAndQuit) {
   terminal.type(" ");
   ASSERT_TRUE(terminal.shows("force ramps up"));
   terminal.type("z");
-  ASSERT_TRUE(terminal.shows("no force: on request; press r"));
+  ASSERT_TRUE(terminal.shows("no force: it was set to zero; press r"));
   terminal.type("xr");  // one key without a function, and one with
   ASSERT_TRUE(terminal.shows("force ramps up"));
   terminal.type("q");

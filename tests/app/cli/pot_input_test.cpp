@@ -27,7 +27,7 @@ TEST(MeshDiffers, FromThePotInAnotherSizeOrShape) {
   EXPECT_EQ(
       mesh_differs(box(144, 90), pot),
       "the mesh is 144.0 mm wide and 90.0 mm high, the pot inside 80.0 mm and 50.0 mm: 1.80 times "
-      "as much is more than for the shrinkage of clays, so another program may have scaled the "
+      "the size is more than the shrinkage of a clay needs, so another program may have scaled the "
       "mesh");
   EXPECT_EQ(other_size(box(100, 60), pot),
             "80.0 mm wide and 50.0 mm high; the mesh is 100.0 mm and 60.0 mm, 1.25 and 1.20 times "

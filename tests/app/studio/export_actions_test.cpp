@@ -37,7 +37,8 @@ TEST_F(ActionsTest, APotInPartsIsNotExportedAndTheDialogSaysSo) {
   update(state);
   EXPECT_EQ(
       state.ui.exporting.problem,
-      "The pot is in two parts at a height of 40.0 mm. Only a pot in one part can be exported");
+      "The pot is in two parts, separated at a height of 40.0 mm. Only a pot in one part can be "
+      "exported");
   const Command& write = *find_command("export.write");
   EXPECT_FALSE(write.enabled(view_model(state)));
   ExportChoices drawing = state.ui.exporting.choices;

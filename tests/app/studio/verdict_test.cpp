@@ -69,7 +69,8 @@ TEST(Verdict, NamesPlaceAndMeasureInTheUnit) {
   auto parted = cup_rings();
   for (std::size_t i = 80; i < parted.size(); ++i)
     parted[i] = {quanta_from_radius(30.0), quanta_from_radius(25.0)};
-  EXPECT_EQ(verdict(parted, LengthUnit::mm), "Not ready: in two parts at a height of 40.0 mm");
+  EXPECT_EQ(verdict(parted, LengthUnit::mm),
+            "Not ready: in two parts, separated at a height of 40.0 mm");
 }
 
 TEST(Verdict, CountsTheParts) {
