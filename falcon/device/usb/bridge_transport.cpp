@@ -26,7 +26,9 @@ class BridgeTransport final : public Transport {
 
   [[nodiscard]] std::string describe() const override { return place_; }
   [[nodiscard]] bool loads_firmware() const noexcept override { return false; }
-  DeviceResult<void> open() override { return node_.open(place_); }
+  DeviceResult<void> open() override {
+    return node_.open(place_, HidNode::Use::exclusive);  // two programs would mix their forces
+  }
   void close() noexcept override { node_.close(); }
 
   DeviceResult<void> set_mode(LineMode mode) override {

@@ -85,7 +85,9 @@ void list_hid(std::vector<ListedDevice>& found) {
 
 class NodePort final : public ReportPort {
  public:
-  DeviceResult<void> open(const std::string& place) override { return node_.open(place); }
+  DeviceResult<void> open(const std::string& place) override {
+    return node_.open(place, HidNode::Use::shared);
+  }
   int read(std::span<std::uint8_t> report) noexcept override { return node_.read(report, 0); }
   void write(std::span<const std::uint8_t> report) noexcept override {
     if (node_.is_open()) node_.write(report);

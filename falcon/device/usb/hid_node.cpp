@@ -4,6 +4,7 @@
 #include "falcon/device/usb/usb_error.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -47,7 +48,7 @@ std::string HidNode::find(const std::string& place) {
   return found;
 }
 
-DeviceResult<void> HidNode::open(const std::string& place) {
+DeviceResult<void> HidNode::open(const std::string& place, Use use) {
   close();
   const HeldSignals held;
   const std::string path = find(place);
@@ -57,14 +58,25 @@ DeviceResult<void> HidNode::open(const std::string& place) {
   device_ = hid_open_path(path.c_str());
   if (!device_) return tl::make_unexpected(node_error(path));
   if (path.front() != '/') return {};
-  // For a signal handler, which may not call hidapi.
-  descriptor_.store(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
-  if (descriptor_.load() >= 0) return {};
-  const int reason = errno;
-  close();
+  auto opened = open_descriptor(path, use);
+  if (!opened) close();
+  return opened;
+}
+
+/// For a signal handler, which may not call hidapi, and for the lock.
+DeviceResult<void> HidNode::open_descriptor(const std::string& path, Use use) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+  descriptor_.store(descriptor);
+  if (descriptor < 0)
+    return device_failure(DeviceFault::transfer_failed,
+                          path + ": could not open it for ending the force: " +
+                              std::generic_category().message(errno));
+  if (use == Use::shared || flock(descriptor, LOCK_EX | LOCK_NB) == 0) return {};
+  if (errno == EWOULDBLOCK)
+    return device_failure(DeviceFault::busy, path + ": could not open: another program uses it",
+                          "close the other program that uses it");
   return device_failure(DeviceFault::transfer_failed,
-                        path + ": could not open it for ending the force: " +
-                            std::generic_category().message(reason));
+                        path + ": could not lock: " + std::generic_category().message(errno));
 }
 
 void HidNode::close() noexcept {
@@ -77,8 +89,10 @@ void HidNode::close() noexcept {
 int HidNode::read(std::span<std::uint8_t> report, std::int64_t wait_us) noexcept {
   if (!device_) return -1;
   const InHidapi inside;
-  return hid_read_timeout(device_, report.data(), report.size(),
-                          static_cast<int>((wait_us + 999) / 1000));
+  errno = 0;  // hidapi may fail without setting it
+  const int size = hid_read_timeout(device_, report.data(), report.size(),
+                                    static_cast<int>((wait_us + 999) / 1000));
+  return size < 0 && errno == EINTR ? 0 : size;
 }
 
 bool HidNode::write(std::span<const std::uint8_t> report) noexcept {

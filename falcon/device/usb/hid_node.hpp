@@ -17,14 +17,18 @@ class HidNode {
  public:
   ~HidNode() { close(); }
 
+  /// Of two programs that want a device exclusively, one gets it. hidraw permits any number of
+  /// openers, so a lock decides; the libusb backend permits one in any case.
+  enum class Use { shared, exclusive };
+
   /// The first time, the device at `place`; later the same device, wherever it is: while it was
-  /// away, another one may have taken its place.
-  DeviceResult<void> open(const std::string& place);
+  /// away, another one may have taken its place. `busy` if another program has it exclusively too.
+  DeviceResult<void> open(const std::string& place, Use use);
   void close() noexcept;
   [[nodiscard]] bool is_open() const noexcept { return device_ != nullptr; }
 
   /// Reads one report; returns its size, 0 if none arrives within `wait_us` (rounded up to whole
-  /// ms), negative if the device was disconnected.
+  /// ms) or before a signal, negative if the device was disconnected.
   int read(std::span<std::uint8_t> report, std::int64_t wait_us) noexcept;
   /// `report` begins with its number, or 0 without numbers. False if the device was disconnected.
   bool write(std::span<const std::uint8_t> report) noexcept;
@@ -42,6 +46,7 @@ class HidNode {
     std::wstring serial, name;
     friend bool operator==(const Identity&, const Identity&) = default;
   };
+  DeviceResult<void> open_descriptor(const std::string& path, Use use);
   static Identity identity_of(const hid_device_info& info);
   /// The current path of the device that was first opened at `place`; empty: not connected.
   std::string find(const std::string& place);
