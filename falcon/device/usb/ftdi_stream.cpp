@@ -48,11 +48,7 @@ bool FtdiStream::any_queued() const noexcept {
 
 void FtdiStream::stop() noexcept {
   if (!context_) return;
-  // The last write is a zero force: let it finish.
-  const auto writing = [this] {
-    return std::any_of(writes_.begin(), writes_.end(), [](const Slot& s) { return s.queued; });
-  };
-  for (int i = 0; i < kFarewells && writing() && status_ == WireStatus::ok; ++i) pump(kFarewellUs);
+  // Queued writes are forces of earlier ticks: a line that recovers now must not send them.
   stopping_ = true;
   const auto cancel = [](Slot& slot) {
     if (slot.queued) libusb_cancel_transfer(slot.transfer);

@@ -21,6 +21,7 @@ namespace {
 constexpr unsigned char kLoadingLatencyMs = 16, kRunningLatencyMs = 1;
 constexpr unsigned kOut = 0x02;
 constexpr unsigned kLastWordMs = 20;
+constexpr int kLastWords = 50;  // with the time of each, 1 s for a stalled line
 
 /// The file descriptor that libusb uses for the only open device of its context.
 int descriptor_of(libusb_context* context) {
@@ -51,8 +52,9 @@ class FtdiTransport final : public Transport {
   }
 
   void close() noexcept override {
-    descriptor_.store(-1);
     stream_.stop();
+    pay_last_word();
+    descriptor_.store(-1);
     if (!ftdi_) return;
     if (ftdi_->usb_dev) ftdi_usb_close(ftdi_);
     ftdi_free(ftdi_);
@@ -86,23 +88,38 @@ class FtdiTransport final : public Transport {
   }
 
   /// Bypasses libusb, whose locks the interrupted thread may hold: one system call, which keeps the
-  /// order of queued packets.
+  /// order of queued packets. If the line stalls, `close` repeats it.
   void write_last(std::span<const std::uint8_t> bytes) noexcept override {
     const int descriptor = descriptor_.load();
     if (descriptor < 0 || bytes.size() > kMostWritten) return;
     const int before = errno;
-    std::array<std::uint8_t, kMostWritten> copy{};
+    Packet copy{};
     std::copy(bytes.begin(), bytes.end(), copy.begin());
     usbdevfs_bulktransfer bulk{};
     bulk.ep = kOut;
     bulk.len = static_cast<unsigned>(bytes.size());
     bulk.timeout = kLastWordMs;
     bulk.data = copy.data();
-    ioctl(descriptor, USBDEVFS_BULK, &bulk);
+    const bool stalled = ioctl(descriptor, USBDEVFS_BULK, &bulk) < 0 && errno == ETIMEDOUT;
+    if (stalled) std::copy(copy.begin(), copy.end(), owed_bytes_.begin());
+    owed_size_.store(stalled ? bytes.size() : 0);
     errno = before;
   }
 
  private:
+  using Packet = std::array<std::uint8_t, kMostWritten>;
+
+  /// A stalled line took the queued forces, but not the last word: without it, the arm would push
+  /// on after the line has recovered. Call when nothing is queued any more.
+  void pay_last_word() noexcept {
+    for (int i = 0; i < kLastWords && owed_size_.load() > 0; ++i) {
+      Packet packet{};
+      std::copy(owed_bytes_.begin(), owed_bytes_.end(), packet.begin());
+      write_last(std::span(packet).first(owed_size_.load()));
+    }
+    owed_size_.store(0);
+  }
+
   /// The codes of libftdi are not those of libusb, so the device is asked whether it is there.
   [[nodiscard]] DeviceError line_error(const char* action) const {
     int configuration = 0;
@@ -155,6 +172,10 @@ class FtdiTransport final : public Transport {
   ftdi_context* ftdi_ = nullptr;
   FtdiStream stream_;
   std::atomic<int> descriptor_{-1};
+  // The last word that a stalled line did not take. Atomic, because a signal handler may write it
+  // while another thread does.
+  std::array<std::atomic<std::uint8_t>, kMostWritten> owed_bytes_{};
+  std::atomic<std::size_t> owed_size_{0};  // 0: none
 };
 
 }  // namespace
