@@ -213,7 +213,9 @@ double BasicForceGuard<rules>::let_go(const TickTime& time, std::int64_t now_us)
   double held = 1.0;
   if (frame_age_.any() && frame_s > settings_.stale_fade_s) flags_ |= kGuardStale;
   if (clay_s > settings_.clay_fade_s) flags_ |= kGuardOldClay;
-  if (on(kRuleStaleFrames)) held *= fade(frame_s, settings_.stale_fade_s, settings_.stale_zero_s);
+  // The force of this tick stands until the next one, which must not find it too old.
+  const double last_s = settings_.stale_zero_s - kHeldPeriods * settings_.period_s;
+  if (on(kRuleStaleFrames)) held *= fade(frame_s, settings_.stale_fade_s, last_s);
   if (on(kRuleOldClay)) held *= fade(clay_s, settings_.clay_fade_s, settings_.clay_zero_s);
   if (heat_.fading()) flags_ |= kGuardHot;
   if (heat_.fade_out(time.fading_s, settings_.hot_fade_s)) engagement_.restart();

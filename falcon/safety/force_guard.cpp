@@ -7,6 +7,7 @@ namespace clay::falcon::inline safety {
 
 tl::expected<void, OutOfRange> check(const GuardSettings& s) noexcept {
   constexpr double kTiny = 1e-3;  // of a force [N] or the length of a fade [s]
+  const double held_s = kHeldPeriods * s.period_s;
   const OutOfRange ranges[] = {
       {"period_s", 0.0001, 0.0025, s.period_s},
       {"force_limit_n", kTiny, kMostForceN, s.force_limit_n},
@@ -14,8 +15,8 @@ tl::expected<void, OutOfRange> check(const GuardSettings& s) noexcept {
       {"small_force_n", kTiny / 10.0, s.force_limit_n, s.small_force_n},
       {"small_force_ticks", 1, 1000, static_cast<double>(s.small_force_ticks)},
       {"ramp_s", 0.1, 60.0, s.ramp_s},
-      {"stale_fade_s", 2.0 * s.period_s, kLongestToZeroS - kTiny, s.stale_fade_s},
-      {"stale_zero_s", s.stale_fade_s + kTiny, kLongestToZeroS, s.stale_zero_s},
+      {"stale_fade_s", 2.0 * s.period_s, kLongestToZeroS - kTiny - held_s, s.stale_fade_s},
+      {"stale_zero_s", s.stale_fade_s + kTiny + held_s, kLongestToZeroS, s.stale_zero_s},
       {"late_zero_s", 2.0 * s.period_s, kLongestToZeroS, s.late_zero_s},
       {"pause_s", s.late_zero_s, 1.0, s.pause_s},
       {"jump_mm_per_s", 100.0, 10'000.0, s.jump_mm_per_s},

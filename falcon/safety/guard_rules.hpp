@@ -19,6 +19,10 @@ namespace clay::falcon::inline safety {
 [[nodiscard]] glm::dvec3 limit_rise(const glm::dvec3& wanted, const glm::dvec3& before,
                                     double rise) noexcept;
 
+/// Without frames, a tick that is on time comes 1.5 periods after the last one: it waits for a
+/// frame until then. The device holds the last force meanwhile.
+inline constexpr double kHeldPeriods = 1.5;
+
 /// 1 up to `from`, 0 from `zero` on, linear between.
 [[nodiscard]] double fade(double age, double from, double zero) noexcept;
 

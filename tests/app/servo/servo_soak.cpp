@@ -24,7 +24,7 @@ using falcon::WireFault;
 constexpr double kLimitN = 5.0;           // GuardSettings::force_limit_n
 constexpr double kRiseN = 0.5 + 1e-9;     // 500 N/s, for a period of 1 ms
 constexpr double kMotorStepN = 0.05;      // motors take whole counts
-constexpr std::int64_t kZeroUs = 11'000;  // after the last frame: 10 ms and a tick
+constexpr std::int64_t kZeroUs = 10'000;  // after the last frame
 constexpr int kThrowFrames = 20'000;      // frames on one lump
 constexpr int kQuietFrames = 4'000;       // without faults at its end: time to ramp up again
 

@@ -261,6 +261,29 @@ TEST(ForceGuard, FadesWithoutAdmittedSamples) {
   EXPECT_EQ(tick(false, 3.0), 0.0);
 }
 
+/// A device holds each force until the next tick, and without frames ticks are 1.5 periods apart.
+TEST(ForceGuard, NoForceStandsLongerThan10MsAfterTheLastFrame) {
+  for (const std::int64_t period_us : {250, 1000, 2500})
+    for (std::int64_t first_us = period_us / 5; first_us <= period_us; first_us += period_us / 5) {
+      const double period_s = 1e-6 * static_cast<double>(period_us);
+      ForceGuard guard = ForceGuard::build({.period_s = period_s}).value();
+      std::int64_t now = 0;
+      const auto tick = [&](std::int64_t gap_us, bool frame, double wanted_n) {
+        now += gap_us;
+        (void)guard.admit(now, {now, glm::dvec3(0.0), frame, true});
+        return guard.force(now, {glm::dvec3(wanted_n, 0.0, 0.0), now, true}).force_n.x;
+      };
+      for (int i = 0; i < 10; ++i) (void)tick(period_us, true, 0.0);
+      for (int i = 0; i < 10'000; ++i) (void)tick(period_us, true, 3.0);
+      ASSERT_EQ(tick(period_us, true, 3.0), 3.0);
+      const std::int64_t last_us = now;
+      for (double force = tick(first_us, false, 3.0); force > 0.0;
+           force = tick(period_us * 3 / 2, false, 3.0))
+        ASSERT_LT(now - last_us, 10'000) << period_us << " us, first " << first_us;
+      EXPECT_LE(now - last_us, 10'000) << period_us << " us, first " << first_us;
+    }
+}
+
 TEST(ForceGuard, RisesFromZeroAfterTheWatchdog) {
   ForceGuard guard = ForceGuard::build({}).value();
   std::int64_t now = 0;

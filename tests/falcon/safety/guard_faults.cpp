@@ -124,7 +124,7 @@ void frames_stale(Trial& trial) {
   trial.run(0.004, none);
   trial.expect_force(kPush);
   trial.run(0.004, none);
-  trial.expect_force(0.4 * kPush);  // 8 ms; the fade runs from 1 at 5 ms to 0 at 10 ms
+  trial.expect_force(kPush / 7.0);  // 8 ms; the fade runs from 1 at 5 ms to 0 at 8.5 ms
   trial.expect_state(GuardState::fading);
   after(trial, none, 0.02);
   trial.expect_force(kPush);

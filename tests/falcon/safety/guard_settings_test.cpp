@@ -23,8 +23,8 @@ TEST(GuardSettings, ErrorsNameTheInvalidSetting) {
       {"slew_n_per_s", &GuardSettings::slew_n_per_s, 0.9, 5001.0},
       {"small_force_n", &GuardSettings::small_force_n, 0.0, 5.1},
       {"ramp_s", &GuardSettings::ramp_s, 0.09, 61.0},
-      {"stale_fade_s", &GuardSettings::stale_fade_s, 0.0019, 0.0091},
-      {"stale_zero_s", &GuardSettings::stale_zero_s, 0.0059, 0.0101},
+      {"stale_fade_s", &GuardSettings::stale_fade_s, 0.0019, 0.0076},
+      {"stale_zero_s", &GuardSettings::stale_zero_s, 0.0074, 0.0101},
       {"late_zero_s", &GuardSettings::late_zero_s, 0.0019, 0.0101},
       {"pause_s", &GuardSettings::pause_s, 0.0099, 1.1},
       {"jump_mm_per_s", &GuardSettings::jump_mm_per_s, 99.0, 10'001.0},
@@ -50,6 +50,9 @@ TEST(GuardSettings, ErrorsNameTheInvalidSetting) {
       EXPECT_LE(guard.error().low, 1.3 * invalid.low + 0.0011) << invalid.setting;
       EXPECT_GE(guard.error().high, invalid.high / 1.3) << invalid.setting;
     }
+  EXPECT_TRUE(check({.period_s = 0.0025}));
+  EXPECT_FALSE(check({.period_s = 0.0025, .stale_fade_s = 0.0053})) << "no time for the last tick";
+  EXPECT_FALSE(check({.period_s = 0.0025, .stale_zero_s = 0.0097}));
   for (const int ticks : {0, -1, 1001}) EXPECT_FALSE(check({.small_force_ticks = ticks}));
   for (const int ticks : {0, -1, 11}) EXPECT_FALSE(check({.not_finite_ticks = ticks}));
 }

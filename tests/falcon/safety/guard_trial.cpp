@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLimitN = 5.0, kSlewNPerS = 500.0, kSmallN = 0.2, kRampS = 2.0, kPeriodS = 0.001;
 constexpr double kZeroS = 0.010, kPauseS = 0.050, kClayZeroS = 0.150, kOldFrameS = 0.005;
+constexpr double kFrameZeroS = 0.0085;       // a tick later, 1.5 periods, is not after 10 ms
 constexpr double kHotN = 4.0, kHotS = 11.0;  // 10 s and the fade
 constexpr int kSmallTicks = 5, kOddTicks = 3;
 constexpr double kRoundingN = 1e-12, kRoundingS = 1e-9;
@@ -117,7 +118,8 @@ void Allowance::follow_ages(const Tick& tick, double clock_s, bool good) {
   const double passed = std::max(clock_s, kShortestStepS);
   frame_age_s_ = good ? static_cast<double>(tick.frame_age_us) / 1e6 : frame_age_s_ + passed;
   clay_age_s_ = tick.clay_new ? 0.0 : clay_age_s_ + passed;
-  if (frame_age_s_ >= kZeroS + kRoundingS || clay_age_s_ >= kClayZeroS + kRoundingS) zero_ = true;
+  if (frame_age_s_ >= kFrameZeroS + kRoundingS || clay_age_s_ >= kClayZeroS + kRoundingS)
+    zero_ = true;
   if (frame_age_s_ > 0.8 * kPauseS) unsure_frames_ = 3;  // the guard may have dropped the position
   if (frame_age_s_ > kPauseS + kRoundingS || clay_age_s_ >= kClayZeroS + kRoundingS) reset_ramp();
   if (clock_s >= kZeroS) zero_ = true;

@@ -35,9 +35,11 @@ struct GuardSettings {
 
   /// Age of the newest frame at which the force starts to fade: two periods or more. Our judgement.
   double stale_fade_s = 0.005;
-  double stale_zero_s = 0.010;  ///< age at which it is 0: up to kLongestToZeroS
-  double late_zero_s = 0.010;   ///< a tick this late sends 0: two periods to kLongestToZeroS
-  double pause_s = 0.050;       ///< a longer gap in ticks or frames is a pause: re-engage. To 1 s
+  /// Age at which the force has ended: at least 1.5 periods and 1 ms more, up to kLongestToZeroS.
+  /// The fade ends 1.5 periods before, because the device holds a force until the next tick.
+  double stale_zero_s = 0.010;
+  double late_zero_s = 0.010;  ///< a tick this late sends 0: two periods to kLongestToZeroS
+  double pause_s = 0.050;      ///< a longer gap in ticks or frames is a pause: re-engage. To 1 s
 
   /// Frames with a faster motion are dropped; 100 to 10 000 (2 m/s is 2 mm in a tick of 1 ms).
   double jump_mm_per_s = 2000.0;
