@@ -59,6 +59,44 @@ TEST(Firmware, RefusesAWrongHeader) {
   EXPECT_TRUE(parse_firmware(outside, "f"));
 }
 
+TEST(Firmware, ErrorsNameTheByteAndWhatIsThere) {
+  const auto refusal = [](const std::vector<std::uint8_t>& bytes) {
+    const std::string expected = "f: expected a TI C28x boot stream; ";
+    const std::string what = parse_firmware(bytes, "f").error().what;
+    return what.starts_with(expected) ? what.substr(expected.size()) : what;
+  };
+  const auto with = [](std::size_t at, std::uint8_t byte) {
+    auto bytes = dummy_firmware(10, 1);
+    bytes[at] = byte;
+    return bytes;
+  };
+  const auto first = [whole = dummy_firmware(10, 1)](std::size_t size) {
+    return std::vector(whole.begin(), whole.begin() + static_cast<long>(size));
+  };
+  auto longer = first(50);
+  longer.push_back(0x4D);
+  for (const auto& [bytes, text] : {
+           std::pair{std::vector<std::uint8_t>(64, 0x4D),
+                     "at byte 0 of 64: expected the key AA 08, found 4D 4D"},
+           {with(4, 0x07), "at byte 4 of 50: expected eight reserved words of 0, found 07 00"},
+           {with(18, 0x40),
+            "at byte 18 of 50: expected an entry point below 400000, found 40 00 02 80"},
+           {with(20, 0x0A),
+            "at byte 48 of 50: expected a block that holds the entry point 3F800A, found none"},
+           {{}, "at byte 0 of 0: expected the key AA 08, found the end of the file"},
+           {first(27),
+            "at byte 24 of 27: expected a block's address, found 3F 00 00 and the end of "
+            "the file"},
+           {first(47),
+            "at byte 28 of 47: expected 10 words from 3F8000, found the end of the file"},
+           {first(48),
+            "at byte 48 of 48: expected a block's size, or 0 for the end, found the end "
+            "of the file"},
+           {longer, "at byte 50 of 51: expected the end of the file, found 4D"},
+       })
+    EXPECT_EQ(refusal(bytes), text);
+}
+
 /// The error for the dummy with `address` in block `block`, of 20 words; empty if it is accepted.
 std::string refusal_at(std::size_t block, std::uint32_t address) {
   auto bytes = dummy_firmware(20, 3);
@@ -72,7 +110,7 @@ std::string refusal_at(std::size_t block, std::uint32_t address) {
 
 TEST(Firmware, RefusesBlocksOutsideTheMemory) {
   EXPECT_EQ(refusal_at(2, 0x3FFFECu), "");  // its last word has the highest address
-  const std::string place = "f: expected a TI C28x boot stream; at byte 120 of 162: ";
+  const std::string place = "f: expected a TI C28x boot stream; at byte 116 of 162: ";
   for (const auto& [address, text] :
        {std::pair{0x3FFFEDu, "3FFFED"}, {0x400000u, "400000"}, {0xFFFFFFF0u, "FFFFFFF0"}})
     EXPECT_EQ(refusal_at(2, address),
