@@ -3,6 +3,7 @@
 #include "app/servo/session_recording.hpp"
 
 #include <chrono>
+#include <system_error>
 #include <utility>
 
 namespace clay::servo {
@@ -19,13 +20,18 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path,
   auto sink = SessionRecording::begin(path, scene_name, scene_hash);
   if (!sink) return tl::make_unexpected(sink.error());
   auto recorder = create(**sink);
-  recorder->own_sink_ = std::move(*sink);
+  if (recorder) (*recorder)->own_sink_ = std::move(*sink);
   return recorder;
 }
 
-std::unique_ptr<Recorder> Recorder::create(PoseSink& sink, std::uint64_t most) {
+Result<std::unique_ptr<Recorder>> Recorder::create(PoseSink& sink, std::uint64_t most) {
   std::unique_ptr<Recorder> recorder(new Recorder(sink, most));
-  recorder->worker_.emplace([&self = *recorder](bool) { self.hand_on(); }, kPause);
+  try {
+    recorder->worker_.emplace([&self = *recorder](bool) { self.hand_on(); }, kPause);
+  } catch (const std::system_error& error) {
+    return failure(ErrorKind::io,
+                   "could not start the recorder's thread: " + error.code().message());
+  }
   return recorder;
 }
 
@@ -61,13 +67,22 @@ void Recorder::hand_on() {
       block_.push_back(played->pose);
     }
     if (block_.empty()) return;
-    const PoseBlock block{block_, std::span(contact_).first(block_.size())};
-    if (auto appended = failed_ ? Result<void>() : sink_.append(block); !appended) {
-      error_ = appended.error();
-      failed_ = true;
+    if (!append({block_, std::span(contact_).first(block_.size())})) {
+      lost_.fetch_add(block_.size(), std::memory_order_relaxed);
+      taken_.fetch_sub(block_.size(), std::memory_order_relaxed);
     }
     block_.clear();
   }
+}
+
+/// False if the sink refuses the block, or has refused an earlier one.
+bool Recorder::append(const PoseBlock& block) {
+  if (failed_) return false;
+  auto appended = sink_.append(block);
+  if (appended) return true;
+  error_ = appended.error();
+  failed_ = true;
+  return false;
 }
 
 }  // namespace clay::servo

@@ -22,12 +22,13 @@ namespace clay::servo {
 
 class Recorder {
  public:
-  /// Records to a session file; see session_recording.hpp for errors and temporary files.
+  /// Records to a session file; see session_recording.hpp for errors and temporary files. Both
+  /// return an error of kind `io` if the system starts no thread.
   static Result<std::unique_ptr<Recorder>> create(const std::string& path,
                                                   std::string_view scene_name,
                                                   std::uint64_t scene_hash);
   /// Records up to `most` poses to any sink, which must outlive this object.
-  static std::unique_ptr<Recorder> create(PoseSink& sink, std::uint64_t most = kMaxPoses);
+  static Result<std::unique_ptr<Recorder>> create(PoseSink& sink, std::uint64_t most = kMaxPoses);
   /// Ends the recording. Call finish() first to learn whether it succeeded.
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -45,11 +46,13 @@ class Recorder {
   /// Number of poses not recorded, because the disk was too slow or refused them, or because the
   /// session was full.
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_.load(); }
+  /// Number of the others: exact after finish(), before that some may still be refused.
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(); }
 
  private:
   Recorder(PoseSink& sink, std::uint64_t most);
   void hand_on();
+  [[nodiscard]] bool append(const PoseBlock& block);
 
   static constexpr std::size_t kWaiting = 8192;  // poses: 8 s at 1 kHz
   std::unique_ptr<PoseSink> own_sink_;

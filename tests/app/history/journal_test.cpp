@@ -166,7 +166,7 @@ void kill_one(double& lost_us) {
     Work work = kept_work(folder);
     (void)work.add(small_scene(), press_stroke(1)).value();
     PoseSink* sink = work.begin_stroke(small_scene(5.0)).value().sink;
-    const auto recorder = servo::Recorder::create(*sink);
+    const auto recorder = servo::Recorder::create(*sink).value();
     const auto start = std::chrono::steady_clock::now();
     for (std::int64_t last_us = -1;;) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

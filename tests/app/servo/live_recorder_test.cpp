@@ -149,7 +149,7 @@ TEST(Recorder, EndsAtTheMostPosesOfASession) {
     std::vector<Pose> poses;
     bool finished = false;
   } sink;
-  const auto recorder = Recorder::create(sink, 250);
+  const auto recorder = Recorder::create(sink, 250).value();
   for (std::int64_t i = 0; i < 253; ++i)
     EXPECT_EQ(recorder->take(pose_at(1000 * i), false), i < 250) << i;
   ASSERT_TRUE(recorder->finish());
@@ -158,6 +158,27 @@ TEST(Recorder, EndsAtTheMostPosesOfASession) {
   EXPECT_EQ(recorder->lost(), 3u);
   ASSERT_EQ(sink.poses.size(), 250u);
   EXPECT_EQ(sink.poses.back(), pose_at(249'000));
+}
+
+TEST(Recorder, CountsOnlyThePosesThatTheSinkStored) {
+  struct Sink final : PoseSink {
+    Result<void> append(const PoseBlock& block) override {
+      if (stored > 0) return failure(ErrorKind::io, "the disk is full");
+      stored = block.poses.size();
+      return {};
+    }
+    Result<void> finish() override { return {}; }
+    std::atomic<std::size_t> stored{0};
+  } sink;
+  const auto recorder = Recorder::create(sink).value();
+  for (std::int64_t i = 0; i < 50; ++i) (void)recorder->take(pose_at(1000 * i), false);
+  test::wait_until([&] { return sink.stored > 0; }, test::kDeadline, "the first block");
+  for (std::int64_t i = 50; i < 80; ++i) (void)recorder->take(pose_at(1000 * i), false);
+  const auto finished = recorder->finish();
+  ASSERT_FALSE(finished);
+  EXPECT_EQ(finished.error().message, "the disk is full");
+  EXPECT_EQ(recorder->taken(), sink.stored);
+  EXPECT_EQ(recorder->taken() + recorder->lost(), 80u);
 }
 
 TEST(Recorder, ReportsAFullDiskAndKeepsAValidBeginning) {
