@@ -61,7 +61,9 @@ std::string words_of(const LiveStatus& status, std::string_view rearm_key) {
   if (status.device != DeviceState::ready) return std::string(falcon::name_of(status.device));
   if (status.paused) return "paused";
   if (status.clutched) return "clutch held: the tool does not move";
-  if (status.ring_limit) return "there is clay above the top ring: increase lump.max_rings";
+  // A force that is off is reported first: the ring limit, once reached, remains for the throw.
+  if (status.ring_limit && status.guard != GuardState::safe)
+    return "there is clay above the top ring: increase lump.max_rings";
   return words_of_guard(status, rearm_key);
 }
 

@@ -1,5 +1,6 @@
 // The servo loop on a virtual clock, so that every fault is exactly repeatable.
 
+#include "app/servo/words.hpp"
 #include "tests/app/servo/live_bench.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/run_program.hpp"
@@ -440,6 +441,18 @@ TEST(LiveLoop, EndsAfterTheRequestedSecondsAndOnACollapse) {
   EXPECT_EQ(collapsing.run(60.0), Ending::collapsed);
   EXPECT_TRUE(collapsing.wheel.pot().collapse.has_value());
   EXPECT_EQ(glm::length(collapsing.status().force_n), 0.0);
+}
+
+TEST(Words, ReportAForceThatIsOffBeforeTheRingLimit) {
+  LiveStatus status;
+  status.device = falcon::DeviceState::ready;
+  status.guard = GuardState::engaged;
+  status.ring_limit = true;
+  EXPECT_NE(words_of(status, "r").find("lump.max_rings"), std::string::npos);
+  status.guard = GuardState::safe;
+  status.cause = falcon::SafeCause::not_passive;
+  EXPECT_TRUE(waits_for_rearm(status));
+  EXPECT_NE(words_of(status, "r").find("press r"), std::string::npos) << words_of(status, "r");
 }
 
 TEST(LiveLoop, ProvidesTheOutlineOfTheClay) {
