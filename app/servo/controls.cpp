@@ -21,7 +21,8 @@ void Controls::step_gap(std::int64_t now_us, unsigned buttons) noexcept {
   const unsigned held = buttons & before_ & either;
   before_ = buttons;
   if (pressed == 0 && (held == 0 || now_us < gap_due_us_)) return;
-  gap_due_us_ = pressed != 0 ? now_us + kGapWaitUs : gap_due_us_ + kGapEveryUs;
+  // Missed steps are not repeated.
+  gap_due_us_ = pressed != 0 ? now_us + kGapWaitUs : std::max(gap_due_us_ + kGapEveryUs, now_us);
   const unsigned moves = pressed != 0 ? pressed : held;
   if ((moves & map_.wider) != 0) set_gap(gap_mm_ + kGapStepMm);
   if ((moves & map_.narrower) != 0) set_gap(gap_mm_ - kGapStepMm);

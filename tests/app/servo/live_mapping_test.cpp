@@ -131,6 +131,19 @@ TEST(Controls, HeldButtonRepeats) {
   EXPECT_DOUBLE_EQ(controls.gap_mm(), 5.0 + kGapStepMm * (1 + 1 + 12 - 1));
 }
 
+TEST(Controls, HeldButtonDoesNotCatchUpAfterADelay) {
+  Commands commands;
+  Controls controls(kFalconButtons, true, 5.0);
+  std::int64_t us = 1'000'000;
+  for (; us <= 1'500'000; us += 1000) controls.update(us, 1, commands);
+  const double before = controls.gap_mm();
+  ASSERT_GT(before, 5.0 + kGapStepMm);
+  us += 1'000'000;
+  for (int tick = 0; tick < 30; ++tick) controls.update(us += 1000, 1, commands);
+  EXPECT_LE(controls.gap_mm(), before + 2 * kGapStepMm);
+  EXPECT_GT(controls.gap_mm(), before) << "it is still held";
+}
+
 TEST(Controls, CommandsHoldUntilReleased) {
   Commands commands;
   Controls controls(kTwoButtons, false, 5.0);
