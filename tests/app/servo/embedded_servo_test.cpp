@@ -9,11 +9,16 @@
 #include "tests/support/wait_until.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -147,6 +152,87 @@ TEST(LiveThrow, ContinuesWithAReconnectedDevice) {
   embedded.live->start(Pace::thread);
   wait_for([&] { return embedded.live->status().poses > poses + 20; }, "more poses");
   EXPECT_EQ(embedded.stop(), Ending::stopped);
+}
+
+/// Time passes only while the servo sleeps.
+class SteppedClock final : public Clock {
+ public:
+  std::int64_t now_ns() noexcept override { return ns_; }
+  void sleep_until_ns(std::int64_t time_ns) noexcept override { ns_ = std::max(ns_, time_ns); }
+
+ private:
+  std::int64_t ns_ = 3'600'000'000'000;
+};
+
+// A key that toggles the pause reads the status: it must not read the defaults.
+TEST(LiveThrow, ShowsThePauseBeforeTheFirstTickAfterAReconnection) {
+  WireLog log;
+  ScriptedDevice device(log);
+  const SceneSpec scene = rib_scene();
+  Wheel wheel = Wheel::build(scene).value();
+  SteppedClock clock;
+  auto live = LiveThrow::build({.wheel = wheel, .device = device, .scene = scene, .clock = &clock},
+                               one_to_one())
+                  .value();
+  ASSERT_TRUE(live.start(Pace::stepped));
+  EXPECT_FALSE(live.status().paused);
+  live.advance(clock.now_ns() + 100'000'000);
+  ASSERT_TRUE(live.command({CommandKind::pause, 1.0}));
+  live.advance(clock.now_ns() + 100'000'000);
+  log.gone = true;
+  ASSERT_EQ(live.join(), Ending::device_lost);
+  const std::uint64_t ticks = live.status().ticks;
+  log.gone = false;
+  ASSERT_TRUE(live.start(Pace::stepped));
+  EXPECT_TRUE(live.status().paused);
+  EXPECT_EQ(live.status().ticks, ticks);
+  EXPECT_EQ(live.status().ending, Ending::none);
+  ASSERT_TRUE(live.command({CommandKind::pause, 0.0}));
+  live.advance(clock.now_ns() + 100'000'000);
+  EXPECT_FALSE(live.status().paused);
+  EXPECT_EQ(live.stop(), Ending::stopped);
+}
+
+/// In a process that may start no thread: 0 if build() returns the error, otherwise the reason.
+int build_without_threads() {
+  enum { kAsExpected, kStarted, kOtherError, kThrew, kThreadsStart };
+  try {
+    std::thread([] {}).join();
+    return kThreadsStart;
+  } catch (const std::system_error&) {
+  }
+  WireLog log;
+  ScriptedDevice device(log);
+  const SceneSpec scene = rib_scene();
+  Wheel wheel = Wheel::build(scene).value();
+  StoredPoses stored;
+  try {
+    const auto live = LiveThrow::build(
+        {.wheel = wheel, .device = device, .scene = scene, .sink = &stored}, one_to_one());
+    if (live) return kStarted;
+    const bool named = live.error().kind == ErrorKind::io &&
+                       live.error().message.starts_with("could not start the recorder's thread: ");
+    return named ? kAsExpected : kOtherError;
+  } catch (const std::system_error&) {
+    return kThrew;
+  }
+}
+
+TEST(LiveThrow, ReportsARecorderThatDoesNotStart) {
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(static_cast<unsigned>(test::kDeadline.count()));
+    constexpr int kNobody = 65534;  // the limit does not hold for root
+    if (geteuid() == 0 && (setgid(kNobody) != 0 || setuid(kNobody) != 0)) _exit(77);
+    const rlimit none{0, 0};
+    setrlimit(RLIMIT_NPROC, &none);
+    _exit(build_without_threads());
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status)) << status;
+  if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "root may not become another user here";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST(LiveThrow, EndForceEndsTheForcePermanently) {
