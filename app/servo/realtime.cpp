@@ -32,7 +32,6 @@ void note(std::string& missing, const char* what, int error, const char* help) {
 
 Realtime request_realtime(int priority) {
   Realtime realtime;
-  realtime.asked = true;
   sched_param parameters{};
   parameters.sched_priority = priority;
   const int refused = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);

@@ -6,7 +6,6 @@ namespace clay::servo {
 
 Realtime request_realtime(int) {
   Realtime realtime;
-  realtime.asked = true;
   realtime.missing = "no real-time scheduling on this system";
   return realtime;
 }

@@ -149,8 +149,7 @@ struct LiveProfile {
 
 /// The response of the system to the request for real-time scheduling.
 struct Realtime {
-  bool asked = false;  ///< requested
-  bool fifo = false;   ///< SCHED_FIFO
+  bool fifo = false;  ///< SCHED_FIFO
   bool memory_locked = false;
   bool exact_sleep = false;  ///< timer slack of 1 ns
   std::string missing;       ///< what was not granted, why, and the remedy; empty: nothing
