@@ -1,4 +1,5 @@
 #include "app/servo/clock.hpp"
+#include "claystack/falcon/guard.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -63,6 +64,38 @@ TEST(MonotonicClock, NeverWakesEarlyAndReportsItsDelay) {
   }
   const std::int64_t past_ns = clock.now_ns() - 1;
   EXPECT_EQ(clock.wake_at_ns(past_ns), 0);
+}
+
+/// The time from the last frame of a device that falls silent to the first zero force [us].
+std::int64_t silence_us(double rate_hz) {
+  constexpr std::int64_t kAnswerNs = 1'000'000;
+  auto guard = falcon::ForceGuard::build({.period_s = 1.0 / rate_hz, .ramp_s = 0.1}).value();
+  LateClock clock;
+  Pacer pacer(static_cast<std::int64_t>(1e9 / rate_hz));
+  pacer.start(0);
+  std::int64_t last_ns = 0, asked_ns = 0;
+  for (int tick = 0; tick < 10'000; ++tick) {
+    (void)pacer.wait(clock);
+    const bool fresh = tick < 5000;
+    const std::int64_t until_ns = clock.now + 1000 * pacer.patience_us(clock.now);
+    clock.now = std::max(clock.now, fresh ? asked_ns + kAnswerNs : until_ns);
+    if (fresh) last_ns = clock.now;
+    pacer.sampled(clock.now);
+    (void)guard.admit(clock.now_us(), {last_ns / 1000, {}, fresh, true});
+    const double wanted_n = tick < 10 ? 0.0 : 3.0;
+    const double force_n =
+        guard.force(clock.now_us(), {{wanted_n, 0.0, 0.0}, clock.now_us(), true}).force_n.x;
+    asked_ns = clock.now;
+    EXPECT_TRUE(tick != 4999 || force_n == 3.0) << "no force to end";
+    if (!fresh && force_n == 0.0) break;
+  }
+  return (clock.now - last_ns) / 1000;
+}
+
+// Without frames the ticks are 1.5 periods apart, and a force stands between them.
+TEST(Pacer, NoForceStands10MsAfterTheLastFrameAtAnyRate) {
+  for (const double rate_hz : {400.0, 500.0, 1000.0, 3000.0, 4000.0})
+    EXPECT_LE(silence_us(rate_hz), 10'000) << rate_hz << " Hz";
 }
 
 TEST(Pacer, FollowsASlowerDevice) {
