@@ -171,17 +171,25 @@ struct Spline {
 Result<Spline> spline_of(const DxfEntity& entity, const DxfPlacement& place,
                          const std::string& name) {
   Spline spline;
-  std::size_t weights = 0;
+  std::vector<double> weights;  // before, between or after the points; in their order
   for (const DxfGroup& group : entity.groups) {
     if (group.code != 10 && group.code != 20 && group.code != 40 && group.code != 41) continue;
     const auto value = dxf_number(group, name);
     if (!value) return tl::make_unexpected(value.error());
     if (group.code == 40) spline.knots.push_back(*value);
-    if (group.code == 10) spline.control.emplace_back(*value, 0.0, 1.0);
+    if (group.code == 10) spline.control.emplace_back(*value, 0.0, 0.0);
     if (group.code == 20 && !spline.control.empty()) spline.control.back().y = *value;
-    if (group.code == 41 && weights < spline.control.size()) spline.control[weights++].z = *value;
+    if (group.code == 41) weights.push_back(*value);
   }
-  for (glm::dvec3& p : spline.control) p = {place.at(glm::dvec2(p)), p.z};
+  if (!weights.empty() && weights.size() != spline.control.size())
+    return refusal(entity, name,
+                   fmt::format("expected a weight for each of {} control points or none, found {} "
+                               "weights",
+                               spline.control.size(), weights.size()));
+  for (std::size_t i = 0; i < spline.control.size(); ++i) {
+    glm::dvec3& p = spline.control[i];
+    p = {place.at(glm::dvec2(p)), weights.empty() ? 1.0 : weights[i]};
+  }
   return spline;
 }
 

@@ -142,23 +142,51 @@ TEST(DxfDrawing, ArcsCirclesAndEllipsesAreRound) {
   EXPECT_NEAR(volume_of(file(ellipse)), 4.0 / 3.0 * kPi * 900.0 * 60.0, kFlatMm * 1e5);
 }
 
-TEST(DxfDrawing, RationalSplineReproducesItsCircle) {
-  // A quarter circle of radius 30 from (30, 0) to (0, 30), exactly.
-  const auto spline = groups({{0, "SPLINE"}, {8, "0"},   {70, "4"},
-                              {71, "2"},     {72, "6"},  {73, "3"},
-                              {74, "0"},     {40, "0"},  {40, "0"},
-                              {40, "0"},     {40, "1"},  {40, "1"},
-                              {40, "1"},     {10, "30"}, {20, "0"},
-                              {30, "0"},     {41, "1"},  {10, "30"},
-                              {20, "30"},    {30, "0"},  {41, "0.7071067811865476"},
-                              {10, "0"},     {20, "30"}, {30, "0"},
-                              {41, "1"}});
-  const auto drawing = read_drawing(file(spline), "pot.dxf");
-  ASSERT_TRUE(drawing) << refusal_of(drawing);
-  ASSERT_EQ(drawing->lines.size(), 1u);
-  for (const glm::dvec2& p : drawing->lines[0].points_mm)
-    EXPECT_NEAR(std::hypot(p.x, p.y), 30.0, 1e-9);
-  EXPECT_NEAR(volume_of(file(spline)), 2.0 / 3.0 * kPi * 27000.0, kFlatMm * 2.0 * kPi * 900.0);
+using Groups = std::vector<std::pair<int, std::string>>;
+
+/// A quarter circle of radius 30 from (30, 0) to (0, 30), exactly: its groups up to the knots.
+const Groups kQuarter = {{0, "SPLINE"}, {8, "0"},  {70, "4"}, {71, "2"}, {72, "6"},
+                         {73, "3"},     {74, "0"}, {40, "0"}, {40, "0"}, {40, "0"},
+                         {40, "1"},     {40, "1"}, {40, "1"}};
+const std::vector<Groups> kQuarterPoints = {{{10, "30"}, {20, "0"}, {30, "0"}},
+                                            {{10, "30"}, {20, "30"}, {30, "0"}},
+                                            {{10, "0"}, {20, "30"}, {30, "0"}}};
+const std::vector<Groups> kQuarterWeights = {
+    {{41, "1"}}, {{41, "0.7071067811865476"}}, {{41, "1"}}};
+
+std::string spline_of_parts(const std::vector<Groups>& parts) {
+  std::string text = groups(kQuarter);
+  for (const Groups& part : parts) text += groups(part);
+  return text;
+}
+
+/// FreeCAD and ezdxf write all weights before the control points; others each after its point.
+TEST(DxfDrawing, RationalSplineReproducesItsCircleWhereverItsWeightsStand) {
+  const auto& p = kQuarterPoints;
+  const auto& w = kQuarterWeights;
+  const std::vector<std::vector<Groups>> orders = {{p[0], w[0], p[1], w[1], p[2], w[2]},
+                                                   {w[0], w[1], w[2], p[0], p[1], p[2]},
+                                                   {p[0], p[1], p[2], w[0], w[1], w[2]}};
+  for (std::size_t order = 0; order < orders.size(); ++order) {
+    const std::string spline = spline_of_parts(orders[order]);
+    const auto drawing = read_drawing(file(spline), "pot.dxf");
+    ASSERT_TRUE(drawing) << refusal_of(drawing);
+    ASSERT_EQ(drawing->lines.size(), 1u);
+    for (const glm::dvec2& point : drawing->lines[0].points_mm)
+      EXPECT_NEAR(std::hypot(point.x, point.y), 30.0, 1e-9) << order;
+    EXPECT_NEAR(volume_of(file(spline)), 2.0 / 3.0 * kPi * 27000.0, kFlatMm * 2.0 * kPi * 900.0)
+        << order;
+  }
+}
+
+TEST(DxfDrawing, RefusesWeightsOfSomeControlPointsOnly) {
+  const auto& p = kQuarterPoints;
+  const auto& w = kQuarterWeights;
+  for (const std::vector<Groups>& parts :
+       {std::vector{w[0], w[1], p[0], p[1], p[2]}, {p[0], p[1], p[2], w[0], w[1], w[2], w[0]}})
+    EXPECT_THAT(refusal_of(read_drawing(file(spline_of_parts(parts)), "pot.dxf")),
+                HasSubstr("SPLINE: expected a weight for each of 3 control points or none, found " +
+                          std::to_string(parts.size() - 3) + " weights"));
 }
 
 TEST(DxfDrawing, RefusesBrokenSplinesAndOtherFiles) {
