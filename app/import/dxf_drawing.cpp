@@ -19,6 +19,7 @@ namespace {
 constexpr long kFrozen = 1;                       // bit of a layer's flags
 constexpr int kDeepest = 16;                      // blocks within blocks
 constexpr std::size_t kMostEntities = 1'000'000;  // counted again at each insertion
+constexpr std::size_t kMostGroups = 20'000'000;   // of all blocks, counted again at each insertion
 
 /// Length in mm of a unit by its number in $INSUNITS; empty for units that are not used for pots.
 std::optional<double> mm_of_unit(long unit) {
@@ -51,6 +52,7 @@ using Name = std::string;
 struct Block {
   DxfGroups content;
   glm::dvec2 base{0.0};
+  std::size_t groups = 0;  ///< that each insertion reads again
 };
 
 /// One insertion: what its content is placed by, and the layer of entities on layer 0.
@@ -147,11 +149,15 @@ class Reader {
     const auto x = dxf_value(entity, 10, 0.0, name_), y = dxf_value(entity, 20, 0.0, name_);
     if (!x) return tl::make_unexpected(x.error());
     if (!y) return tl::make_unexpected(y.error());
-    blocks_.insert_or_assign(lower(entity.text(2)), Block{groups, {*x, *y}});
+    Block block{groups, {*x, *y}};
     while (true) {
       const auto inside = take_dxf_entity(groups, name_);
       if (!inside) return tl::make_unexpected(inside.error());
-      if (inside->type == "ENDBLK") return {};
+      block.groups += 1 + inside->groups.size();
+      if (inside->type == "ENDBLK") {
+        blocks_.insert_or_assign(lower(entity.text(2)), block);
+        return {};
+      }
       if (inside->type == "EOF" || inside->type == "ENDSEC")
         return failure(ErrorKind::bad_input,
                        fmt::format("{}:{}: expected the end of block {}, found {}", name_,
@@ -211,6 +217,11 @@ class Reader {
     const auto plane = dxf_plane(entity, name_);
     if (!plane) return tl::make_unexpected(plane.error());
     const Block& block = found->second;
+    groups_ += block.groups * static_cast<std::size_t>(grid->columns * grid->rows);
+    if (groups_ > kMostGroups)
+      return refusal(entity, fmt::format("expected blocks of at most {} groups with all "
+                                         "insertions, found more",
+                                         kMostGroups));
     for (long i = 0; i < grid->columns * grid->rows; ++i) {
       if (auto counted = count_one(); !counted) return counted;
       const glm::dvec2 beside{static_cast<double>(i % grid->columns) * grid->step.x,
@@ -272,7 +283,7 @@ class Reader {
   double unit_mm_ = 1.0;
   std::set<Name> ignored_, seen_layers_;
   std::map<Name, Block> blocks_;
-  std::size_t entities_ = 0;
+  std::size_t entities_ = 0, groups_ = 0;  ///< as counted for their limits
   PointLimits limits_;
   std::vector<Line> lines_;
 };

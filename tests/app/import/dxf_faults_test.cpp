@@ -107,6 +107,27 @@ TEST(DxfFaults, CountsInsertionsOfEmptyBlocks) {
       HasSubstr("expected at most 1000000 entities and insertions, found more"));
 }
 
+// Each of 63 x 63 places reads the 20,000 groups of its block again: 140 KB took half a minute.
+TEST(DxfFaults, CountsTheGroupsOfInsertedBlocks) {
+  const auto inserted = [](int groups, const std::string& grid) {
+    std::string block = "0 SECTION 2 BLOCKS 0 BLOCK 2 a 0 TEXT";
+    for (int i = 0; i < groups; ++i) block += " 1000 x";
+    return drawing_of(box(30, 60) + " 0 INSERT 2 a" + grid, block + " 0 ENDBLK 0 ENDSEC ");
+  };
+  EXPECT_THAT(problem(inserted(20'000, " 70 63 71 63 44 1 45 1")),
+              HasSubstr("INSERT: expected blocks of at most 20000000 groups with all insertions, "
+                        "found more"));
+  EXPECT_NEAR(volume(inserted(20'000, " 70 3 71 3 44 1 45 1")), kPi * 900.0 * 60.0, 1e-6);
+}
+
+TEST(DxfFaults, CountsTheVerticesOfInsertedPolylines) {
+  std::string block = "0 SECTION 2 BLOCKS 0 BLOCK 2 a 0 POLYLINE 70 64";
+  for (int i = 0; i < 20'000; ++i) block += " 0 VERTEX 10 1 20 2";
+  EXPECT_THAT(problem(drawing_of("0 INSERT 2 a 70 63 71 63 44 1 45 1",
+                                 block + " 0 SEQEND 0 ENDBLK 0 ENDSEC ")),
+              HasSubstr("groups with all insertions, found more"));
+}
+
 TEST(DxfFaults, JoinsFiftyThousandLines) {
   std::string entities = "0 LINE 10 0 20 0 11 30 21 0";
   constexpr int kCount = 50'000;
