@@ -26,7 +26,9 @@ const solid::SectionFile& section_facts(const FileReport& file) {
 }
 
 double distance_mm(const ExportReport& report, const FileReport& file) {
-  if (file.kind == FileKind::mesh) return file.max_error_mm + report.size.chordal_error_mm;
+  if (file.kind == FileKind::mesh)
+    return file.max_error_mm + report.size.chordal_error_mm +
+           (report.collapsed ? report.collapsed->max_move_mm : 0.0);
   return file.kind == FileKind::step ? file.max_error_mm : 0.0;
 }
 

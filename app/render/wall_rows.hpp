@@ -16,7 +16,9 @@ namespace clay::render {
 /// The walls of a pot, as a picture shows them.
 struct MappedWalls {
   std::vector<RowWall> rows;
-  double min_wall_mm = 0.0;               ///< the wall that `claystack export` reports
+  /// The wall that `claystack export` reports; of a collapsed pot that of its round parts, which
+  /// facets, seam and files make thinner.
+  double min_wall_mm = 0.0;
   std::optional<solid::WallLimit> limit;  ///< for a pot of this size
 };
 

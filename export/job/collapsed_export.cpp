@@ -2,6 +2,8 @@
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/export/check.hpp"
+#include "claystack/export/option_ranges.hpp"
+#include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
 #include "claystack/export/walls.hpp"
 #include "core/content_hash.hpp"
@@ -20,26 +22,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-#include <numbers>
 #include <string>
 #include <utility>
 
 namespace clay::solid::inline job {
 namespace {
-
-Result<void> check_options(const ExportOptions& options) {
-  const auto refuse = [](std::string_view option) {
-    return failure(ErrorKind::bad_input,
-                   std::string(option).append(": expected a standing pot, found a collapsed one"));
-  };
-  if (options.normals) return refuse("normals");
-  if (options.wall_map) return refuse("wall map");
-  if (options.wall_spacing_mm) return refuse("field of walls");
-  if (options.smooth_length_mm.value_or(0.0) != 0.0) return refuse("smooth length");
-  if (options.lip_fillet_mm.value_or(0.0) > 0.0) return refuse("lip fillet");
-  if (options.finish.asked()) return refuse("finish");
-  return {};
-}
 
 class CollapsedExport {
  public:
@@ -61,7 +48,7 @@ class CollapsedExport {
 
  private:
   Result<void> make_solid() {
-    return check_options(options_)
+    return check_collapsed_options(options_)
         .and_then([&] { return make_parts(); })
         .and_then([&] { return unite(); })
         .and_then([&] { return meet_budget(); })
@@ -115,8 +102,10 @@ class CollapsedExport {
       const Wall fallen = min_wall(parts_.upper.profile);
       if (fallen.thickness_mm < thinnest.thickness_mm) thinnest = fallen;
     }
-    report_.walls.min_wall_mm =
-        thinnest.thickness_mm * std::cos(std::numbers::pi / static_cast<double>(segments));
+    report_.walls.min_wall_mm = claims_of(parts_.lower.profile, segments, 0.0).wall_lower_mm;
+    if (!parts_.upper.shapes.empty())
+      report_.walls.min_wall_mm = std::min(
+          report_.walls.min_wall_mm, claims_of(parts_.upper.profile, segments, 0.0).wall_lower_mm);
   }
 
   void describe_solid(CollapsedSolid solid) {
@@ -178,7 +167,6 @@ class CollapsedExport {
           describe_size();
           thin_walls_by(moved_mm);
           report_.size.tolerance_mm += moved_mm;
-          report_.size.chordal_error_mm += moved_mm;
           describe_volume(check.volume_mm3);
           report_.collapsed->max_move_mm += moved_mm;
           report_.collapsed->reshaped_mm += moved_mm;
@@ -288,6 +276,22 @@ class CollapsedExport {
 };
 
 }  // namespace
+
+Result<void> check_collapsed_options(const ExportOptions& options) {
+  const auto refuse = [](std::string_view option) {
+    return failure(ErrorKind::bad_input,
+                   std::string(option).append(": expected a standing pot, found a collapsed one"));
+  };
+  if (options.normals) return refuse("normals");
+  if (options.wall_map) return refuse("wall map");
+  if (options.wall_spacing_mm) return refuse("field of walls");
+  if (options.smooth_length_mm.value_or(0.0) != 0.0) return refuse(kSmoothLengthRange.name);
+  if (options.lip_fillet_mm.value_or(0.0) > 0.0) return refuse(kLipFilletRange.name);
+  if (options.finish.foot) return refuse("foot ring");
+  if (options.finish.floor_fillet_mm > 0.0) return refuse(kFloorFilletRange.name);
+  if (options.finish.glaze_mm > 0.0) return refuse(kGlazeRange.name);
+  return {};
+}
 
 Result<ExportReport> export_collapsed(const PreparedPot& prepared,
                                       const std::vector<Output>& outputs,

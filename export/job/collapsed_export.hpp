@@ -3,8 +3,10 @@
 
 namespace clay::solid::inline job {
 
-/// `run_export` for a collapsed pot. Options that need a profile (normals, a field of walls) are
-/// errors.
+/// Options that need one profile, such as a finish or a field of walls, are errors (bad_input).
+[[nodiscard]] Result<void> check_collapsed_options(const ExportOptions& options);
+
+/// `run_export` for a collapsed pot.
 Result<ExportReport> export_collapsed(const PreparedPot& prepared,
                                       const std::vector<Output>& outputs,
                                       const ExportOptions& options,

@@ -109,9 +109,9 @@ class FilesExport {
     }
     if (!request_.report_path.empty() && !request_.report_text)
       return wrong(request_.report_path, "expected a function for the text, found none");
-    if (pot_.collapse && request_.certificates)
-      return named(wrong("certificate", kStanding), options_.source);
-    return {};
+    if (!pot_.collapse) return {};
+    if (request_.certificates) return named(wrong("certificate", kStanding), options_.source);
+    return named(check_collapsed_options(options_), options_.source);
   }
 
   /// The ending of a file that is made from the section is right, and the pot can have it.

@@ -15,7 +15,9 @@ bool ExportReport::has_solid() const noexcept {
 double ExportReport::thinnest_mm() const noexcept {
   double thinnest = walls.min_wall_mm;
   for (const FileReport& file : files)
-    if (file.certificate)
+    if (collapsed && file.kind == FileKind::mesh)  // both sides of a wall may have moved
+      thinnest = std::min(thinnest, std::max(walls.min_wall_mm - 2.0 * file.max_error_mm, 0.0));
+    else if (file.certificate)
       thinnest = std::min(thinnest, file.certificate->wall_lower_mm);
     else if (file.step)
       thinnest = std::min(thinnest, file.step->min_wall_mm);

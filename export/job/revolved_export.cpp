@@ -2,6 +2,7 @@
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tool.hpp"
+#include "claystack/export/option_ranges.hpp"
 #include "claystack/export/solid.hpp"
 #include "export/job/left_out.hpp"
 #include "export/job/resolution.hpp"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -76,30 +78,38 @@ class RevolvedExport {
     auto finest = design_at(options_.tolerance_mm);
     if (!finest || !options_.max_triangles || finest->size.triangles <= *options_.max_triangles)
       return finest;
+    return coarser_design(finest->size.triangles);
+  }
+
+  /// A design that fails is too coarse. `fewest`: the triangles of the requested resolution.
+  Result<Design> coarser_design(std::size_t fewest) {
+    std::optional<Design> best;
     double low = options_.tolerance_mm, high = coarsest_mm();
-    auto coarsest = design_at(high);
-    if (!coarsest) return coarsest;
-    if (coarsest->size.triangles > *options_.max_triangles)
-      return failure(ErrorKind::bad_input, "max triangles: expected at least " +
-                                               std::to_string(coarsest->size.triangles) +
-                                               " for this pot, found " +
-                                               std::to_string(*options_.max_triangles));
-    while (high > 1.02 * low) {
-      const double middle = std::sqrt(low * high);
-      auto tried = design_at(middle);
-      if (!tried) return tried;
+    for (double tried_mm = high; high > 1.02 * low; tried_mm = std::sqrt(low * high)) {
+      auto tried = design_at(tried_mm);
+      if (!tried) {
+        high = tried_mm;
+        continue;
+      }
+      fewest = std::min(fewest, tried->size.triangles);
       if (tried->size.triangles > *options_.max_triangles) {
-        low = middle;
+        low = tried_mm;
       } else {
-        high = middle;
-        coarsest = std::move(tried);
+        high = tried_mm;
+        best = std::move(*tried);
       }
     }
-    return coarsest;
+    if (best) return std::move(*best);
+    return failure(ErrorKind::bad_input, "max triangles: expected at least " +
+                                             std::to_string(fewest) + " for this pot, found " +
+                                             std::to_string(*options_.max_triangles));
   }
 
   double coarsest_mm() const {
-    return std::max(0.1 * largest_radius_mm(stack_), options_.tolerance_mm);
+    double coarsest = 0.1 * largest_radius_mm(stack_);
+    if (const double glaze = options_.finish.glaze_mm; glaze > 0.0)
+      coarsest = std::min(coarsest, glaze / kGlazeOfTolerance);
+    return std::max(coarsest, options_.tolerance_mm);
   }
 
   /// Smoothing respects a limit only if the walls keep it with that and not without.

@@ -142,6 +142,33 @@ TEST_F(ExportFinish, RefusesPartsThatAreTooSmall) {
       << coarse.err;
 }
 
+/// The coarsest section of this bowl has thin walls, so that the glaze would break its limit.
+TEST_F(ExportFinish, ALimitOfTrianglesLeavesOutDesignsThatAreTooCoarse) {
+  const Ran both = run("--json --glaze-allowance 0.5 --min-wall 3 --max-triangles 30000");
+  ASSERT_EQ(both.status, 0) << both.err;
+  EXPECT_LE(both.json().at("triangles"), 30000u);
+  EXPECT_GE(both.json().at("min_wall_mm"), 3.0);
+}
+
+/// Also for a drawing alone.
+TEST(ExportFallenPot, RefusesWhatNeedsAStandingPot) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("fallen.pot.json"), svg = folder.file("fallen.svg");
+  ASSERT_EQ(claystack("throw -q " + sample("collapse.scene.json") + " -o " + pot).status, 0);
+  for (const auto& [option, name] :
+       {std::pair("--foot 60x6x4", "foot ring"), std::pair("--floor-fillet 5", "floor fillet"),
+        std::pair("--glaze-allowance 0.5", "glaze allowance"),
+        std::pair("--lip-fillet 2", "lip fillet"),
+        std::pair("--smooth-length 5mm", "smooth length")}) {
+    const Ran refused = claystack("export " + pot + " " + svg + " " + option);
+    EXPECT_EQ(refused.status, 2) << option << refused.err;
+    EXPECT_NE(refused.err.find(std::string(name) + ": expected a standing pot, found a collapsed"),
+              std::string::npos)
+        << refused.err;
+  }
+  EXPECT_EQ(claystack("export -q " + pot + " " + svg).status, 0);
+}
+
 /// A closed box: solid foot of 10 mm, cavity of 10 mm, lid of 10 mm; R = 30 mm, r = 20 mm.
 constexpr const char* kBox = R"({"schema": "claystack-pot-1", "written_by": "test",
  "model": "conserving", "density_g_cm3": 1.9, "ring_height_mm": 10, "max_rings": 100,

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -113,11 +112,50 @@ TEST(ExportFallen, WallOfTheSolidAllowsForWhatMoved) {
   options.smoothing = Smoothing::none;
   const ExportReport report = exported(pot, {}, options).value().report;
   const auto parts = collapsed_parts(pot, Smoothing::none, options.tolerance_mm).value();
-  const double part_mm =
-      std::min(min_wall_mm(parts.lower.profile), min_wall_mm(parts.upper.profile)) *
-      std::cos(std::numbers::pi / static_cast<double>(report.size.segments));
+  const auto wall_mm = [&](const StackProfile& part) {
+    return claims_of(part.profile, report.size.segments, 0.0).wall_lower_mm;
+  };
+  const double part_mm = std::min(wall_mm(parts.lower), wall_mm(parts.upper));
   ASSERT_GT(report.collapsed->reshaped_mm, 0.0);
   EXPECT_NEAR(report.walls.min_wall_mm, part_mm - 2.0 * report.collapsed->reshaped_mm, 1e-12);
+}
+
+/// A rim of 2 mm on a thick wall, slightly lower than wide: between facets it is low enough to
+/// count as a wall.
+TEST(ExportFallen, TheWallIsThatOfTheFacets) {
+  std::vector<Ring> rings(214, {quanta_from_radius(30), quanta_from_radius(20)});
+  std::fill_n(rings.begin(), 51, Ring{quanta_from_radius(30), 0});
+  std::fill_n(rings.end() - 10, 10, Ring{quanta_from_radius(28), quanta_from_radius(26)});
+  const ClayStack stack = ClayStack::from_rings(0.197, rings, 0).value();
+  ExportOptions options;
+  options.smoothing = Smoothing::none;
+  options.segments = 8;
+  options.tolerance_mm = 5.0;
+  const auto wall_of = [&](const Pot& pot) {
+    return exported(pot, {}, options).value().report.walls.min_wall_mm;
+  };
+  const double standing = wall_of(pot_of(stack));
+  EXPECT_LT(standing, 2.0);
+  EXPECT_LE(wall_of(shapes::fallen(stack, 100, {0, 20, 0}, 0.0)),
+            standing + 1e-5);  // rounded as in a file
+}
+
+/// The vertices of a Draco file lie on a grid.
+TEST(ExportFallen, TheWallOfAFileOnAGridIsThinner) {
+  Pot pot = pot_of(shapes::vase(100));
+  pot.collapse = Collapse{30, {50, 70, 0}, {0, 0, 1}, 1.0, 12.0};
+  pot.collapse->shift_mm = {400.0, 0.0, 0.0};
+  ExportOptions options;
+  options.tolerance_mm = 0.2;
+  options.allow_pieces = true;
+  const auto result = exported(pot, {MeshFormat::drc}, options);
+  ASSERT_TRUE(result) << result.error().message;
+  const ExportReport& report = result->report;
+  ASSERT_GT(report.files[0].max_error_mm, 0.01);
+  EXPECT_NEAR(report.thinnest_mm(), report.walls.min_wall_mm - 2.0 * report.files[0].max_error_mm,
+              1e-12);
+  const TriangleMesh mesh = decode_mesh(result->files[0], MeshFormat::drc, "file").value();
+  EXPECT_LE(report.thinnest_mm(), sampled_wall(mesh, 20'000).value().least_mm);
 }
 
 TEST(ExportFallen, WritesSeparatePiecesOnlyIfAllowed) {

@@ -238,7 +238,8 @@ struct SolidSize {
 
 struct WallReport {
   /// Lower bound for the solid with its facets, rounded as in a binary STL: the wall of the pot. Of
-  /// a fallen pot that of its parts, less what the seam and rounding move.
+  /// a fallen pot that of its parts, less what the seam and rounding move. An estimate for a fallen
+  /// pot with `max_triangles`: decimation is measured at the vertices.
   double min_wall_mm = 0.0;
   Wall thinnest;  ///< the thinnest place of the section
   /// Smoothing `exact`: the minimum wall of the steps, if overshoot made a thinner edge.
