@@ -10,12 +10,36 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <mutex>
 #include <optional>
 
 namespace clay::render {
 namespace {
 
-/// A display and a context without a surface; both end with the object.
+/// The display without a surface. EGL gives the same one to every context and does not count them:
+/// it ends with the last of its users.
+class EglDisplay {
+ public:
+  static EGLDisplay acquire() {
+    const std::scoped_lock lock(mutex_);
+    const EGLDisplay display =
+        eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE)
+      return EGL_NO_DISPLAY;
+    ++users_;
+    return display;
+  }
+  static void release(EGLDisplay display) {
+    const std::scoped_lock lock(mutex_);
+    if (--users_ == 0) eglTerminate(display);
+  }
+
+ private:
+  static inline std::mutex mutex_;
+  static inline int users_ = 0;
+};
+
+/// A context on the display; ends with the object.
 class EglContext {
  public:
   static Result<EglContext> create();
@@ -26,7 +50,7 @@ class EglContext {
     if (display_ == EGL_NO_DISPLAY) return;
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
-    eglTerminate(display_);
+    EglDisplay::release(display_);
   }
   bool make_current() const {
     return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
@@ -52,10 +76,8 @@ Result<EglContext> EglContext::create() {
   dlclose(library);
   for (const char* extension : {"EGL_EXT_platform_base", "EGL_MESA_platform_surfaceless"})
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, extension)) return no_context(extension);
-  const EGLDisplay display =
-      eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE)
-    return no_context("an EGL display without a surface");
+  const EGLDisplay display = EglDisplay::acquire();
+  if (display == EGL_NO_DISPLAY) return no_context("an EGL display without a surface");
   EglContext made(display);
   constexpr std::array<EGLint, 5> kConfig{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0,
                                           EGL_NONE};

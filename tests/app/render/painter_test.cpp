@@ -13,6 +13,18 @@ namespace {
 /// sRGB of the linear colour (0.43, 0.178, 0.088)^0.45: leather-hard clay, paler.
 bool is_section(const std::uint8_t* rgba) { return is_near(rgba, 0xD8, 0xB5, 0x9D, 2); }
 
+/// A picture and a turntable may be drawn at the same time.
+TEST(Offscreen, StaysWhenAnotherEnds) {
+  const render::Picture picture = picture_of(pot_of([](double) { return 45.0; }, 120.0, 12.0));
+  auto first = render::Offscreen::create().value();
+  {
+    auto second = render::Offscreen::create().value();
+    EXPECT_TRUE(second.draw(picture, {16, 16}));
+  }
+  const auto image = first.draw(picture, {16, 16});
+  EXPECT_TRUE(image) << image.error().message;
+}
+
 TEST(Painter, CutFaceIsAsWideAsTheWall) {
   render::Picture picture =
       picture_of(pot_of([](double) { return 45.0; }, 120.0, 12.0, 20.0), 0.15);
