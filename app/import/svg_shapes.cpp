@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <new>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -18,8 +19,9 @@
 namespace clay::importing {
 namespace {
 
-constexpr int kDeepest = 200;                   // elements within elements
-constexpr std::size_t kMostElements = 200'000;  // counted again at each use
+constexpr int kDeepest = 200;                        // elements within elements
+constexpr std::size_t kMostElements = 200'000;       // counted again at each use
+constexpr std::size_t kMostCopied = 2 * kMostBytes;  // bytes of attributes, again at each use
 constexpr std::string_view kSvgSpace = "http://www.w3.org/2000/svg";
 
 /// The attributes of each shape that are its geometry.
@@ -70,7 +72,9 @@ class Copier {
   Result<SvgShapes> copy(xmlNode* root) {
     Inherited page;
     page.in_layer = layer_.empty();
-    if (auto done = element(root, nullptr, page); !done) return tl::make_unexpected(done.error());
+    auto done = element(root, nullptr, page);
+    if (done) done = check_copied();
+    if (!done) return tl::make_unexpected(done.error());
     if (!layer_.empty() && !found_layer_)
       return failure(ErrorKind::bad_input, fmt::format("{}: expected a layer \"{}\", found {}",
                                                        name_, layer_, layer_names()));
@@ -131,9 +135,7 @@ class Copier {
     if (shape == kShapes.end() && !group && kind != "use") return {};
     if (++state.depth > kDeepest)
       return refusal(node, fmt::format("expected elements at most {} deep, found more", kDeepest));
-    if (++count_ > kMostElements)
-      return refusal(node, fmt::format("expected at most {} elements with all uses, found more",
-                                       kMostElements));
+    if (auto counted = count(node); !counted) return counted;
     const auto values = styles_.of(node);
     if (!values) return refusal(node, values.error().message);
     const auto value = [&](SvgProperty property) -> const std::optional<std::string>& {
@@ -162,6 +164,21 @@ class Copier {
       for (const char* attribute : shape->second) copy_attribute(node, copied, attribute);
     }
     return {};
+  }
+
+  Result<void> count(xmlNode* node) {
+    if (++count_ > kMostElements)
+      return refusal(node, fmt::format("expected at most {} elements with all uses, found more",
+                                       kMostElements));
+    return check_copied();
+  }
+
+  /// Refuses the drawing if an attribute was left out because of their limit.
+  [[nodiscard]] Result<void> check_copied() const {
+    if (left_out_of_ == nullptr) return {};
+    return refusal(left_out_of_,
+                   fmt::format("expected attributes of at most {} MiB with all uses, found more",
+                               kMostCopied >> 20));
   }
 
   /// `on`: the value that switches on; null: every value but "none" does.
@@ -253,7 +270,7 @@ class Copier {
 
   /// A page in percent has no absolute size. A missing width or height, or both, is taken from its
   /// view box.
-  static void size_page(xmlNode* page) {
+  void size_page(xmlNode* page) {
     for (const char* attribute : {"width", "height"})
       if (svg_attribute(page, attribute).ends_with('%'))
         xmlUnsetProp(page, reinterpret_cast<const xmlChar*>(attribute));
@@ -272,6 +289,7 @@ class Copier {
     xmlNode* node =
         xmlNewDocNode(result_.get(), nullptr,
                       reinterpret_cast<const xmlChar*>(std::string(kind).c_str()), nullptr);
+    if (node == nullptr) throw std::bad_alloc();
     node->line = source->line;
     if (parent == nullptr) {
       xmlDocSetRootElement(result_.get(), node);
@@ -283,17 +301,23 @@ class Copier {
     return node;
   }
 
-  static void set(xmlNode* node, const char* attribute, const std::string& value) {
-    xmlSetProp(node, reinterpret_cast<const xmlChar*>(attribute),
-               reinterpret_cast<const xmlChar*>(value.c_str()));
+  void set(xmlNode* node, const char* attribute, const std::string& value) {
+    if ((copied_ += value.size()) > kMostCopied) {
+      if (left_out_of_ == nullptr) left_out_of_ = node;
+      return;
+    }
+    const xmlAttr* added = xmlSetProp(node, reinterpret_cast<const xmlChar*>(attribute),
+                                      reinterpret_cast<const xmlChar*>(value.c_str()));
+    if (added == nullptr || (added->children == nullptr && !value.empty())) throw std::bad_alloc();
   }
 
-  static void copy_attribute(xmlNode* from, xmlNode* to, const char* attribute) {
+  void copy_attribute(xmlNode* from, xmlNode* to, const char* attribute) {
     const std::string value = svg_attribute(from, attribute);
     if (!value.empty() && value != "auto") set(to, attribute, value);
   }
 
-  [[nodiscard]] tl::unexpected<Error> refusal(xmlNode* node, const std::string& problem) const {
+  [[nodiscard]] tl::unexpected<Error> refusal(const xmlNode* node,
+                                              const std::string& problem) const {
     return failure(ErrorKind::bad_input,
                    fmt::format("{}:{}: {}", name_, xmlGetLineNo(node), problem));
   }
@@ -309,7 +333,8 @@ class Copier {
   bool found_layer_ = false;
   std::vector<std::string> notes_;
   std::set<std::string_view> noted_;  // kinds that have a note
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, copied_ = 0;
+  const xmlNode* left_out_of_ = nullptr;  ///< of the result: the first that lacks an attribute
 };
 
 }  // namespace
