@@ -10,6 +10,9 @@ namespace clay::importing {
 namespace {
 
 constexpr std::size_t kMostComparisons = 20'000'000;
+constexpr std::size_t kBytesOfAComparison = 16;    // reading so many counts as one
+constexpr std::size_t kKeysOfAComparison = 8;      // looking up so many counts as one
+constexpr std::size_t kMostKeptBytes = 16u << 20;  // of the classes of elements
 constexpr std::string_view kXlink = "http://www.w3.org/1999/xlink";
 constexpr std::array<std::string_view, kSvgProperties> kNames = {
     "display",          "visibility", "fill",      "stroke", "transform",
@@ -180,12 +183,32 @@ void SvgStyles::add(std::string_view text) {
 bool SvgStyles::matches(const Part& part, xmlNode* node) {
   if (node == nullptr || node->type != XML_ELEMENT_NODE) return false;
   if (!part.type.empty() && part.type != reinterpret_cast<const char*>(node->name)) return false;
-  if (!part.id.empty() && part.id != svg_attribute(node, "id")) return false;
+  if (!part.id.empty()) {
+    const std::string id = svg_attribute(node, "id");
+    comparisons_ += id.size() / kBytesOfAComparison;
+    if (part.id != id) return false;
+  }
   if (part.classes.empty()) return true;
-  const std::vector<std::string> own = words_of(svg_attribute(node, "class"));
+  const std::vector<std::string>& own = classes_of(node);
+  comparisons_ += part.classes.size() - 1;
   return std::all_of(part.classes.begin(), part.classes.end(), [&](const std::string& name) {
-    return std::find(own.begin(), own.end(), name) != own.end();
+    return std::binary_search(own.begin(), own.end(), name);
   });
+}
+
+const std::vector<std::string>& SvgStyles::classes_of(xmlNode* node) {
+  if (const auto known = classes_.find(node); known != classes_.end()) return known->second;
+  const std::string text = svg_attribute(node, "class");
+  comparisons_ += text.size() / kBytesOfAComparison;
+  if ((kept_bytes_ += text.size()) > kMostKeptBytes) {  // entities make them longer than the file
+    classes_.clear();
+    kept_bytes_ = text.size();
+  }
+  std::vector<std::string> classes = words_of(text);
+  std::sort(classes.begin(), classes.end());
+  classes.erase(std::unique(classes.begin(), classes.end()), classes.end());
+  classes.shrink_to_fit();
+  return classes_[node] = std::move(classes);
 }
 
 /// Each part is matched as far in as possible; with > that may miss an ancestor further out.
@@ -204,31 +227,42 @@ bool SvgStyles::matches(const Rule& rule, xmlNode* node) {
   return true;
 }
 
-Result<SvgValues> SvgStyles::of(xmlNode* node) {
-  SvgValues values;
-  for (std::size_t i = 0; i < kNames.size(); ++i)
-    if (std::string set = svg_attribute(node, kNames[i].data()); !set.empty())
-      values[i] = std::string(stripped(set));
+std::vector<std::pair<int, std::size_t>> SvgStyles::rules_of(xmlNode* node) {
+  std::vector<std::pair<int, std::size_t>> applied;
+  if (rules_.empty()) return applied;
   std::vector<std::string> keys{"", reinterpret_cast<const char*>(node->name),
                                 "#" + svg_attribute(node, "id")};
-  if (!rules_.empty())
-    for (const std::string& name : words_of(svg_attribute(node, "class")))
-      keys.push_back("." + name);
-  std::vector<std::pair<int, std::size_t>> applied;
+  for (const std::string& name : classes_of(node)) keys.push_back("." + name);
+  comparisons_ += keys.size() / kKeysOfAComparison;
   for (const std::string& key : keys) {
     const auto found = by_key_.find(key);
     if (found == by_key_.end()) continue;
-    for (const std::size_t rule : found->second)
+    for (const std::size_t rule : found->second) {
+      if (comparisons_ > kMostComparisons) return applied;
       if (matches(rules_[rule], node)) applied.emplace_back(rules_[rule].rank, rule);
+    }
   }
+  std::sort(applied.begin(), applied.end());
+  return applied;
+}
+
+Result<SvgValues> SvgStyles::of(xmlNode* node) {
+  SvgValues values;
+  std::size_t bytes = 0;  // read again at each use
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    const std::string set = svg_attribute(node, kNames[i].data());
+    if (!set.empty()) values[i] = std::string(stripped(set));
+    bytes += set.size();
+  }
+  for (const auto& [rank, rule] : rules_of(node)) lay_over(values, rules_[rule].values);
+  const std::string style = svg_attribute(node, "style");
+  comparisons_ += (bytes + style.size()) / kBytesOfAComparison;
   if (comparisons_ > kMostComparisons)
     return failure(ErrorKind::bad_input,
                    fmt::format("expected style sheets that need at most {} comparisons with "
                                "elements, found more",
                                kMostComparisons));
-  std::sort(applied.begin(), applied.end());
-  for (const auto& [rank, rule] : applied) lay_over(values, rules_[rule].values);
-  set_declarations(values, without_comments(svg_attribute(node, "style")));
+  set_declarations(values, without_comments(style));
   return values;
 }
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace clay::importing {
@@ -66,11 +67,17 @@ class SvgStyles {
   };
 
   static std::optional<std::vector<Part>> parts_of(std::string_view selector);
-  static bool matches(const Part& part, xmlNode* node);
+  bool matches(const Part& part, xmlNode* node);
   bool matches(const Rule& rule, xmlNode* node);
+  /// Of an element: sorted, each once. Valid until the next call.
+  const std::vector<std::string>& classes_of(xmlNode* node);
+  /// The rules that apply to an element, by their rank; incomplete after too many comparisons.
+  std::vector<std::pair<int, std::size_t>> rules_of(xmlNode* node);
 
   std::vector<Rule> rules_;
   std::map<std::string, std::vector<std::size_t>> by_key_;  ///< of the last part: #id, .class, type
+  std::map<const xmlNode*, std::vector<std::string>> classes_;  ///< as classes_of found them
+  std::size_t kept_bytes_ = 0;                                  ///< of their attributes
   std::size_t comparisons_ = 0;
 };
 

@@ -149,6 +149,46 @@ TEST(SvgDrawing, RefusesRecursiveUse) {
               kPi * 900.0 * 60.0, 1e-6);
 }
 
+// Each use copies the path: 1 MB of it, 3000 times, are 3 GB.
+TEST(SvgDrawing, RefusesUsesThatCopyTooMuch) {
+  std::string path = "<path id='p' d='M 0 0 H 30 V 60 H 0 L 0 30 Z";
+  path += std::string(1'000'000, ' ') + "'/>", path = "<defs>" + path + "</defs>";
+  std::string uses;
+  for (int i = 0; i < 3000; ++i) uses += "\n<use href='#p'/>";
+  EXPECT_THAT(refusal_of(read_drawing(page(path + uses), "pot.svg")),
+              testing::MatchesRegex("pot\\.svg:1: expected attributes of at most 64 MiB with all "
+                                    "uses, found more"));
+  EXPECT_NEAR(volume_of(path + "<use href='#p'/>"), kPi * 900.0 * 60.0, 1e-6);
+}
+
+// Each of 1000 rules was compared once for each of 2000 equal classes, each time with all of them.
+TEST(SvgDrawing, ClassesThatAreRepeatedCountOnce) {
+  std::string rules, classes = "b ";
+  for (int i = 0; i < 1000; ++i) rules += ".a.b{fill:none}.a.c{display:none}";
+  for (int i = 0; i < 2000; ++i) classes += "a ";
+  const std::string shape = " d='M 0 0 H 30 V 60 H 0 L 0 30 Z'/>";
+  const std::string style = "<style>" + rules + "</style>";
+  const double wanted = kPi * 900.0 * 60.0;
+  EXPECT_NEAR(volume_of(style + "<path class='" + classes + "' stroke='red'" + shape), wanted,
+              1e-6);
+  EXPECT_NEAR(
+      volume_of(style + "<path class='" + classes + "'" + shape + "<path class='a'" + shape),
+      wanted, 1e-6)
+      << "the first path has no paint";
+}
+
+TEST(SvgDrawing, RefusesTooManyComparisons) {
+  std::string rules, classes;
+  for (int i = 0; i < 200; ++i) {
+    classes += " c" + std::to_string(i);
+    for (int k = 0; k < 600; ++k) rules += ".c" + std::to_string(i) + "{fill:red}";
+  }
+  std::string paths;
+  for (int i = 0; i < 200; ++i) paths += "\n<path class='" + classes + "' d='M 0 0 L 1 1'/>";
+  EXPECT_THAT(refusal_of(read_drawing(page("<style>" + rules + "</style>" + paths), "pot.svg")),
+              HasSubstr("expected style sheets that need at most 20000000 comparisons"));
+}
+
 TEST(SvgDrawing, IgnoresHiddenElements) {
   const std::string pot = "<path d='M 0 0 H 30 V 60 H 0 L 0 30 Z'/>";
   const std::string hidden = "<path d='M 0 0 H 90 V 60 H 0 Z'/>";
