@@ -75,10 +75,10 @@ struct Running {
   // the batch.
   (void)::setpgid(0, 0);
   (void)::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  const int nothing = ::open("/dev/null", O_RDONLY);
-  if (nothing != -1) (void)::dup2(nothing, STDIN_FILENO);
   (void)::dup2(out, STDOUT_FILENO);
   (void)::dup2(err, STDERR_FILENO);
+  ::close(STDIN_FILENO);  // its number is then the lowest free one, even if no other is left
+  (void)::open("/dev/null", O_RDONLY);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) ::signal(signal, SIG_DFL);
   std::vector<char*> pointers;
   static std::string program = "claystack";
@@ -148,12 +148,16 @@ Result<void> run_batch(const std::vector<BatchJob>& jobs, const BatchPool& pool,
                        const std::function<bool(const BatchOutcome&)>& done) {
   std::list<Running> all;
   std::size_t next = 0;
+  bool full = false;  // the system starts no more until one ends
   Result<void> result;
   while (!all.empty() || next < jobs.size()) {
-    while (next < jobs.size() && all.size() < pool.processes) {
-      auto started = start(jobs, next++);
+    while (next < jobs.size() && all.size() < pool.processes && !full) {
+      auto started = start(jobs, next);
       if (started) {
         all.push_back(std::move(*started));
+        ++next;
+      } else if (!all.empty()) {
+        full = true;
       } else {
         result = tl::make_unexpected(started.error());
         next = jobs.size();
@@ -165,6 +169,7 @@ Result<void> run_batch(const std::vector<BatchJob>& jobs, const BatchPool& pool,
       if (outcome) {
         if (!done(*outcome)) next = jobs.size();
         running = all.erase(running);
+        full = false;
         continue;
       }
       if (pool.time_limit.count() > 0.0 && !running->timed_out &&

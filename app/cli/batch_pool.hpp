@@ -35,8 +35,8 @@ struct BatchPool {
 };
 
 /// Runs `jobs` in order, at most `pool.processes` at a time, and calls `done` as each ends. Ends
-/// early, after the running jobs, when `done` returns false. An error: a process could not be
-/// started.
+/// early, after the running jobs, when `done` returns false. Where the system allows fewer
+/// processes or descriptors, fewer run at a time. An error: not even one could be started.
 Result<void> run_batch(const std::vector<BatchJob>& jobs, const BatchPool& pool,
                        const std::function<bool(const BatchOutcome&)>& done);
 
