@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <map>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace clay::cli {
@@ -49,7 +50,21 @@ std::vector<std::string> outputs_of(const std::vector<std::string>& words) {
       outputs.push_back(word);
   }
   std::erase(outputs, "-");
+  if (exports && std::ranges::find(words, "--certificate") != words.end())
+    for (std::size_t i = 0, count = outputs.size(); i < count; ++i)
+      outputs.push_back(outputs[i] + ".certificate.json");
   return outputs;
+}
+
+/// The same for each path of a file, through links and relative or not.
+std::string name_of_file(const std::string& output) {
+  std::error_code failed;
+  const auto absolute = std::filesystem::absolute(output, failed);
+  if (!failed) {
+    const auto name = std::filesystem::weakly_canonical(absolute, failed);
+    if (!failed) return name.string();
+  }
+  return std::filesystem::path(output).lexically_normal().string();
 }
 
 }  // namespace
@@ -58,7 +73,7 @@ Result<void> check_job_outputs(const std::vector<BatchJob>& jobs, const std::str
   std::map<std::string, const BatchJob*> writers;
   for (const BatchJob& job : jobs)
     for (const std::string& output : outputs_of(job.words)) {
-      const std::string name = std::filesystem::path(output).lexically_normal().string();
+      const std::string name = name_of_file(output);
       const auto [writer, first] = writers.emplace(name, &job);
       if (!first && writer->second != &job)
         return failure(ErrorKind::bad_input,
