@@ -16,6 +16,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
@@ -101,8 +102,14 @@ class ResultFile {
   static Result<ResultFile> open(const std::string& path) {
     ResultFile file(path);
     if (path.empty()) return file;
-    file.descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    // A pipe that this process could read too would never end, and would outlive its reader.
+    struct stat kind {};
+    const bool written_only = ::stat(path.c_str(), &kind) == 0 && !S_ISREG(kind.st_mode);
+    const int mode = written_only ? O_WRONLY : O_RDWR | O_CREAT;
+    file.descriptor_ = ::open(path.c_str(), mode | O_APPEND | O_CLOEXEC, 0666);
     if (file.descriptor_ == -1) return file.io_failure("cannot open");
+    if (::fstat(file.descriptor_, &kind) != 0) return file.io_failure("cannot open");
+    if (!S_ISREG(kind.st_mode)) return file;
     if (::flock(file.descriptor_, LOCK_EX | LOCK_NB) != 0)
       return file.io_failure("cannot lock, another batch may write it");
     return file.read_done().map([&] { return std::move(file); });
@@ -115,6 +122,15 @@ class ResultFile {
   ResultFile& operator=(ResultFile&&) = delete;
   ~ResultFile() {
     if (descriptor_ != -1) ::close(descriptor_);
+  }
+
+  /// Whether the lines go to standard output, by whatever name.
+  [[nodiscard]] bool is_standard_output() const {
+    struct stat own {};
+    struct stat standard {};
+    return descriptor_ == -1 ||
+           (::fstat(descriptor_, &own) == 0 && ::fstat(STDOUT_FILENO, &standard) == 0 &&
+            own.st_dev == standard.st_dev && own.st_ino == standard.st_ino);
   }
 
   /// The status of a job that an earlier batch finished: done, with a verdict. Empty for others,
@@ -187,7 +203,12 @@ class ResultFile {
   std::map<std::string, int> done_;
 };
 
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+/// The first line that is not a warning; empty if there is none.
+std::string_view first_error(std::string_view text) {
+  while (text.starts_with("claystack: warning: "))
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  return text.substr(0, text.find('\n'));
+}
 
 /// The JSON that the job printed; of a failed job the first line of its errors.
 Json result_json(const BatchJob& job, const BatchOutcome& outcome) {
@@ -200,8 +221,8 @@ Json result_json(const BatchJob& job, const BatchOutcome& outcome) {
     json["error"] = "ended by the time limit";
   else if (outcome.status > 128)
     json["error"] = fmt::format("ended by signal {}", outcome.status - 128);
-  else if (outcome.status != kDone && !outcome.err.empty())
-    json["error"] = first_line(outcome.err);  // a check that fails has its reasons in the output
+  else if (const auto error = first_error(outcome.err); outcome.status != kDone && !error.empty())
+    json["error"] = error;  // a check that fails has its reasons in the output
   if (outcome.cut)
     json["error"] = fmt::format("the output exceeds {} MiB and is omitted", kMostOutput >> 20);
   else if (Json printed = Json::parse(outcome.out, nullptr, false); !printed.is_discarded())
@@ -247,7 +268,7 @@ Result<int> batch(BatchOptions options, const Console& console) {
                 });
   if (!written) return tl::make_unexpected(written.error());
   if (!ran) return tl::make_unexpected(ran.error());
-  if (options.results.empty()) return failed == 0 ? kDone : kUnsound;
+  if (results->is_standard_output()) return failed == 0 ? kDone : kUnsound;
   if (console.json)
     print_json({{"jobs", asked},
                 {"done", asked - failed},

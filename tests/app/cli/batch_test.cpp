@@ -131,7 +131,8 @@ TEST_F(Batch, ResumesFromResultsThatDoNotFitInMemory) {
   write_text(results, many + one);
   const Ran resumed = run("--memory 64MiB -o " + results);
   EXPECT_EQ(resumed.status, 0) << resumed.err;
-  EXPECT_TRUE(resumed.out.ends_with(": 1\n")) << resumed.out;
+  EXPECT_EQ(resumed.out,
+            "1 job: 1 done, 0 failed; 1 skipped, because " + results + " has their results\n");
 }
 
 TEST_F(Batch, LeavesWholeLinesWhenAResultCannotBeWritten) {
@@ -216,6 +217,68 @@ TEST_F(Batch, RefusesJobsThatWriteTheSameFile) {
   write_jobs({job("1", {"export", pot, stl}), job("2", {"export", "--min-wall", "1", pot, stl})});
   EXPECT_EQ(run("-j 2").status, 2);
   EXPECT_EQ(run("-j 1").status, 0) << "one after the other";
+}
+
+TEST_F(Batch, RefusesOneOutputUnderTwoNames) {
+  const std::string scene = sample("cylinder.scene.json");
+  const auto jobs = [&](const std::string& first, const std::string& second) {
+    write_jobs({job("1", {"throw", scene, "-o", first}), job("2", {"throw", scene, "-o", second})});
+    return shell("cd " + folder.path().string() +
+                 " && " CLAYSTACK_PROGRAM " batch -j 2 jobs.jsonl");
+  };
+  const Ran absolute = jobs("same.pot.json", folder.file("same.pot.json"));
+  EXPECT_EQ(absolute.status, 2) << absolute.out;
+  EXPECT_NE(absolute.err.find("written by 1 and 2"), std::string::npos) << absolute.err;
+  std::filesystem::create_directory(folder.file("real"));
+  std::filesystem::create_symlink("real", folder.file("link"));
+  EXPECT_EQ(jobs("real/same.pot.json", "link/same.pot.json").status, 2);
+  EXPECT_EQ(jobs("real/1.pot.json", "link/2.pot.json").status, 0);
+}
+
+TEST_F(Batch, WritesItsResultsToPipes) {
+  write_jobs({thrown("a.pot.json")});
+  const std::string batch = CLAYSTACK_PROGRAM " batch -q " + folder.file("jobs.jsonl") + " -o ";
+  const Ran out = shell("timeout 60 " CLAYSTACK_PROGRAM " batch " + folder.file("jobs.jsonl") +
+                        " -o /dev/stdout | cat");
+  ASSERT_EQ(results_in(out.out).size(), 1u) << out.err;
+  EXPECT_EQ(results_in(out.out).at("a.pot.json").at("status"), 0);
+  const std::string pipe = folder.file("pipe");
+  const Ran named = shell("mkfifo " + pipe + " && (timeout 60 cat " + pipe + " & timeout 60 " +
+                          batch + pipe + "; wait)");
+  EXPECT_EQ(results_in(named.out).size(), 1u) << named.err;
+  EXPECT_EQ(shell(batch + "/dev/null").status, 0);
+}
+
+// Each job holds two pipes: with 40 descriptors far fewer than 40 jobs run at a time.
+TEST_F(Batch, RunsFewerJobsAtATimeWhereTheSystemAllowsNoMore) {
+  std::vector<nlohmann::json> jobs;
+  for (int i = 0; i < 40; ++i)
+    jobs.push_back(job(std::to_string(i), {"plan", sample("bowl.scene.json")}));
+  write_jobs(jobs);
+  const std::string batch =
+      CLAYSTACK_PROGRAM " batch -q " + folder.file("jobs.jsonl") + " -j 40 -o ";
+  const std::string results = folder.file("results.jsonl");
+  const Ran ran = shell("ulimit -n 40; " + batch + results);
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(results_in(read_text(results)).size(), 40u);
+  // With too few for one job it ends, with the reason.
+  const Ran none = shell("ulimit -n 7; " + batch + folder.file("none.jsonl"));
+  EXPECT_EQ(none.status, 3);
+  EXPECT_NE(none.err.find("batch: cannot make a pipe"), std::string::npos) << none.err;
+}
+
+TEST_F(Batch, TheErrorOfAJobIsNoWarning) {
+  // It warns of the clip path, and then cannot write the pot.
+  write_text(folder.file("clipped.svg"),
+             "<svg xmlns='http://www.w3.org/2000/svg'>"
+             "<path clip-path='url(#c)' d='M 0 0 H 90 V 60 H 0 Z'/></svg>");
+  std::filesystem::create_symlink("/dev/full", folder.file("full.pot.json"));
+  write_jobs(
+      {job("clipped", {"import", folder.file("clipped.svg"), "-o", folder.file("full.pot.json")})});
+  const auto results = results_in(run("").out);
+  const std::string error = results.at("clipped").value("error", "");
+  EXPECT_EQ(error.find("warning:"), std::string::npos) << error;
+  EXPECT_NE(error.find("full.pot.json: "), std::string::npos) << error;
 }
 
 TEST_F(Batch, RefusesAResultFileOfAnotherKind) {
