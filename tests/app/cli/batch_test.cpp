@@ -217,6 +217,10 @@ TEST_F(Batch, RefusesJobsThatWriteTheSameFile) {
   write_jobs({job("1", {"export", pot, stl}), job("2", {"export", "--min-wall", "1", pot, stl})});
   EXPECT_EQ(run("-j 2").status, 2);
   EXPECT_EQ(run("-j 1").status, 0) << "one after the other";
+  write_jobs({job("1", {"export", "--certificate", pot, stl}),
+              job("2", {"export", pot, folder.file("c.stl"), "--report",
+                        folder.file("b.stl.certificate.json")})});
+  EXPECT_EQ(run("-j 2").status, 2) << "a certificate";
 }
 
 TEST_F(Batch, RefusesOneOutputUnderTwoNames) {
