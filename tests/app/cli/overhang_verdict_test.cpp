@@ -42,7 +42,7 @@ std::optional<Found> checked(const std::string& file) {
     if (check.at("check") != "process") continue;
     const std::string text = check.at("text");
     std::smatch angle;
-    if (!std::regex_search(text, angle, std::regex("overhang of ([0-9.]+) degrees"))) continue;
+    if (!std::regex_search(text, angle, std::regex("overhang (?:of )?([0-9.]+) degrees"))) continue;
     return Found{std::stod(angle[1]), check.at("verdict") == "pass"};
   }
   return std::nullopt;
