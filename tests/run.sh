@@ -1,12 +1,13 @@
 #!/bin/sh
-# Installs the programs that the checks use. Then runs clang-tidy, the tests of the Debug build and
-# all tests of the Release build. CONTRIBUTING.md lists them.
+# Installs the programs that the checks use. Then runs clang-tidy, compiles the window with Clang, and
+# runs the tests of the Debug build and all tests of the Release build. CONTRIBUTING.md lists them.
 set -eu
 cd "$(dirname "$0")/.."
 sh samples/install_packages.sh clang clang-tidy-14 clang-format-14 admesh draco prusa-slicer openscad \
   librsvg2-bin libbenchmark-dev libxml2-utils imagemagick umockdev libumockdev-dev xvfb xdotool \
   assimp-utils python3-savitar
 sh tests/tidy.sh
+sh tests/clang_app.sh
 cmake --preset debug -DCLAYSTACK_BENCH=OFF
 cmake --build --preset debug --target debug_tests
 ctest --preset debug -L debug
