@@ -9,9 +9,10 @@
 namespace clay::importing {
 namespace {
 
+// The limit bounds the time of a style sheet. Reading attributes and looking up keys takes time
+// too: 16 bytes, or 8 keys, count as one comparison.
 constexpr std::size_t kMostComparisons = 20'000'000;
-constexpr std::size_t kBytesOfAComparison = 16;    // reading so many counts as one
-constexpr std::size_t kKeysOfAComparison = 8;      // looking up so many counts as one
+constexpr std::size_t kBytesPerComparison = 16, kKeysPerComparison = 8;
 constexpr std::size_t kMostKeptBytes = 16u << 20;  // of the classes of elements
 constexpr std::string_view kXlink = "http://www.w3.org/1999/xlink";
 constexpr std::array<std::string_view, kSvgProperties> kNames = {
@@ -185,7 +186,7 @@ bool SvgStyles::matches(const Part& part, xmlNode* node) {
   if (!part.type.empty() && part.type != reinterpret_cast<const char*>(node->name)) return false;
   if (!part.id.empty()) {
     const std::string id = svg_attribute(node, "id");
-    comparisons_ += id.size() / kBytesOfAComparison;
+    comparisons_ += id.size() / kBytesPerComparison;
     if (part.id != id) return false;
   }
   if (part.classes.empty()) return true;
@@ -199,7 +200,7 @@ bool SvgStyles::matches(const Part& part, xmlNode* node) {
 const std::vector<std::string>& SvgStyles::classes_of(xmlNode* node) {
   if (const auto known = classes_.find(node); known != classes_.end()) return known->second;
   const std::string text = svg_attribute(node, "class");
-  comparisons_ += text.size() / kBytesOfAComparison;
+  comparisons_ += text.size() / kBytesPerComparison;
   if ((kept_bytes_ += text.size()) > kMostKeptBytes) {  // entities make them longer than the file
     classes_.clear();
     kept_bytes_ = text.size();
@@ -233,7 +234,7 @@ std::vector<std::pair<int, std::size_t>> SvgStyles::rules_of(xmlNode* node) {
   std::vector<std::string> keys{"", reinterpret_cast<const char*>(node->name),
                                 "#" + svg_attribute(node, "id")};
   for (const std::string& name : classes_of(node)) keys.push_back("." + name);
-  comparisons_ += keys.size() / kKeysOfAComparison;
+  comparisons_ += keys.size() / kKeysPerComparison;
   for (const std::string& key : keys) {
     const auto found = by_key_.find(key);
     if (found == by_key_.end()) continue;
@@ -256,7 +257,7 @@ Result<SvgValues> SvgStyles::of(xmlNode* node) {
   }
   for (const auto& [rank, rule] : rules_of(node)) lay_over(values, rules_[rule].values);
   const std::string style = svg_attribute(node, "style");
-  comparisons_ += (bytes + style.size()) / kBytesOfAComparison;
+  comparisons_ += (bytes + style.size()) / kBytesPerComparison;
   if (comparisons_ > kMostComparisons)
     return failure(ErrorKind::bad_input,
                    fmt::format("expected style sheets that need at most {} comparisons with "

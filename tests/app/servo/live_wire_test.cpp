@@ -13,12 +13,17 @@ namespace {
 using falcon::GuardState;
 using falcon::WireFault;
 
-TEST(LiveWire, WithoutFramesTheClayRestsAndTheForceEndsIn10Ms) {
-  VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
+/// Afterwards the device sends no frame for 40 ticks, and the last one has arrived.
+void press_and_lose_frames(VirtualThrow& live) {
   live.run(3.2);
   ASSERT_GT(glm::length(live.status().force_n), 0.1);
   live.fault(WireFault::no_frame, 40);
   live.tick();  // the answer in transit
+}
+
+TEST(LiveWire, WithoutFramesTheClayRestsAndTheForceEndsIn10Ms) {
+  VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
+  press_and_lose_frames(live);
   const Pot before = live.wheel.pot();
   const std::int64_t last_us = live.clock.now_us();
   double n = glm::length(live.status().force_n);
@@ -40,10 +45,7 @@ TEST(LiveWire, WithoutFramesTheClayRestsAndTheForceEndsIn10Ms) {
 // The device holds a force until it receives the next one.
 TEST(LiveWire, TheDeviceHasNoForce10MsAfterTheLastFrame) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
-  live.run(3.2);
-  ASSERT_GT(glm::length(live.status().force_n), 0.1);
-  live.fault(WireFault::no_frame, 40);
-  live.tick();  // the answer in transit
+  press_and_lose_frames(live);
   const std::int64_t last_us = live.clock.now_us();
   while (glm::length(live.status().force_n) > 0.0 && live.clock.now_us() - last_us < 50'000)
     live.tick();

@@ -40,6 +40,24 @@ std::vector<Ring> shoulder(std::size_t count, double step_mm) {
   return rings;
 }
 
+/// A shoulder whose sixth ring a press has moved by nearly 2 mm at constant volume.
+std::vector<Ring> pressed_shoulder(bool outward) {
+  std::vector<Ring> rings = shoulder(12, 1.5);
+  const Quanta by = outward ? quanta_from_mm2(230.0) : -quanta_from_mm2(230.0);
+  rings[5].outer2 += by;
+  rings[5].inner2 += by;
+  return rings;
+}
+
+/// Every ring keeps its volume, and none has moved against the press.
+void expect_followed(const ClayStack& stack, const std::vector<Ring>& before, bool outward) {
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const Ring& ring = stack.rings()[i];
+    EXPECT_EQ(ring.volume(), before[i].volume()) << i;
+    EXPECT_GE(outward ? ring.outer2 - before[i].outer2 : before[i].outer2 - ring.outer2, 0) << i;
+  }
+}
+
 void join(ClayStack& stack, std::size_t first, std::size_t last, const Following& following) {
   StackWriter writer(stack);
   join_rings(stack, first, last, following, writer);
@@ -74,18 +92,12 @@ TEST(Joints, RingsThatTouchInACircleAloneDoNotOverlap) {
   EXPECT_FALSE(has_weak_joint(std::span(rings).first(1), 1.0));
 }
 
-/// The pressed ring is 2 mm ahead of those that lean away from it.
 TEST(Joints, RingsFollowOutwardAtConstantVolume) {
-  std::vector<Ring> rings = shoulder(12, 1.5);
-  rings[5].outer2 += quanta_from_mm2(230.0);
-  rings[5].inner2 += quanta_from_mm2(230.0);
+  const std::vector<Ring> rings = pressed_shoulder(true);
   ASSERT_LT(overlap_mm(rings[5], rings[6]), 0.0);
   ClayStack stack = stack_of(rings);
   join(stack, 1, 10, {.outward = true, .least_mm = 0.75, .min_wall_mm = 0.5});
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    EXPECT_EQ(stack.rings()[i].volume(), rings[i].volume()) << i;
-    EXPECT_GE(stack.rings()[i].outer2, rings[i].outer2) << i;
-  }
+  expect_followed(stack, rings, true);
   EXPECT_NEAR(overlap_mm(stack.rings()[5], stack.rings()[6]), 0.75, 1e-6);
   EXPECT_GT(least_overlap_mm(stack.rings()), 0.75 - 1e-6);
   EXPECT_EQ(stack.rings()[0], rings[0]);
@@ -93,25 +105,18 @@ TEST(Joints, RingsFollowOutwardAtConstantVolume) {
 }
 
 TEST(Joints, RingsFollowInwardFromAboveAndFromBelow) {
-  std::vector<Ring> rings = shoulder(12, 1.5);
-  rings[5].outer2 -= quanta_from_mm2(230.0);
-  rings[5].inner2 -= quanta_from_mm2(230.0);
+  const std::vector<Ring> rings = pressed_shoulder(false);
   ASSERT_LT(overlap_mm(rings[4], rings[5]), 0.75);
   ClayStack stack = stack_of(rings);
   join(stack, 1, 10, {.outward = false, .least_mm = 0.75, .min_wall_mm = 0.5});
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    EXPECT_EQ(stack.rings()[i].volume(), rings[i].volume()) << i;
-    EXPECT_LE(stack.rings()[i].outer2, rings[i].outer2) << i;
-  }
+  expect_followed(stack, rings, false);
   EXPECT_LT(stack.rings()[4].outer2, rings[4].outer2);
   EXPECT_NEAR(overlap_mm(stack.rings()[4], stack.rings()[5]), 0.75, 1e-6);
 }
 
 /// A wider ring of the same volume is thinner.
 TEST(Joints, ARingAtTheMinimumKeepsItsThicknessWithClayFromTheCrown) {
-  std::vector<Ring> rings = shoulder(12, 1.5);
-  rings[5].outer2 += quanta_from_mm2(230.0);
-  rings[5].inner2 += quanta_from_mm2(230.0);
+  const std::vector<Ring> rings = pressed_shoulder(true);
   ClayStack stack = stack_of(rings, quanta_from_mm2(100.0));
   const WideQuanta volume = stack.volume();
   join(stack, 1, 10, {.outward = true, .least_mm = 0.75, .min_wall_mm = 3.0});

@@ -9,7 +9,7 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -73,15 +73,14 @@ TEST_F(FtdiStall, SendsTheLastPacketOnceIfTheLineTakesIt) {
 class HidFiles : public testing::Test {
  protected:
   HidFiles() {
-    const int file = mkstemp(path_.data());
-    EXPECT_GE(file, 0) << path_;
-    ::close(file);
+    EXPECT_TRUE(std::ofstream(path_)) << path_;
     fake_hid() = {};
     fake_hid().paths = {path_};
   }
   ~HidFiles() override { unlink(path_.c_str()); }
 
-  std::string path_ = testing::TempDir() + "claystack-hidraw-XXXXXX";
+  /// A file of this process.
+  const std::string path_ = testing::TempDir() + "claystack-hidraw-" + std::to_string(getpid());
 };
 
 TEST_F(HidFiles, BridgeRefusesASecondProgram) {
