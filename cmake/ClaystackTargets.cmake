@@ -67,7 +67,8 @@ function(claystack_room component room)
   target_sources(claystack_${component} PRIVATE $<TARGET_OBJECTS:${target}>)
 endfunction()
 
-# claystack_leak_rules(PROGRAM): with the address sanitizer, what system libraries keep is no leak.
+# claystack_leak_rules(PROGRAM): with the address sanitizer, memory that system libraries keep
+# does not count as a leak.
 function(claystack_leak_rules target)
   if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize=address")
     return()

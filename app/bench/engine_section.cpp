@@ -225,6 +225,21 @@ double largest_volume_error(const std::vector<Series>& all, Variant variant) {
   return largest;
 }
 
+/// The requirements: the pots stand, and the conserving model keeps the volume to the quantum.
+void judge(const std::vector<Series>& all, Section& section) {
+  for (const Series& series : all)
+    for (const Run& run : series.runs)
+      section.require(!run.outcome.collapsed,
+                      fmt::format("{}, {}: required a standing pot, found a collapsed one",
+                                  series.name, label_of(run, series.along)));
+  const double conserving = largest_volume_error(all, Variant::conserving);
+  const double rules = largest_volume_error(all, Variant::clay_rules);
+  add_at_most(section, "conserving_volume_error", counted(conserving), 0.0, "relative, maximum");
+  add_at_most(section, "clay_rules_volume_error", counted(rules), 0.0, "relative, maximum");
+  section.values.push_back({"literal_volume_error", largest_volume_error(all, Variant::literal),
+                            0.0, "relative, maximum"});
+}
+
 }  // namespace
 
 Section engine_section(const Effort& effort) {
@@ -248,12 +263,7 @@ Section engine_section(const Effort& effort) {
       plot_of(all, "reach", "engine_profile_reach", "Effect of the kernel's reach", radii,
               profile)};
   section.tables = {table_of(all)};
-  const double conserving = largest_volume_error(all, Variant::conserving);
-  const double rules = largest_volume_error(all, Variant::clay_rules);
-  add_at_most(section, "conserving_volume_error", counted(conserving), 0.0, "relative, maximum");
-  add_at_most(section, "clay_rules_volume_error", counted(rules), 0.0, "relative, maximum");
-  section.values.push_back({"literal_volume_error", largest_volume_error(all, Variant::literal),
-                            0.0, "relative, maximum"});
+  judge(all, section);
   section.summary = fmt::format(
       "Cost of accuracy. A ball presses a hollow cylinder and pulls up its wall within {} s. Each "
       "model is compared with its own limit, extrapolated (Richardson, first order) from runs "

@@ -19,8 +19,8 @@ using solid::MeshFormat;
 using solid::Smoothing;
 
 constexpr double kWallMm = 4.0;
-constexpr double kFineMm = 1e-5;  ///< tolerance of the reference section
-constexpr std::size_t kMaxSamples = 6000;
+constexpr double kFineMm = 1e-5;           ///< tolerance of the reference section
+constexpr std::size_t kMaxSamples = 6000;  ///< six in each measured triangle
 
 /// The settings and results of one export.
 struct Run {
@@ -28,9 +28,8 @@ struct Run {
   MeshFormat format = MeshFormat::stl_binary;
   solid::ExportOptions options;
   double bytes = 0.0, triangles = 0.0;
-  double surface_mm =
-      0.0;              ///< largest distance of the file's surface from that of the smoothed pot
-  double volume = 0.0;  ///< relative difference from the counted clay
+  double surface_mm = 0.0;  ///< largest distance found from the file to the smoothed pot
+  double volume = 0.0;      ///< relative difference from the counted clay
   double wall_width_mm = 0.0;
   Spread seconds;
 };
@@ -147,11 +146,11 @@ Table table_of(const std::vector<Run>& runs) {
        {"volume_error", "relative"},
        {"wall_width_mm", "mm"}},
       {},
-      "Surface: the largest distance found between the file, read back, and the smoothed "
-      "pot, at corners and in the middle of edges. Wall: between the two bounds that the "
-      "certificate proves. The tolerance applies once to the section, once to the chords around it "
-      "and, "
-      "in Draco files, once to every vertex; the error of the surface is at most their sum."};
+      "Surface: the largest distance found from the file, read back, to the smoothed pot, at "
+      "corners and in the middle of edges of at most 1,000 triangles. Wall: between the two bounds "
+      "that the certificate proves. The tolerance applies once to the section, once to the chords "
+      "around it and, in Draco files, once to every vertex; the error of the surface is at most "
+      "their sum. Segments that are given replace the tolerance of the chords."};
   for (const Run& run : runs)
     table.rows.push_back(
         {run.along, std::string(solid::name_of(run.format)), run.options.tolerance_mm,
@@ -276,16 +275,17 @@ Section export_section(const Effort& effort) {
 #endif
   const Worst worst = worst_of(runs);
   add_at_most(section, "export_surface_share", counted(worst.surface_share), 1.0,
-              "relative to the sum of tolerances, maximum over all files");
+              "largest error of the surface over the sum of tolerances, in the series `tolerance`");
   section.values.push_back(
       {"export_volume_error", worst.volume, 0.0, "relative, maximum over STL and OBJ"});
   section.values.push_back(
       {"export_drc_volume_error", worst.drc_volume, 0.0, "relative, maximum over Draco files"});
   section.summary = fmt::format(
       "Cost of finer files. A bellied pot of 200 rings with throwing marks is smoothed, "
-      "proved, written to memory, read back and verified. The surface error of a file is at most "
-      "{:.2f} of the sum of its tolerances; the volume of STL and OBJ is within {:.1e} of "
-      "the counted clay.",
+      "proved, written to memory, read back and verified. In the series `tolerance` the largest "
+      "surface error found is {:.2f} of the sum of the tolerances of its file; the series "
+      "`segments` sets the segments instead, and has no such bound. The volume of every STL and "
+      "OBJ is within {:.1e} of the counted clay.",
       worst.surface_share, worst.volume);
   return section;
 }

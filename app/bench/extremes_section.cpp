@@ -66,9 +66,8 @@ Section extremes_section(const Effort& effort) {
               "verdicts on the paper as printed that differ from the recorded ones");
   section.summary = fmt::format(
       "Each case has a requirement and an oracle outside the engine. The same case judges the "
-      "paper "
-      "as printed, which proves that it can fail: of {} the engine fails {}; of the {} that the "
-      "paper defines, the paper as printed fails {}.",
+      "paper as printed: where that fails, the case has shown that it can fail. Of {} cases the "
+      "engine fails {}; of the {} that the paper defines, the paper as printed fails {}.",
       extreme::cases().size(), tally.failed, tally.literal_ran, tally.literal_failed);
   return section;
 }

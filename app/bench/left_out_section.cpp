@@ -81,9 +81,8 @@ Table empty_table() {
            {"iqr", ""}},
           {},
           "A stroke up the outside of 200 rings, 1 mm deep, or 5 mm away from it in the air. The "
-          "first rows "
-          "compare the scene with all stages out: with itself, which is the noise, and with a tick "
-          "written by hand without them."};
+          "first rows compare the scene with all stages out: with itself, which is the noise, and "
+          "with a tick written by hand without them."};
 }
 
 void measure_tick_stages(Section& section, const Effort& effort) {
@@ -115,8 +114,7 @@ void measure_tick_stages(Section& section, const Effort& effort) {
       {"same_scene_twice", noise.ratio.median, noise.ratio.range(), "ratio: the noise"});
   section.summary += fmt::format(
       "With all stages skipped the engine takes {:.3f} times as long as a tick written by hand "
-      "without "
-      "them; the same scene measured twice gives {:.3f}. ",
+      "without them; the same scene measured twice gives {:.3f}. ",
       bare.ratio.median, noise.ratio.median);
 }
 
@@ -127,9 +125,8 @@ Section left_out_section(const Effort& effort) {
   section.id = "left_out";
   section.title = "Skipped stages";
   section.summary =
-      "Cost of a stage when included and when skipped. The same "
-      "work "
-      "alternately with and without it. ";
+      "Cost of a stage when included and when skipped. The same work alternately with and without "
+      "it. ";
   measure_tick_stages(section, effort);
 #ifdef CLAYSTACK_EXPORT
   measure_export_stages(section, effort);

@@ -135,10 +135,10 @@ Outcome play_literal(const Fineness& fineness) {
     const LiteralReport report =
         paper.step(literal_hip(stroke_mm(static_cast<double>(tick) / fineness.rate_hz), scene));
     outcome.collapsed = outcome.collapsed || report.collapsed || report.undefined;
-    if (tick % every != 0) continue;
-    outcome.force_n.push_back(report.force_n);
-    outcome.volume_error =
-        std::max(outcome.volume_error, std::abs(paper.volume() - initial) / initial);
+    if (tick % every == 0) outcome.force_n.push_back(report.force_n);
+    const double error = std::abs(paper.volume() - initial) / initial;
+    // Not max: a NaN must be kept and shown.
+    if (!(error <= outcome.volume_error)) outcome.volume_error = error;
   }
   const auto& rings = paper.rings();
   sample_profile(

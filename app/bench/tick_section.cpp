@@ -1,5 +1,6 @@
 #include "app/bench/pressing.hpp"
 #include "app/bench/timing.hpp"
+#include "app/history/pot_scene.hpp"
 #include "engine/clay/lanes.hpp"
 
 #include <fmt/format.h>
@@ -117,12 +118,36 @@ void measure_sizes(Section& section, const Effort& effort) {
       smallest.median, speed_up.median, growth.median, rules_cost.median);
 }
 
-/// The scene with the rules without which `omit` leaves it.
-template <class Omit>
-Contender without(std::string name, Omit omit) {
-  SceneSpec scene = rules_scene(200);
-  omit(*scene.clay);
+/// The press on 200 rings with the given rules.
+Contender with_rules(std::string name, const ClaySpec& rules) {
+  SceneSpec scene = press_scene(200);
+  scene.clay = rules;
   return engine_at(std::move(name), "", scene);
+}
+
+/// All six rules but one.
+Contender all_but(const std::string& name, bool ClaySpec::*rule) {
+  ClaySpec rules;
+  rules.*rule = false;
+  if (rule == &ClaySpec::shift) rules.hoop = false;
+  return with_rules("all but " + name, rules);
+}
+
+/// One rule of the six.
+Contender alone(const std::string& name, bool ClaySpec::*rule) {
+  ClaySpec rules;
+  rules.lift = rules.shift = rules.rim = rules.hoop = rules.heave = rules.smear = false;
+  rules.*rule = true;
+  rules.hoop = rules.shift;
+  return with_rules(name + " alone", rules);
+}
+
+/// The settings of a new work: the six rules, a finger, and a thin wall that yields.
+ClaySpec rules_of_a_new_work() {
+  ClaySpec rules;
+  rules.finger_mm = history::kFingerMm;
+  rules.thin_wall_yields = true;
+  return rules;
 }
 
 /// The cost of each clay rule. The stroke is the same, but not the clay: a wall that does not move
@@ -133,18 +158,15 @@ void measure_rules(Section& section, const Effort& effort) {
               "Duration of a tick with clay rules",
               {{"rules", ""}, {"engine_ns", "ns"}, {"iqr_ns", "ns"}, {"over_none", ""}},
               {},
-              "200 rings, one tool. Shift includes hoop, which is a part of it."};
+              "200 rings, one tool, so lift does not act. Shift includes hoop, which is a part of "
+              "it. The last row has the settings of a new work: all six rules, a finger, and a "
+              "thin wall that yields."};
   const std::vector<Contender> contenders{
-      engine_at("none", "", press_scene(200)),
-      without("rim alone",
-              [](ClaySpec& c) { c.lift = c.shift = c.hoop = c.heave = c.smear = false; }),
-      without("shift alone", [](ClaySpec& c) { c.lift = c.heave = c.smear = false; }),
-      without("heave alone", [](ClaySpec& c) { c.lift = c.shift = c.hoop = c.smear = false; }),
-      without("smear alone", [](ClaySpec& c) { c.lift = c.shift = c.hoop = c.heave = false; }),
-      without("all but shift", [](ClaySpec& c) { c.shift = c.hoop = false; }),
-      without("all but heave", [](ClaySpec& c) { c.heave = false; }),
-      without("all but smear", [](ClaySpec& c) { c.smear = false; }),
-      without("all", [](ClaySpec&) {})};
+      engine_at("none", "", press_scene(200)), alone("rim", &ClaySpec::rim),
+      alone("shift", &ClaySpec::shift),        alone("heave", &ClaySpec::heave),
+      alone("smear", &ClaySpec::smear),        all_but("shift", &ClaySpec::shift),
+      all_but("heave", &ClaySpec::heave),      all_but("smear", &ClaySpec::smear),
+      with_rules("all six", ClaySpec{}),       with_rules("a new work", rules_of_a_new_work())};
   const auto ns = tick_ns(contenders, rounds_of(effort));
   for (std::size_t i = 0; i < ns.size(); ++i) {
     const Spread s = spread_of(ns[i]);
@@ -153,32 +175,37 @@ void measure_rules(Section& section, const Effort& effort) {
   section.tables.push_back(std::move(table));
 }
 
+Table ribs_table() {
+  return {"tick_rings",
+          "Duration of a tick over the number of rings touched",
+          {{"rings", ""},
+           {"engine_ns", "ns"},
+           {"engine_iqr_ns", "ns"},
+           {"per_ring_ns", "ns"},
+           {"literal_ns", "ns"},
+           {"literal_iqr_ns", "ns"},
+           {"literal_over_engine", ""}},
+          {},
+          "A vertical rib on 800 rings; the paper with a running sum for the stress."};
+}
+
+void add_point(Curve& curve, double x, const Spread& y) {
+  curve.x.push_back(x);
+  curve.y.push_back(y.median);
+  curve.low.push_back(y.low);
+  curve.high.push_back(y.high);
+}
+
 /// Ribs of all heights, compared with the paper.
 void measure_ribs(Section& section, const Effort& effort) {
   effort.progress("rings touched");
-  Table table{"tick_rings",
-              "Duration of a tick over the number of rings touched",
-              {{"rings", ""},
-               {"engine_ns", "ns"},
-               {"engine_iqr_ns", "ns"},
-               {"per_ring_ns", "ns"},
-               {"literal_ns", "ns"},
-               {"literal_iqr_ns", "ns"},
-               {"literal_over_engine", ""}},
-              {},
-              "A vertical rib on 800 rings; the paper with a running sum for the stress."};
-  Plot plot{"tick_rings_plot",
-            "Duration of a tick over the number of rings touched",
-            {"rings touched", true},
-            {"time of a tick [ns]", true},
-            {},
-            ""};
   std::vector<Contender> contenders;
   for (const std::size_t rings : {1u, 3u, 10u, 30u, 100u, 300u}) {
     contenders.push_back(engine_at("engine", "", rib_scene(rings)));
     contenders.push_back(literal_at("literal", "", rib_scene(rings), LiteralWriting::eased, 200));
   }
   const auto ns = tick_ns(contenders, rounds_of(effort));
+  Table table = ribs_table();
   Curve engine{"engine, conserving", {}, {}, {}, {}},
       literal{"the paper, running sum", {}, {}, {}, {}};
   for (std::size_t i = 0; i < ns.size(); i += 2) {
@@ -187,17 +214,16 @@ void measure_ribs(Section& section, const Effort& effort) {
     table.rows.push_back({touched, engine_ns.median, engine_ns.range(), engine_ns.median / touched,
                           literal_ns.median, literal_ns.range(),
                           ratio_of(ns[i + 1], ns[i]).median});
-    for (const auto& [curve, spread] :
-         {std::pair{&engine, engine_ns}, std::pair{&literal, literal_ns}}) {
-      curve->x.push_back(touched);
-      curve->y.push_back(spread.median);
-      curve->low.push_back(spread.low);
-      curve->high.push_back(spread.high);
-    }
+    add_point(engine, touched, engine_ns);
+    add_point(literal, touched, literal_ns);
   }
-  plot.curves = {engine, literal};
+  section.plots.push_back({"tick_rings_plot",
+                           table.title,
+                           {"rings touched", true},
+                           {"time of a tick [ns]", true},
+                           {engine, literal},
+                           ""});
   section.tables.push_back(std::move(table));
-  section.plots.push_back(std::move(plot));
 }
 
 /// The cost of a tick over the speed of the hand; a fast motion is played in parts.
@@ -233,8 +259,9 @@ void measure_jump(Section& section, const Effort& effort) {
   const auto seconds = time_rounds(works, rounds);
   for (std::size_t i = 0; i < works.size(); ++i) {
     const Spread s = spread_of(seconds[i]);
-    section.values.push_back({works[i].name, 1e9 * s.median, 1e9 * s.range(),
-                              "one tick, from the top of the stack to its foot"});
+    section.values.push_back(
+        {works[i].name, 1e9 * s.median, 1e9 * s.range(),
+         "wall-clock time of one tick, from the top of the stack to its foot"});
   }
 }
 
@@ -246,8 +273,8 @@ Section tick_section(const Effort& effort) {
   section.title = "Cost of a tick";
   section.summary =
       "Duration of a tick, and its dependence on the size of the pot. A ball is pressed into the "
-      "middle "
-      "of a hollow lump for a thousand ticks: contact, removal, flow on both surfaces, stress, "
+      "middle of a hollow lump for a thousand ticks: contact, removal, flow on both surfaces, "
+      "stress, "
       "force and friction. ";
   measure_sizes(section, effort);
   measure_rules(section, effort);

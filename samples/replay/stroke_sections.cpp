@@ -19,7 +19,7 @@ namespace {
 
 using namespace clay;
 
-constexpr double kHalfWidthMm = 110.0, kHeightMm = 160.0, kTitleMm = 12.0, kFootMm = 10.0;
+constexpr double kApartMm = 20.0, kTextMm = 8.0, kBarMm = 50.0;
 constexpr double kPixelsPerMm = 1.2;
 
 /// A number with one decimal place, without the locale.
@@ -29,47 +29,76 @@ std::string number(double value) {
   return {text, end};
 }
 
-void add_half(std::string& svg, const ClayStack& stack, double axis, double ground, double side) {
+std::string text_at(double x, double y, const std::string& text) {
+  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\">" + text + "</text>\n";
+}
+
+/// Both halves of a section, in one path so that no seam shows on the axis.
+std::string section(const ClayStack& stack, double axis, double ground) {
   const auto rings = stack.rings();
   const double h = stack.ring_height_mm();
-  const auto point = [&](double radius, double up) {
-    svg += number(axis + side * std::min(radius, kHalfWidthMm)) + ',' + number(ground - up) + ' ';
-  };
-  svg += "<path d=\"M";
-  point(0.0, 0.0);
-  for (std::size_t i = 0; i < rings.size(); ++i)
-    for (const double part : {0.0, 1.0})
-      point(rings[i].outer_mm(), (static_cast<double>(i) + part) * h);
-  for (std::size_t i = rings.size(); i-- > 0;)
-    for (const double part : {1.0, 0.0})
-      point(rings[i].inner_mm(), (static_cast<double>(i) + part) * h);
-  svg += "z\"/>\n";
-}
-
-void add_row(std::string& svg, const std::vector<Pot>& pots, const std::vector<std::size_t>& nodes,
-             const std::string& rules, double ground) {
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const double axis = kHalfWidthMm * (2.0 * static_cast<double>(k) + 1.0);
-    for (const double side : {-1.0, 1.0}) add_half(svg, pots[nodes[k]].stack, axis, ground, side);
-    svg += "<text x=\"" + number(axis) + "\" y=\"" + number(ground - kHeightMm - 3.0) +
-           "\">stroke " + std::to_string(nodes[k]) + ", " + rules + "</text>\n";
+  std::string path = "<path d=\"";
+  for (const double side : {-1.0, 1.0}) {
+    const auto point = [&](double radius, std::size_t level) {
+      path += number(axis + side * radius) + ',' + number(ground - static_cast<double>(level) * h) +
+              ' ';
+    };
+    path += 'M';
+    for (std::size_t i = 0; i < rings.size(); ++i)
+      for (const std::size_t end : {i, i + 1}) point(rings[i].outer_mm(), end);
+    for (std::size_t i = rings.size(); i-- > 0;)
+      for (const std::size_t end : {i + 1, i}) point(rings[i].inner_mm(), end);
+    path += "z ";
   }
+  return path + "\"/>\n";
 }
 
-std::string drawing(const std::vector<Pot>& plain, const std::vector<Pot>& ruled,
-                    const std::vector<std::size_t>& nodes) {
-  const double width = 2.0 * kHalfWidthMm * static_cast<double>(nodes.size());
-  const double row = kTitleMm + kHeightMm + kFootMm;
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +
-                    number(kPixelsPerMm * width) + "\" height=\"" +
-                    number(kPixelsPerMm * 2.0 * row) + "\" viewBox=\"0 0 " + number(width) + ' ' +
-                    number(2.0 * row) +
-                    "\">\n<style>path{fill:#c48a63;stroke:none}text{font:8px sans-serif;"
-                    "text-anchor:middle;fill:#333}</style>\n<rect width=\"100%\" height=\"100%\" "
-                    "fill=\"#fff\"/>\n";
-  add_row(svg, plain, nodes, "no rules", kTitleMm + kHeightMm);
-  add_row(svg, ruled, nodes, "clay rules", row + kTitleMm + kHeightMm);
-  return svg + "</svg>\n";
+struct Row {
+  std::string title;
+  std::vector<const ClayStack*> stacks;
+};
+
+double width_mm(const ClayStack& stack) { return 2.0 * largest_radius_mm(stack); }
+
+/// The rows at one scale; each column is as wide as its widest pot.
+std::string drawing(const std::vector<Row>& rows, const std::vector<std::size_t>& nodes) {
+  std::vector<double> axes;
+  double width = kApartMm;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    double column = 0.0;
+    for (const Row& row : rows) column = std::max(column, width_mm(*row.stacks[k]));
+    axes.push_back(width + 0.5 * column);
+    width += column + kApartMm;
+  }
+  std::string body;
+  double ground = 0.0;
+  for (const Row& row : rows) {
+    body += "<g class=\"row\">" + text_at(kApartMm, ground + 2.0 * kTextMm, row.title) + "</g>\n";
+    double tallest = 0.0;
+    for (const ClayStack* stack : row.stacks) tallest = std::max(tallest, stack->height_mm());
+    ground += 5.0 * kTextMm + tallest;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const ClayStack& stack = *row.stacks[k];
+      const double top = ground - stack.height_mm();
+      body += section(stack, axes[k], ground) +
+              text_at(axes[k], top - 1.5 * kTextMm, "stroke " + std::to_string(nodes[k])) +
+              text_at(axes[k], top - 0.4 * kTextMm,
+                      number(width_mm(stack)) + " x " + number(stack.height_mm()) + " mm");
+    }
+    ground += kTextMm;
+  }
+  const double bar = ground + kTextMm, height = bar + 2.0 * kTextMm;
+  body += "<path class=\"bar\" d=\"M" + number(kApartMm) + ',' + number(bar) + " h" +
+          number(kBarMm) + "\"/>\n" +
+          text_at(kApartMm + 0.5 * kBarMm, bar + 1.2 * kTextMm, number(kBarMm) + " mm");
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(kPixelsPerMm * width) +
+         "\" height=\"" + number(kPixelsPerMm * height) + "\" viewBox=\"0 0 " + number(width) +
+         ' ' + number(height) +
+         "\">\n<style>path{fill:#c48a63;stroke:none}.bar{stroke:#333;stroke-width:1.5}"
+         "text{font:8px sans-serif;text-anchor:middle;fill:#333}"
+         ".row text{font-weight:bold;text-anchor:start}</style>\n"
+         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
+         body + "</svg>\n";
 }
 
 Result<WorkRecord> read_work(const char* path) {
@@ -123,7 +152,12 @@ Result<void> draw(const char* work_path, const char* out_path,
   if (!plain) return tl::make_unexpected(plain.error());
   const auto ruled = samples::thrown_again(*work, ClaySpec{});
   if (!ruled) return tl::make_unexpected(ruled.error());
-  return publish(out_path, drawing(*plain, *ruled, nodes));
+  Row above{"Without the clay rules", {}}, below{"With the clay rules", {}};
+  for (const std::size_t node : nodes) {
+    above.stacks.push_back(&(*plain)[node].stack);
+    below.stacks.push_back(&(*ruled)[node].stack);
+  }
+  return publish(out_path, drawing({above, below}, nodes));
 }
 
 }  // namespace

@@ -94,6 +94,10 @@ int main(int count, char** words) {
   if (count == 5 && std::string(words[1]) == "--write")
     return only_write(words[2], std::stoull(words[3]), std::string(words[4]) == "sync");
   const int rounds = count > 1 ? std::atoi(words[1]) : 9;
+  if (rounds < 1) {
+    std::fprintf(stderr, "export_bench: expected at least 1 round, found %s\n", words[1]);
+    return 2;
+  }
   const fs::path folder = count > 2 ? fs::path(words[2]) : fs::temp_directory_path() / "claystack";
   fs::create_directories(folder);
   print("start-up",

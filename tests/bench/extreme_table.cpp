@@ -1,5 +1,5 @@
 // extreme_table [--full] [CASE]: prints the table of the suite. --full plays 10^7 ticks of drift
-// instead of 10^6. Exit status 1 if a case fails on the wheel.
+// instead of 10^6. Exit status 1 if a case fails on the wheel, 2 if there is no such case.
 
 #include "app/bench/extreme/suite.hpp"
 
@@ -37,9 +37,13 @@ int print(const std::string& only) {
     literal_failed += literal.verdict == Verdict::failed;
     literal_ran += literal.verdict != Verdict::not_in_print;
   }
+  if (count == 0) {
+    fmt::print(stderr, "extreme_table: expected the name of a case, found {}\n", only);
+    return 2;
+  }
   fmt::print("{} cases, {} failed; the paper as printed fails {} of {}\n", count, failed,
              literal_failed, literal_ran);
-  return failed == 0 && count > 0 ? 0 : 1;
+  return failed == 0 ? 0 : 1;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #!/bin/sh
-# sh tests/bench/window_soak.sh PROGRAM [CYCLES]: does the memory of the window stay the same? Repeats a
-# scripted throw on a new lump CYCLES times (default 400, some minutes): two strokes,
+# sh tests/bench/window_soak.sh PROGRAM [CYCLES]: checks that the memory of the window does not grow.
+# Repeats a scripted throw on a new lump CYCLES times (default 400, some minutes): two strokes,
 # undo, redo, trimming, a save. Samples the resident memory after each save, and fails if the median
 # of the last quarter is more than 5 % above that of the second, if the clay's volume has an error, or
 # if the program ends before its script. PROGRAM is claystack-studio; no screen is needed.

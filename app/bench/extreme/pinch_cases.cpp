@@ -45,7 +45,7 @@ Outcome pinched(Model model, const SceneSpec& scene, double d, double gap_mm,
   return trial.done(fmt::format("thinnest ring {:.6g} mm", wall));
 }
 
-Outcome gap_of_nothing(Model model) {
+Outcome denormal_gap(Model model) {
   return pinched(model, pinched_pot(24.0), 27.0, std::numeric_limits<double>::denorm_min(), 0.5);
 }
 Outcome gap_of_a_picometre(Model model) {
@@ -93,7 +93,7 @@ Outcome pinch_in_a_free_bore(Model model) {
   return nothing_pinched(model, {{0, 1}, {5, 3}, {-7, 1}});
 }
 
-Outcome gaps_that_are_none(Model model) {
+Outcome invalid_gaps(Model model) {
   if (model == Model::literal) return kOneTool;
   Trial trial(model, pinched_pot(24.0));
   trial.stroke({40, 24, 0}, {36, 28, 0}, 40);
@@ -153,9 +153,8 @@ Outcome minus_gradient_of_both(Model model) {
 }
 
 constexpr Case kPinchCases[] = {
-    {"gap_of_nothing", "a gap of the smallest denormal",
-     "clay conserved, no wall below the minimum", "exact rationals, interval",
-     Verdict::not_in_print, gap_of_nothing},
+    {"denormal_gap", "a gap of the smallest denormal", "clay conserved, no wall below the minimum",
+     "exact rationals, interval", Verdict::not_in_print, denormal_gap},
     {"gap_of_a_picometre", "a gap of 1e-9 mm", "clay conserved, no wall below the minimum",
      "exact rationals, interval", Verdict::not_in_print, gap_of_a_picometre},
     {"gap_below_the_wall", "a gap of 2 mm, kappa dt = 1000",
@@ -177,8 +176,8 @@ constexpr Case kPinchCases[] = {
     {"pinch_in_a_free_bore", "both tools in the bore, without contact",
      "no contact, state unchanged to the bit", "bytes", Verdict::not_in_print,
      pinch_in_a_free_bore},
-    {"gaps_that_are_none", "NaN, inf, negative, 1e300", "refused, state unchanged to the bit",
-     "bytes", Verdict::not_in_print, gaps_that_are_none},
+    {"invalid_gaps", "NaN, inf, negative, 1e300", "refused, state unchanged to the bit", "bytes",
+     Verdict::not_in_print, invalid_gaps},
     {"gap_not_in_the_scene", "a gap although the scene sets none", "refused", "bytes",
      Verdict::not_in_print, gap_not_in_the_scene},
     {"minus_gradient_of_both", "two tools at random poses",

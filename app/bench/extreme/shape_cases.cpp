@@ -47,7 +47,7 @@ Outcome wall_of_a_quantum(Model model) {
   return trial.done();
 }
 
-Outcome wall_of_nothing(Model model) {
+Outcome no_wall(Model model) {
   SceneSpec scene = small_pot();
   scene.lump.inner_radius_mm = 30.0;
   scene.stability = StabilitySpec{10.0};
@@ -234,8 +234,8 @@ constexpr Case kShapeCases[] = {
      "exact rationals, absolute", Verdict::passed, wall_1e_12},
     {"wall_of_a_quantum", "R^2 - r^2 = 2^-36 mm^2 in every ring", "clay conserved, r < R",
      "exact rationals, invariants", Verdict::passed, wall_of_a_quantum},
-    {"wall_of_nothing", "r = R", "refused, or r < R and a finite stress", "invariants",
-     Verdict::failed, wall_of_nothing},
+    {"no_wall", "r = R", "refused, or r < R and a finite stress", "invariants", Verdict::failed,
+     no_wall},
     {"beyond_the_tool", "a rib of 10 mm height", "rings below it unchanged to the bit", "geometry",
      Verdict::failed, beyond_the_tool},
     {"tool_wider_than_the_pot", "a sphere of 500 mm on a pot of 30 mm",

@@ -20,13 +20,7 @@ double smooth(double t) {
 
 }  // namespace
 
-Potter::Potter(Wheel& wheel, std::uint64_t seed) : Potter(wheel, seed, 0.0) {}
-
-Potter::Potter(Wheel& wheel, std::uint64_t seed, double time_s)
-    : wheel_(wheel),
-      dice_(seed),
-      time_s_(time_s),
-      time_us_(static_cast<std::int64_t>(1e6 * time_s)) {
+Potter::Potter(Wheel& wheel, std::uint64_t seed) : wheel_(wheel), dice_(seed) {
   for (std::size_t k = 0; k < 3; ++k) {
     tremor_hz_[k] = dice_.between(7.0, 9.0);
     phase_out_[k] = dice_.between(0.0, kTurn);

@@ -24,9 +24,6 @@ class Potter {
  public:
   Potter(Wheel& wheel, std::uint64_t seed);
 
-  /// Continues with another wheel.
-  Potter(Wheel& wheel, std::uint64_t seed, double time_s);
-
   /// Opens the lump with a ball, down to a floor of this thickness.
   void open(double floor_mm = 8.0);
   void widen(double most_mm = 25.0);                 ///< in two passes

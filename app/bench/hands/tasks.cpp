@@ -1,7 +1,7 @@
 #include "app/bench/hands/tasks.hpp"
 
 #include "app/bench/hands/potter.hpp"
-#include "app/bench/thread_clock.hpp"
+#include "app/bench/timing.hpp"
 #include "claystack/engine/wheel.hpp"
 
 #include <cmath>
@@ -80,16 +80,35 @@ SceneSpec hands_scene(Task task, const std::optional<ClaySpec>& clay, double rin
 ThrownPot throw_pot(Task task, const SceneSpec& scene, std::uint64_t seed) {
   Wheel wheel = Wheel::build(scene).value();
   Potter potter(wheel, seed + 1);
-  std::size_t in_contact = 0;
-  potter.watch = [&](const Pose&, const StepReport& report) {
-    in_contact += (report.flags & kContact) != 0 ? 1u : 0u;
+  ThrownPot thrown;
+  potter.watch = [&](const Pose& pose, const StepReport& report) {
+    thrown.ticks.push_back({pose, (report.flags & kContact) != 0});
   };
-  const double start = cli::thread_seconds();
   throw_by(potter, task);
-  const double seconds = cli::thread_seconds() - start;
-  return {wheel.stack(), measure(wheel.stack()), potter.time_s(),
-          1e6 * seconds / static_cast<double>(in_contact),
-          wheel.ledger().imbalance(wheel.stack().recount())};
+  thrown.stack = wheel.stack();
+  thrown.measures = measure(wheel.stack());
+  thrown.wheel_s = potter.time_s();
+  thrown.volume_error = wheel.ledger().imbalance(wheel.stack().recount());
+  return thrown;
+}
+
+double contact_tick_us(const SceneSpec& scene, const std::vector<PlayedTick>& ticks) {
+  Wheel wheel = Wheel::build(scene).value();
+  double seconds = 0.0;
+  std::size_t in_contact = 0;
+  // The clock is read once for each contact, because reading it takes as long as a tick on some
+  // machines.
+  for (std::size_t k = 0; k < ticks.size();) {
+    const std::size_t first = k;
+    const bool touches = ticks[k].in_contact;
+    const double spent = work_seconds_of([&] {
+      for (; k < ticks.size() && ticks[k].in_contact == touches; ++k) wheel.step(ticks[k].pose);
+    });
+    if (!touches) continue;
+    seconds += spent;
+    in_contact += k - first;
+  }
+  return 1e6 * seconds / static_cast<double>(in_contact);
 }
 
 }  // namespace clay::bench

@@ -4,11 +4,13 @@
 #include "app/bench/hands/pot_measures.hpp"
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/scene.hpp"
+#include "claystack/engine/tool.hpp"
 
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace clay::bench {
 
@@ -29,15 +31,23 @@ struct TaskFacts {
 [[nodiscard]] SceneSpec hands_scene(Task task, const std::optional<ClaySpec>& clay,
                                     double ring_height_mm = 0.335063);
 
+struct PlayedTick {
+  Pose pose;
+  bool in_contact = false;
+};
+
 struct ThrownPot {
   ClayStack stack;
   PotMeasures measures;
   double wheel_s = 0.0;  ///< session time
-  double tick_us = 0.0;  ///< mean CPU time of a tick in contact
   WideQuanta volume_error = 0;
+  std::vector<PlayedTick> ticks;
 };
 
 /// Throws a whole pot from the lump.
 [[nodiscard]] ThrownPot throw_pot(Task task, const SceneSpec& scene, std::uint64_t seed);
+
+/// Mean CPU time [us] of the ticks in contact, as the pot is thrown again. NaN without contact.
+[[nodiscard]] double contact_tick_us(const SceneSpec& scene, const std::vector<PlayedTick>& ticks);
 
 }  // namespace clay::bench

@@ -42,4 +42,10 @@ bool is_number(const Cell& cell) {
   return std::holds_alternative<double>(cell) || std::holds_alternative<std::int64_t>(cell);
 }
 
+bool numeric(const Table& table, std::size_t column) {
+  return std::ranges::any_of(table.rows, [&](const std::vector<Cell>& row) {
+    return column < row.size() && is_number(row[column]);
+  });
+}
+
 }  // namespace clay::bench

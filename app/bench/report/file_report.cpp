@@ -50,11 +50,13 @@ std::string csv_of(const std::vector<Curve>& curves) {
   const auto at = [](const std::vector<double>& values, std::size_t k) {
     return k < values.size() ? digits(values[k]) : std::string();
   };
-  std::string csv = "curve,x,y,low,high\r\n";
+  std::string csv = "curve,x,y,low,high,x_low,x_high,label\r\n";
   for (const Curve& curve : curves)
     for (std::size_t k = 0; k < curve.x.size(); ++k)
-      csv += fmt::format("{},{},{},{},{}\r\n", quoted(curve.name), at(curve.x, k), at(curve.y, k),
-                         at(curve.low, k), at(curve.high, k));
+      csv += fmt::format("{},{},{},{},{},{},{},{}\r\n", quoted(curve.name), at(curve.x, k),
+                         at(curve.y, k), at(curve.low, k), at(curve.high, k), at(curve.x_low, k),
+                         at(curve.x_high, k),
+                         k < curve.labels.size() ? quoted(curve.labels[k]) : std::string());
   return csv;
 }
 

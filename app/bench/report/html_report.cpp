@@ -26,13 +26,6 @@ std::string cell_of(const Cell& cell) {
   return fmt::format("<td class=\"{}\">{}</td>", style, escaped(short_text(cell)));
 }
 
-/// A column heading is aligned like its numbers.
-bool numeric(const Table& table, std::size_t column) {
-  return std::ranges::any_of(table.rows, [&](const std::vector<Cell>& row) {
-    return column < row.size() && is_number(row[column]);
-  });
-}
-
 /// Converts a key to text: without underscores, and without the unit, which follows.
 std::string heading(const Table& table, std::size_t column) {
   std::string name = table.columns[column].name;
@@ -107,8 +100,7 @@ std::string header_of(const Report& report) {
       "<dt>version</dt><dd>{}</dd>\n</dl>\n"
       "<p class=\"note\">Times are medians of repetitions, run alternately in a varying order; "
       "the spread is the interquartile range, the middle half of them. Ratios are computed round "
-      "by "
-      "round. Ticks are measured in CPU time, exports in wall-clock time. A "
+      "by round. Ticks are measured in CPU time, jumps and exports in wall-clock time. A "
       "requirement on a time is missed if three quarters of the rounds miss it.</p>\n"
       "<nav>",
       escaped(report.command), escaped(m.cpu), m.cores, escaped(m.system), escaped(m.compiler),

@@ -34,8 +34,14 @@ Json json_of(const std::vector<Curve>& curves) {
   Json list = Json::array();
   for (const Curve& curve : curves) {
     Json json = {{"name", curve.name}, {"x", curve.x}, {"y", curve.y}};
-    if (!curve.low.empty()) json["low"] = curve.low;
-    if (!curve.high.empty()) json["high"] = curve.high;
+    const auto add = [&json](const char* key, const auto& values) {
+      if (!values.empty()) json[key] = values;
+    };
+    add("low", curve.low);
+    add("high", curve.high);
+    add("x_low", curve.x_low);
+    add("x_high", curve.x_high);
+    add("labels", curve.labels);
     list.push_back(std::move(json));
   }
   return list;
@@ -73,12 +79,20 @@ Json titles_of(const std::vector<Part>& parts) {
   return list;
 }
 
+/// The description of each value, with its required bound if it has one.
+Json abouts_of(const std::vector<Value>& values) {
+  Json json = Json::object();
+  for (const Value& value : values) json[value.name] = value.about;
+  return json;
+}
+
 Json description_of(const Section& section) {
   return {{"id", section.id},
           {"title", section.title},
           {"sound", section.sound()},
           {"missed", section.missed},
           {"summary", section.summary},
+          {"values", abouts_of(section.values)},
           {"tables", titles_of(section.tables)},
           {"plots", titles_of(section.plots)},
           {"maps", titles_of(section.maps)}};

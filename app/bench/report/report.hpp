@@ -20,13 +20,14 @@ struct Report {
   [[nodiscard]] bool sound() const;  ///< every section is sound
 };
 
-/// "machine", "compiler", "command", "sound" and "sections" (description, parts and units of each);
-/// then each part under its id:
+/// "machine", "compiler", "version", "command", "sound" and "sections" (of each: description,
+/// values with their required bounds, parts, units); then each part under its id:
 ///
 /// - a section's values as {"NAME": median, "NAME_iqr": interquartile range where timed}. If a
 ///   table has the section's name, they are under "ID_values".
 /// - a table as an array of {"COLUMN": cell};
-/// - a plot as {"x", "y", "curves": [{"name", "x", "y", "low", "high"}]};
+/// - a plot as {"x", "y", "curves": [{"name", "x", "y"}]}, and in a curve, where it has them, the
+///   quartiles "low" and "high" of y, "x_low" and "x_high" of x, and the "labels" of its points;
 /// - a map as {"x", "y", "x_values", "y_values", "cells", "curves"}.
 ///
 /// Values that are not finite are null.
@@ -51,5 +52,7 @@ struct Report {
 [[nodiscard]] std::string short_text(const Cell& cell);
 /// Whether the cell is right-aligned.
 [[nodiscard]] bool is_number(const Cell& cell);
+/// Whether a column has a number: then its heading is right-aligned too.
+[[nodiscard]] bool numeric(const Table& table, std::size_t column);
 
 }  // namespace clay::bench

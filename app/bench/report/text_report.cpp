@@ -34,9 +34,7 @@ std::string text_of(const Table& table) {
       widths[k] = std::max(widths[k], std::min(letters(short_text(row[k])), kWidestCell));
   std::string text = fmt::format("\n  {}\n ", table.title);
   for (std::size_t k = 0; k < widths.size(); ++k) {
-    const bool right =
-        !table.rows.empty() && k < table.rows[0].size() && is_number(table.rows[0][k]);
-    text.append(" ").append(padded(heading(table.columns[k]), widths[k] + 1, right));
+    text.append(" ").append(padded(heading(table.columns[k]), widths[k] + 1, numeric(table, k)));
   }
   text += "\n";
   for (const auto& row : table.rows) {

@@ -42,7 +42,11 @@ Report odd_report() {
   plot.curves.push_back({"", {}, {}, {}, {}});
   plot.curves.push_back(
       {kHostile, {1.0, 0.0, 10.0, kNan, 1e300}, {0.0, 1.0, -1.0, 2.0, kInfinity}, {}, {}});
-  plot.curves.push_back({"spread", {1.0, 10.0}, {2.0, 3.0}, {1.5, kNan}, {2.5, 4.0}});
+  Curve& spread =
+      plot.curves.emplace_back(Curve{"spread", {1.0, 10.0}, {2.0, 3.0}, {1.5, kNan}, {2.5, 4.0}});
+  spread.x_low = {0.5, 9.0};
+  spread.x_high = {1.5, 11.0};
+  spread.labels = {"N 1, fine", "N 10"};
   section.plots = {plot, {"empty_plot", "empty", {"x", false}, {"y", false}, {}, ""}};
   Map map{"odd_map", kHostile,    {"x", true}, {"y", false}, {1.0, 10.0}, {0.0, 1.0},
           {},        plot.curves, ""};
@@ -160,6 +164,12 @@ TEST(BenchJson, StoresEveryPartUnderItsId) {
   EXPECT_EQ(json.at("odd_table")[0].at("pass"), true);
   EXPECT_TRUE(json.at("odd_table")[1].at("n").is_null());
   EXPECT_EQ(json.at("odd_plot").at("curves").size(), 3u);
+  const auto& spread = json.at("odd_plot").at("curves")[2];
+  EXPECT_EQ(spread.at("low")[0], 1.5);
+  EXPECT_EQ(spread.at("x_low")[1], 9.0);
+  EXPECT_EQ(spread.at("x_high")[1], 11.0);
+  EXPECT_EQ(spread.at("labels")[0], "N 1, fine");
+  EXPECT_FALSE(json.at("odd_plot").at("curves")[1].contains("x_low"));
   EXPECT_EQ(json.at("odd_map").at("cells")[0][1], 0.5);
   EXPECT_EQ(json.at("sections")[0].at("tables")[0].at("units").at("error_mm"), "mm");
   EXPECT_EQ(json.at("machine").at("cores"), 2);
@@ -169,6 +179,21 @@ TEST(BenchJson, StoresEveryPartUnderItsId) {
   EXPECT_TRUE(again.at("odd").at("none").is_null());
   EXPECT_TRUE(again.at("odd_table")[1].at("error_mm").is_null());
   EXPECT_TRUE(again.at("odd_map").at("cells")[1][0].is_null());
+}
+
+TEST(BenchJson, DescribesEachValueWithItsRequiredBound) {
+  Report report = odd_report();
+  add_at_most(report.sections[0], "ratio", counted(0.5), 1.5, "a ratio");
+  const auto json = json_of(report);
+  const auto& values = json.at("sections")[0].at("values");
+  EXPECT_EQ(values.at("time_ns"), kHostile);
+  EXPECT_EQ(values.at("ratio"), "a ratio; required: at most 1.5");
+}
+
+TEST(BenchText, AlignsAHeadingWithNumbersBelowAMissingCell) {
+  Section section;
+  section.tables = {{"t", "", {{"name", ""}, {"n", ""}}, {{"a", {}}, {"b", 12345.0}}, ""}};
+  EXPECT_NE(text_of(section).find("      n\n"), std::string::npos) << text_of(section);
 }
 
 TEST(BenchJson, PutsTheTableNamedLikeTheSectionFirst) {
@@ -211,6 +236,17 @@ std::string csv_named(const Report& report, const std::string& name) {
   for (const auto& [file, text] : csv_files(report))
     if (file == name) return text;
   return "no file " + name;
+}
+
+TEST(BenchCsv, WritesTheSpreadOfBothAxesAndTheLabels) {
+  const auto records = parse_csv(csv_named(odd_report(), "odd_plot.csv"));
+  ASSERT_EQ(records.size(), 8u);  // names, five points of a curve, two of another
+  EXPECT_EQ(records[0], (std::vector<std::string>{"curve", "x", "y", "low", "high", "x_low",
+                                                  "x_high", "label"}));
+  EXPECT_EQ(records[6], (std::vector<std::string>{"spread", "1", "2", "1.5", "2.5", "0.5", "1.5",
+                                                  "N 1, fine"}));
+  EXPECT_EQ(records[7],
+            (std::vector<std::string>{"spread", "10", "3", "", "4", "9", "11", "N 10"}));
 }
 
 TEST(BenchCsv, RoundTripsTables) {
