@@ -1,35 +1,28 @@
 #include "app/cli/batch_outputs.hpp"
 #include "app/cli/batch_pool.hpp"
+#include "app/cli/batch_results.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/json_output.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/cli/usage.hpp"
 
 #include "claystack/core/atomic_file.hpp"
-#include "core/file_reader.hpp"
 #include "core/json/object_reader.hpp"
 #include "core/line_reader.hpp"
 #include "core/number_parsing.hpp"
-#include "core/system_calls.hpp"
 #include "core/text.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -44,8 +37,7 @@ static void describe(auto& io, Is<BatchJob> auto& job) {
 
 namespace {
 
-constexpr std::size_t kMaxLineValues = 2000, kMaxBatchBytes = std::size_t{256} << 20;
-constexpr const char* kSchema = "claystack-batch-1";
+constexpr std::size_t kMaxLineValues = 2000;
 constexpr std::array kRunnable = {"check",  "export",  "import", "plan",
                                   "render", "strokes", "throw"};
 
@@ -96,113 +88,6 @@ Result<std::vector<BatchJob>> part_of(std::vector<BatchJob> jobs, const std::str
   return mine;
 }
 
-/// The results, one line per job, appended as the jobs end. A killed batch leaves whole lines.
-class ResultFile {
- public:
-  static Result<ResultFile> open(const std::string& path) {
-    ResultFile file(path);
-    if (path.empty()) return file;
-    // A pipe that this process could read too would never end, and would outlive its reader.
-    struct stat kind {};
-    const bool written_only = ::stat(path.c_str(), &kind) == 0 && !S_ISREG(kind.st_mode);
-    const int mode = written_only ? O_WRONLY : O_RDWR | O_CREAT;
-    file.descriptor_ = ::open(path.c_str(), mode | O_APPEND | O_CLOEXEC, 0666);
-    if (file.descriptor_ == -1) return file.io_failure("cannot open");
-    if (::fstat(file.descriptor_, &kind) != 0) return file.io_failure("cannot open");
-    if (!S_ISREG(kind.st_mode)) return file;
-    if (::flock(file.descriptor_, LOCK_EX | LOCK_NB) != 0)
-      return file.io_failure("cannot lock, another batch may write it");
-    return file.read_done().map([&] { return std::move(file); });
-  }
-
-  ResultFile(ResultFile&& other) noexcept
-      : path_(std::move(other.path_)),
-        descriptor_(std::exchange(other.descriptor_, -1)),
-        done_(std::move(other.done_)) {}
-  ResultFile& operator=(ResultFile&&) = delete;
-  ~ResultFile() {
-    if (descriptor_ != -1) ::close(descriptor_);
-  }
-
-  /// Whether the lines go to standard output, by whatever name.
-  [[nodiscard]] bool is_standard_output() const {
-    struct stat own {};
-    struct stat standard {};
-    return descriptor_ == -1 ||
-           (::fstat(descriptor_, &own) == 0 && ::fstat(STDOUT_FILENO, &standard) == 0 &&
-            own.st_dev == standard.st_dev && own.st_ino == standard.st_ino);
-  }
-
-  /// The status of a job that an earlier batch finished: done, with a verdict. Empty for others,
-  /// which run again.
-  [[nodiscard]] std::optional<int> status_of(const BatchJob& job) const {
-    const auto found = done_.find(Json(job.words).dump() + job.id);
-    return found == done_.end() ? std::nullopt : std::optional(found->second);
-  }
-
-  Result<void> add(const Json& result) {
-    const std::string line = result.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-    if (descriptor_ == -1) {
-      put_out(line);
-      if (flush_out()) return {};
-      return failure(ErrorKind::io, "standard output: could not write");
-    }
-    const auto size = ::lseek(descriptor_, 0, SEEK_END);
-    if (write_all(descriptor_, line)) return {};
-    const auto failed = io_failure("cannot write");
-    if (size >= 0) (void)::ftruncate(descriptor_, size);  // if it fails, the next batch removes it
-    return failed;
-  }
-
- private:
-  explicit ResultFile(std::string path) : path_(std::move(path)) {}
-
-  [[nodiscard]] tl::unexpected<Error> io_failure(const char* what) const {
-    return failure(ErrorKind::io,
-                   path_ + ": " + what + ": " + std::generic_category().message(errno));
-  }
-
-  Result<void> read_done() {
-    auto file = FileReader::open(path_);
-    if (!file) return tl::make_unexpected(file.error());
-    FileLines lines(std::move(*file), kMaxBatchBytes);
-    for (;;) {
-      const auto line = lines.next();
-      if (!line) return tl::make_unexpected(line.error());
-      if (!*line) break;
-      const auto document = LocatedJson::from_json(**line, path_, SIZE_MAX, lines.number());
-      if (!document) return tl::make_unexpected(document.error());
-      const Json& one = document->root();
-      const bool is_result = one.is_object() && one.contains("id") && one.at("id").is_string() &&
-                             one.contains("run") && one.contains("status") &&
-                             one.at("status").is_number_integer();
-      if (!is_result)
-        return tl::make_unexpected(
-            document->error_at({}, "expected a result of claystack batch, found something else"));
-      const auto status = one.at("status").get<int>();
-      if (status == kDone || status == kUnsound)
-        done_[one.at("run").dump() + one.at("id").get<std::string>()] = status;
-    }
-    return remove_unfinished(lines.rest(), lines.bytes());
-  }
-
-  /// The last line that a killed batch left. Any other file without a line feed at its end stays.
-  Result<void> remove_unfinished(std::string_view rest, std::uint64_t size) {
-    if (rest.empty()) return {};
-    const std::string begin = fmt::format(R"({{"schema":"{}",)", kSchema);
-    if (!rest.starts_with(begin) && !begin.starts_with(rest))
-      return failure(ErrorKind::bad_input,
-                     path_ + ": expected results of claystack batch, found something else");
-    if (::ftruncate(descriptor_, static_cast<off_t>(size - rest.size())) != 0)
-      return io_failure("cannot remove the unfinished last line");
-    return {};
-  }
-
-  std::string path_;
-  int descriptor_ = -1;
-  std::map<std::string, int> done_;
-};
-
 /// The first line that is not a warning; empty if there is none.
 std::string_view first_error(std::string_view text) {
   while (text.starts_with("claystack: warning: "))
@@ -212,7 +97,7 @@ std::string_view first_error(std::string_view text) {
 
 /// The JSON that the job printed; of a failed job the first line of its errors.
 Json result_json(const BatchJob& job, const BatchOutcome& outcome) {
-  Json json = {{"schema", kSchema},
+  Json json = {{"schema", kBatchSchema},
                {"id", job.id},
                {"run", job.words},
                {"status", outcome.status},
@@ -228,6 +113,18 @@ Json result_json(const BatchJob& job, const BatchOutcome& outcome) {
   else if (Json printed = Json::parse(outcome.out, nullptr, false); !printed.is_discarded())
     json["output"] = std::move(printed);
   return json;
+}
+
+/// `summary`: docs/json.md.
+void print_summary(const Json& summary, const Console& console) {
+  if (console.json) print_json(summary);
+  const auto count = [&](const char* field) { return summary[field].get<std::size_t>(); };
+  const auto results = summary["results"].get<std::string>();
+  std::string line = fmt::format("{}: {} done, {} failed", counted(count("jobs"), "job"),
+                                 count("done"), count("failed"));
+  if (count("skipped") > 0)
+    line += fmt::format("; {} skipped, because {} has their results", count("skipped"), results);
+  console.print(line);
 }
 
 Result<int> batch(BatchOptions options, const Console& console) {
@@ -269,16 +166,12 @@ Result<int> batch(BatchOptions options, const Console& console) {
   if (!written) return tl::make_unexpected(written.error());
   if (!ran) return tl::make_unexpected(ran.error());
   if (results->is_standard_output()) return failed == 0 ? kDone : kUnsound;
-  if (console.json)
-    print_json({{"jobs", asked},
-                {"done", asked - failed},
-                {"failed", failed},
-                {"skipped", skipped},
-                {"results", options.results}});
-  else if (!console.quiet)
-    console.print(fmt::format("{}: {} done, {} failed; {} skipped, because {} has their results",
-                              counted(asked, "job"), asked - failed, failed, skipped,
-                              options.results));
+  print_summary({{"jobs", asked},
+                 {"done", asked - failed},
+                 {"failed", failed},
+                 {"skipped", skipped},
+                 {"results", options.results}},
+                console);
   return failed == 0 ? kDone : kUnsound;
 }
 

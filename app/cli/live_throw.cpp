@@ -105,11 +105,8 @@ Result<AtomicFile> open_pot_file(const LiveJob& job, const Pot& pot) {
   return AtomicFile::create(job.pot_path);
 }
 
-/// The pot remembers the force of the scene, not that of one throw.
 Pot thrown_pot(const Stage& stage) {
-  Pot pot = stage.wheel->pot();
-  if (pot.thrown_with == settings_of(stage.scene)) pot.thrown_with->force = stage.force;
-  return pot;
+  return servo::with_force_of_scene(stage.wheel->pot(), settings_of(stage.scene), stage.force);
 }
 
 /// Before throwing: an unwritable output found later would lose the pot.

@@ -1,4 +1,5 @@
 #include "app/cli/commands.hpp"
+#include "app/cli/completions.hpp"
 #include "app/cli/manual.hpp"
 #ifdef CLAYSTACK_STUDIO
 #include "app/cli/studio_options.hpp"

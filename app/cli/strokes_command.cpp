@@ -26,11 +26,16 @@ struct StrokesOptions {
   std::string scene, script, session;
 };
 
+/// The scene has been on a wheel, so an error while playing is one of the script.
 Result<std::vector<Pose>> poses_of(const StrokesOptions& options, const SceneSpec& scene) {
   return read_file(options.script, kMaxScriptBytes)
       .and_then(
           [&](const std::string& text) { return strokes::parse_strokes(text, options.script); })
-      .and_then([&](const strokes::StrokeScript& script) { return strokes::play(script, scene); });
+      .and_then([&](const strokes::StrokeScript& script) {
+        return strokes::play(script, scene).map_error([&](const Error& error) {
+          return Error{error.kind, options.script + ": " + error.message};
+        });
+      });
 }
 
 Result<void> make_session(const StrokesOptions& options, Console console) {
@@ -41,13 +46,15 @@ Result<void> make_session(const StrokesOptions& options, Console console) {
     return free;
   Progress progress(console, "strokes", 0);
   progress.stage("playing");
-  const auto scene = load_scene(options.scene);
-  if (!scene) return tl::make_unexpected(scene.error());
-  auto poses = poses_of(options, *scene);
+  const auto start = load_start(options.scene, {}, console);
+  if (!start) return tl::make_unexpected(start.error());
+  if (const auto wheel = build_wheel(*start); !wheel) return tl::make_unexpected(wheel.error());
+  const SceneSpec& scene = start->scene;
+  auto poses = poses_of(options, scene);
   if (!poses) return tl::make_unexpected(poses.error());
   const std::size_t count = poses->size();
   const double seconds = count > 0 ? 1e-6 * static_cast<double>(poses->back().time_us) : 0.0;
-  const Session session{scene->name, hash_of(*scene), std::move(*poses), false};
+  const Session session{scene.name, hash_of(scene), std::move(*poses), false};
   if (auto done = publish(options.session, write_session(session)); !done) return done;
   console.print(fmt::format("session: {}, {:.1f} s, {} poses", options.session, seconds, count));
   if (console.json)

@@ -109,7 +109,7 @@ Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs
     return failure(ErrorKind::io,
                    fmt::format("{}: could not create: {}", folder.string(), made.message()));
   const std::string stem = stem_of_now();
-  std::string temporary = (folder / (stem + ".XXXXXX")).string();
+  std::string temporary = (folder / fmt::format("{}{}XXXXXX", stem, kUnfinishedJournal)).string();
   const int descriptor = mkostemp(temporary.data(), O_APPEND | O_CLOEXEC);
   if (descriptor < 0) return tl::make_unexpected(system_error(folder / stem, "create"));
   std::unique_ptr<Journal> journal(new Journal(temporary, descriptor));

@@ -19,6 +19,9 @@ namespace clay::history {
 /// The folder `recovery` in the user's state folder (clay::user_folder). Empty without one.
 [[nodiscard]] std::filesystem::path recovery_folder();
 
+/// Before a journal has its name, NAME.work, it is complete in a file with this in its extension.
+inline constexpr std::string_view kUnfinishedJournal = ".new-";
+
 /// Lines are written immediately, by the calling thread; a separate thread syncs them to disk at
 /// the end of a stroke and every 30 s. Not for the servo's thread.
 class Journal {

@@ -41,6 +41,15 @@ std::optional<Recoverable> look_at(const fs::path& path, bool& needless) {
   return needless ? std::nullopt : std::optional(std::move(found));
 }
 
+/// Removes what a program left that ended before its journal had a name. A program that is about to
+/// lock its new file is given time.
+void remove_unfinished(const fs::path& path) {
+  constexpr auto kTimeToLock = std::chrono::minutes(1);
+  const FileLock lock(path, FileLock::Kind::exclusive);
+  if (lock.held() && std::chrono::system_clock::now() - lock.written() > kTimeToLock)
+    (void)unlink(path.c_str());
+}
+
 }  // namespace
 
 std::vector<Recoverable> recoverable(const fs::path& folder) {
@@ -50,6 +59,7 @@ std::vector<Recoverable> recoverable(const fs::path& folder) {
   for (fs::directory_iterator entry(folder, none), end; !none && entry != end;
        entry.increment(none)) {
     const fs::path& path = entry->path();
+    if (path.extension().native().starts_with(kUnfinishedJournal)) remove_unfinished(path);
     if (path.extension() != ".work") continue;
     bool needless = false;
     if (auto found = look_at(path, needless)) all.push_back(std::move(*found));

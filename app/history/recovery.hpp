@@ -23,8 +23,8 @@ struct Recoverable {
   std::optional<Error> damage;  ///< the unreadable part and its place
 };
 
-/// Newest first; without those of running programs. Removes journals without strokes and those
-/// whose work was saved. Empty without a folder.
+/// Newest first; without those of running programs. Removes journals without strokes, those whose
+/// work was saved, and those that were not complete. Empty without a folder.
 std::vector<Recoverable> recoverable(const std::filesystem::path& folder = recovery_folder());
 
 /// The work, which continues the same journal. A stroke that was being recorded is included, except

@@ -3,6 +3,7 @@
 
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
+#include "app/cli/session_check.hpp"
 #include "app/import/drawn_pot.hpp"
 #include "app/import/mesh_pot.hpp"
 #include "claystack/core/atomic_file.hpp"
@@ -21,8 +22,11 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace py = pybind11;
 
@@ -54,12 +58,20 @@ const char* name_of(ErrorKind kind) {
   return "bad_input";
 }
 
+/// Text with names of files in it, as Python has them: bytes that are not UTF-8 become surrogates.
+py::str text_of(std::string_view text) {
+  PyObject* const made =
+      PyUnicode_DecodeFSDefaultAndSize(text.data(), static_cast<py::ssize_t>(text.size()));
+  if (made == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(made);
+}
+
 /// An array that shows `data` without a copy and keeps `owner` alive; it cannot be written to.
 template <class T>
 py::array shown(const T* data, std::vector<py::ssize_t> shape, py::object owner) {
   py::array_t<T> array(std::move(shape), data, std::move(owner));
   array.attr("flags").attr("writeable") = false;
-  return std::move(array);
+  return array;
 }
 
 py::array points_of(const std::shared_ptr<solid::TriangleMesh>& mesh) {
@@ -92,7 +104,12 @@ void write_pot(const Pot& pot, const std::string& path) {
   value_of(publish(path, clay::write_pot(pot, *encoding)));
 }
 
-std::shared_ptr<Pot> throw_pot(const std::string& scene_path, const std::string& session_path) {
+struct Throw {
+  std::shared_ptr<Pot> pot;
+  std::vector<std::string> warnings;
+};
+
+Throw throw_pot(const std::string& scene_path, const std::string& session_path) {
   const SceneSpec scene = value_of(read_file(scene_path).and_then([&](const std::string& text) {
     return parse_scene(text, scene_path);
   }));
@@ -100,14 +117,34 @@ std::shared_ptr<Pot> throw_pot(const std::string& scene_path, const std::string&
       value_of(read_file(session_path, kMaxSessionBytes).and_then([&](const std::string& text) {
         return parse_session(text, session_path);
       }));
-  if (session.scene_hash != 0 && session.scene_hash != hash_of(scene))
-    throw Failed{{ErrorKind::bad_input, session_path + ": expected a session of " + scene_path +
-                                            ", found one of another"}};
+  const cli::ReplayFiles files{session_path, scene_path, {}};
+  value_of(cli::check_gaps(session, scene, files));
   Wheel wheel = value_of(Wheel::build(scene).map_error([&](Error error) {
     return Error{error.kind, scene_path + ": " + error.message};
   }));
-  for (const Pose& pose : session.poses) wheel.step(pose);
-  return std::make_shared<Pot>(wheel.pot());
+  std::size_t refused = 0;
+  bool ring_limit = false;
+  for (const Pose& pose : session.poses) {
+    const auto flags = wheel.step(pose).flags;
+    refused += (flags & kRefused) != 0;
+    ring_limit = ring_limit || (flags & kRingLimit) != 0;
+  }
+  std::vector<std::string> warnings = cli::session_warnings(session, scene, files);
+  for (std::string& warning : cli::replay_warnings(refused, ring_limit))
+    warnings.push_back(std::move(warning));
+  return {std::make_shared<Pot>(wheel.pot()), std::move(warnings)};
+}
+
+/// The pot, and the warnings of the command line.
+py::tuple throw_with_warnings(const std::string& scene_path, const std::string& session_path) {
+  Throw thrown;
+  {
+    py::gil_scoped_release others_run;
+    thrown = throw_pot(scene_path, session_path);
+  }
+  py::list warnings;
+  for (const std::string& warning : thrown.warnings) warnings.append(text_of(warning));
+  return py::make_tuple(thrown.pot, warnings);
 }
 
 std::shared_ptr<Pot> stacked(double ring_height_mm, const std::vector<double>& outer_mm,
@@ -162,7 +199,7 @@ py::dict report_of(const solid::ExportReport& report) {
   py::list files, problems;
   for (const solid::FileReport& file : report.files) {
     py::dict one;
-    one["path"] = file.path;
+    one["path"] = text_of(file.path);
     one["bytes"] = file.bytes;
     one["content_hash"] = file.content_hash;
     one["max_error_mm"] = file.max_error_mm;
@@ -171,7 +208,7 @@ py::dict report_of(const solid::ExportReport& report) {
   for (const solid::Problem& problem : solid::problems_of(report)) {
     py::dict one;
     one["what"] = problem.fails ? "process" : "note";
-    one["where"] = problem.text;
+    one["where"] = text_of(problem.text);
     one["fails"] = problem.fails;
     problems.append(one);
   }
@@ -282,6 +319,7 @@ void add_types(py::module_& module) {
       .def_property_readonly("points", &points_of)
       .def_property_readonly("triangles", &triangles_of);
   py::class_<Pot, std::shared_ptr<Pot>>(module, "Pot")
+      .def("equals", [](const Pot& pot, const Pot& other) { return pot == other; })
       .def_property_readonly("quanta", &quanta_of)
       .def_property_readonly("ring_height_mm",
                              [](const Pot& pot) { return pot.stack.ring_height_mm(); })
@@ -298,7 +336,7 @@ void add_functions(py::module_& module) {
   const auto released = py::call_guard<py::gil_scoped_release>();
   module.def("read_pot", &read_pot, released);
   module.def("write_pot", &write_pot, released);
-  module.def("throw_pot", &throw_pot, released);
+  module.def("throw_pot", &throw_with_warnings);
   module.def("stacked", &stacked);
   module.def("export_pot", &export_pot);
   module.def("mesh_of", &mesh_of);
@@ -318,7 +356,8 @@ PYBIND11_MODULE(_native, module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const Failed& failed) {
-      const py::tuple arguments = py::make_tuple(name_of(failed.error.kind), failed.error.message);
+      const py::tuple arguments =
+          py::make_tuple(name_of(failed.error.kind), text_of(failed.error.message));
       PyErr_SetObject(failure.ptr(), arguments.ptr());
     }
   });

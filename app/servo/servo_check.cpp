@@ -73,4 +73,10 @@ double soften(SceneSpec& scene, const ServoContact& contact) {
   return part;
 }
 
+Pot with_force_of_scene(Pot pot, const ThrowSettings& softened,
+                        const std::optional<ForceSpec>& force) {
+  if (pot.thrown_with == softened) pot.thrown_with->force = force;
+  return pot;
+}
+
 }  // namespace clay::servo

@@ -1,8 +1,11 @@
 #pragma once
 #include "claystack/core/result.hpp"
+#include "claystack/engine/clay.hpp"
 #include "claystack/engine/plan.hpp"
 #include "claystack/engine/scene.hpp"
 #include "claystack/falcon/passivity.hpp"
+
+#include <optional>
 
 namespace clay::servo {
 
@@ -28,5 +31,9 @@ Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
 /// Lowers the scene's stiffness to the accepted value. Returns the remaining fraction, 1 if it was
 /// low enough. The clay does not depend on it: a softened scene replays to the same pot.
 double soften(SceneSpec& scene, const ServoContact& contact);
+
+/// A pot thrown in a `softened` scene: it remembers the force of the scene, not that of one throw.
+[[nodiscard]] Pot with_force_of_scene(Pot pot, const ThrowSettings& softened,
+                                      const std::optional<ForceSpec>& force);
 
 }  // namespace clay::servo

@@ -67,14 +67,15 @@ Path spline(const Path& through) {
   return path;
 }
 
-Hand::Hand(const StrokeScript& script, Wheel wheel)
+Hand::Hand(const StrokeScript& script, Wheel wheel, std::size_t most_poses)
     : script_(script),
       wheel_(std::move(wheel)),
       random_(script.seed),
       here_{script.start_mm, 0.0},
       radial_(script.rate_hz),
       vertical_(script.rate_hz),
-      sideways_(script.rate_hz) {}
+      sideways_(script.rate_hz),
+      most_poses_(most_poses) {}
 
 void Hand::move(const Path& path, double speed_mm_s, bool trim) {
   std::vector<double> length{0.0};
@@ -100,6 +101,8 @@ void Hand::hold(double seconds, bool trim) {
 
 void Hand::emit(const Place& place, bool trim) {
   here_ = place;
+  full_ = full_ || poses_.size() == most_poses_;
+  if (full_) return;
   // In separate statements, because compilers differ in the order of evaluating arguments.
   glm::dvec3 hip(place.at, 0.0);
   hip.x += script_.tremor_mm * radial_.next(random_);

@@ -36,18 +36,20 @@ class Tremor {
 
 class Hand {
  public:
-  Hand(const StrokeScript& script, Wheel wheel);
+  Hand(const StrokeScript& script, Wheel wheel, std::size_t most_poses);
 
   /// Moves along a path in minimum-jerk time (Flash and Hogan, J. Neurosci. 5(7) 1985), with a peak
   /// speed of 15/8 of the mean.
   void move(const Path& path, double speed_mm_s, bool trim);
   void hold(double seconds, bool trim);
-  /// One pose.
+  /// One pose; after `most_poses` none, see full().
   void emit(const Place& place, bool trim);
 
   [[nodiscard]] const Place& here() const { return here_; }
   [[nodiscard]] const Wheel& wheel() const { return wheel_; }
   [[nodiscard]] const StrokeScript& script() const { return script_; }
+  /// There were more than `most_poses`.
+  [[nodiscard]] bool full() const { return full_; }
   std::vector<Pose> take() { return std::move(poses_); }
   [[nodiscard]] const std::vector<Pose>& poses() const { return poses_; }
   /// The first and the last pose at which the tool touched the clay; both 0: none.
@@ -63,6 +65,8 @@ class Hand {
   Place here_;
   Tremor radial_, vertical_, sideways_;
   std::vector<Pose> poses_;
+  std::size_t most_poses_;
+  bool full_ = false;
   Touch touch_;
 };
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace clay::strokes {
@@ -68,6 +69,18 @@ std::vector<Pose> around_contact(const Hand& hand, bool pull) {
   return {at(first), at(last + 1)};
 }
 
+/// The wheel would refuse the poses of two tools one by one.
+Result<void> check_gaps(const StrokeScript& script, const SceneSpec& scene) {
+  if (scene.tool.gap_mm) return {};
+  const auto pinch = std::ranges::find_if(
+      script.strokes, [](const Stroke& stroke) { return !stroke.gap_mm.empty(); });
+  if (pinch == script.strokes.end()) return {};
+  return failure(ErrorKind::bad_input,
+                 "strokes[" + std::to_string(pinch - script.strokes.begin()) +
+                     "].gap_mm: expected one tool, because the scene sets no tool.gap_mm, found a "
+                     "gap between two");
+}
+
 }  // namespace
 
 Result<PlannedStroke> plan(const StrokeScript& script, std::size_t index, const SceneSpec& scene,
@@ -75,7 +88,7 @@ Result<PlannedStroke> plan(const StrokeScript& script, std::size_t index, const 
   StrokeScript steady = script;
   steady.tremor_mm = 0.0;
   return Wheel::build(scene, pot).map([&](Wheel&& wheel) {
-    Hand hand(steady, std::move(wheel));
+    Hand hand(steady, std::move(wheel), kMaxPoses);
     const Stroke& stroke = steady.strokes.at(index);
     PlannedStroke planned;
     for (int pass = 0; pass < stroke.passes; ++pass) {
@@ -87,12 +100,16 @@ Result<PlannedStroke> plan(const StrokeScript& script, std::size_t index, const 
   });
 }
 
-Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene) {
-  return Wheel::build(scene).map([&](Wheel&& wheel) {
-    Hand hand(script, std::move(wheel));
+Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene,
+                               std::size_t most_poses) {
+  if (auto gaps = check_gaps(script, scene); !gaps) return tl::make_unexpected(gaps.error());
+  return Wheel::build(scene).and_then([&](Wheel&& wheel) -> Result<std::vector<Pose>> {
+    Hand hand(script, std::move(wheel), most_poses);
     for (const Stroke& stroke : script.strokes)
-      for (int pass = 0; pass < stroke.passes; ++pass) perform(hand, stroke, pass);
-    return hand.take();
+      for (int pass = 0; pass < stroke.passes && !hand.full(); ++pass) perform(hand, stroke, pass);
+    if (!hand.full()) return hand.take();
+    return failure(ErrorKind::bad_input, "strokes: expected at most " + std::to_string(most_poses) +
+                                             " poses, found more");
   });
 }
 

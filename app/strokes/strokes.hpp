@@ -4,6 +4,7 @@
 
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
+#include "claystack/engine/files.hpp"
 #include "claystack/engine/scene.hpp"
 #include "claystack/engine/tool.hpp"
 
@@ -62,14 +63,17 @@ struct StrokeScript {
 
 /// `*.strokes.json`: one object with the fields of StrokeScript; start_mm and strokes are required;
 /// so is through_mm in each path, and outline or outline_mm in each shape and pull; gap_mm may be a
-/// number. Errors read "NAME: strokes[2].speed_mm_s: what was expected, what was found". Unknown
-/// fields are errors, and so are strokes with more poses than a session holds (kMaxPoses).
+/// number. Errors read "NAME:LINE: strokes[2].speed_mm_s: what was expected, what was found".
+/// Errors are also fields that the kind of a stroke does not use, and strokes that would have more
+/// poses than a session holds (kMaxPoses).
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name);
 
 /// Poses in a vertical plane through the axis, at the script's rate, quantized as in a session, on
 /// the scene's wheel. The same bits on every platform: uses no libm except the square root, and no
-/// distribution of the standard library. Fails where Wheel::build refuses the scene.
-Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene);
+/// distribution of the standard library. Fails where Wheel::build refuses the scene, for a gap in a
+/// scene of one tool, and for more than `most_poses`.
+Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene,
+                               std::size_t most_poses = kMaxPoses);
 
 /// A stroke, planned on a pot.
 struct PlannedStroke {

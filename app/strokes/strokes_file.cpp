@@ -1,16 +1,14 @@
 #include "app/strokes/strokes.hpp"
-#include "core/json/located_json.hpp"
-#include "core/text.hpp"
 
-#include "claystack/engine/files.hpp"
+#include "core/json/object_reader.hpp"
+#include "core/text.hpp"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <concepts>
-#include <limits>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,199 +16,123 @@
 namespace clay::strokes {
 namespace {
 
-/// The reason for refusing a script; does not leave parse_strokes.
-struct Refusal {
-  std::string message;
-};
+constexpr Range kPositionMm = from(-1000).to(1000), kSpeedMmS = from(1).to(10'000),
+                kRateHz = from(200).to(10'000), kTremorMm = from(0).to(10), kHoldS = from(0).to(60),
+                kGapMm = from(0).to(1000), kHeightMm = from(0).to(1000);
+constexpr std::int64_t kMostPasses = 100;
+constexpr std::size_t kMostTextBytes = 200, kMostPathPoints = 100'000, kMostOutlinePoints = 1000;
+constexpr std::array<std::string_view, 4> kKinds = {"path", "shape", "pull", "lip"};
 
-[[noreturn]] void refuse(const std::string& place, const std::string& expected, const Json& found) {
-  const std::string what = found.is_object()  ? "an object"
-                           : found.is_array() ? "an array of " + std::to_string(found.size())
-                                              : printable(found.dump());
-  throw Refusal{(place.empty() ? "" : place + ": ") + "expected " + expected + ", found " + what};
+/// For people: a name, a hint.
+void read_text(ObjectReader& io, std::string_view name, std::string& text) {
+  io.text(name, text);
+  io.check([&](ObjectReader& reader) {
+    reader.expect(text.size() <= kMostTextBytes, name,
+                  "a text of at most " + std::to_string(kMostTextBytes) + " bytes");
+  });
 }
 
-struct Range {
-  double low, high;
-};
-constexpr Range kPositionMm{-1000.0, 1000.0}, kSpeedMmS{1.0, 10000.0}, kRateHz{200.0, 10000.0},
-    kTremorMm{0.0, 10.0}, kHoldS{0.0, 60.0}, kGapMm{0.0, 1000.0}, kHeightMm{0.0, 1000.0};
-struct IntegerRange {
-  std::uint64_t low, high;
-};
-constexpr IntegerRange kPasses{1, 100}, kSeed{0, std::numeric_limits<std::uint64_t>::max()};
-
-void read(const Json& json, const std::string& place, double& value, Range range) {
-  if (!json.is_number() || json < range.low || json > range.high)
-    refuse(place, "a number from " + Json(range.low).dump() + " to " + Json(range.high).dump(),
-           json);
-  value = json.get<double>();
+void check_path(ObjectReader& io, const Stroke& stroke) {
+  const auto& points = stroke.through_mm;
+  // A spline has no direction between equal points.
+  if (const auto equal = std::ranges::adjacent_find(points); equal != points.end())
+    io.refuse_element("through_mm", static_cast<std::size_t>(equal + 1 - points.begin()),
+                      "expected a point apart from the one before it, found the same one");
+  io.expect(stroke.gap_mm.size() <= 1 || stroke.gap_mm.size() == points.size(), "gap_mm",
+            "a number or an array of " + std::to_string(points.size()) + ", as many as through_mm");
 }
 
-template <std::integral Integer>
-void read(const Json& json, const std::string& place, Integer& value, IntegerRange range) {
-  // Only negative integers are not unsigned.
-  if (!json.is_number_unsigned() || json < range.low || json > range.high)
-    refuse(place,
-           "an integer from " + std::to_string(range.low) + " to " + std::to_string(range.high),
-           json);
-  value = json.get<Integer>();
+void read_path(ObjectReader& io, Stroke& stroke) {
+  io.require({"through_mm"});
+  io.points("through_mm", stroke.through_mm, kPositionMm, 2, kMostPathPoints);
+  io.vector("step_mm", stroke.step_mm, kPositionMm);
+  io.series("gap_mm", stroke.gap_mm, kGapMm);
+  io.check([&](ObjectReader& reader) { check_path(reader, stroke); });
 }
 
-void read(const Json& json, const std::string& place, bool& value) {
-  if (!json.is_boolean()) refuse(place, "true or false", json);
-  value = json.get<bool>();
-}
-
-void read(const Json& json, const std::string& place, std::string& value) {
-  constexpr std::size_t kMostBytes = 200;
-  if (!json.is_string() || json.get_ref<const std::string&>().size() > kMostBytes)
-    refuse(place, "a text of at most " + std::to_string(kMostBytes) + " bytes", json);
-  value = json.get<std::string>();
-}
-
-void read(const Json& json, const std::string& place, glm::dvec2& value) {
-  if (!json.is_array() || json.size() != 2) refuse(place, "an array of 2 numbers", json);
-  for (int axis = 0; axis < 2; ++axis)
-    read(json[static_cast<std::size_t>(axis)], place + "[" + std::to_string(axis) + "]",
-         value[axis], kPositionMm);
-}
-
-void read(const Json& json, const std::string& place, StrokeKind& kind) {
-  constexpr std::array kNames = {"path", "shape", "pull", "lip"};
-  const auto found = std::ranges::find(kNames, json);
-  if (found == kNames.end()) refuse(place, "path, shape, pull or lip", json);
-  kind = static_cast<StrokeKind>(found - kNames.begin());
-}
-
-/// One gap for a whole stroke, or one per point.
-void read(const Json& json, const std::string& place, std::vector<double>& gap_mm) {
-  gap_mm.assign(json.is_array() ? json.size() : 1, 0.0);
-  if (!json.is_array()) return read(json, place, gap_mm[0], kGapMm);
-  for (std::size_t i = 0; i < gap_mm.size(); ++i)
-    read(json[i], place + "[" + std::to_string(i) + "]", gap_mm[i], kGapMm);
-}
-
-void read(const Json& json, const std::string& place, Stroke& stroke);
-
-/// At least `fewest` elements, each read by the overload for its type.
-template <class T>
-void read(const Json& json, const std::string& place, std::vector<T>& values, std::size_t fewest) {
-  if (!json.is_array() || json.size() < fewest)
-    refuse(place, "an array of " + std::to_string(fewest) + " at least", json);
-  values.resize(json.size());
-  for (std::size_t i = 0; i < values.size(); ++i)
-    read(json[i], place + "[" + std::to_string(i) + "]", values[i]);
-}
-
-/// The members of an object: all of `required`, and no others than those named by the calls.
-class Members {
- public:
-  Members(const Json& object, std::string place, const std::vector<const char*>& required)
-      : object_(object), place_(std::move(place)) {
-    if (!object.is_object()) refuse(place_, "an object", object);
-    for (const char* name : required)
-      if (!object.contains(name)) throw Refusal{at(name) + ": expected a field, found none"};
+void check_heights(ObjectReader& io, std::string_view name,
+                   const std::vector<glm::dvec2>& outline) {
+  const bool rises = outline.back().y > outline.front().y;
+  for (std::size_t k = 1; k < outline.size(); ++k) {
+    const double below = outline[k - 1].y, height = outline[k].y;
+    if (rises ? height > below : height < below) continue;
+    return io.refuse_element(
+        name, k,
+        std::string("expected a height ") + (rises ? "above " : "below ") + number_text(below) +
+            ", because heights ascend or descend, found " + number_text(height));
   }
+}
 
-  /// An absent member leaves its value unchanged.
-  template <class... Arguments>
-  Members& field(const char* name, Arguments&&... arguments) {
-    known_.emplace_back(name);
-    if (const auto found = object_.find(name); found != object_.end())
-      read(*found, at(name), std::forward<Arguments>(arguments)...);
-    return *this;
-  }
+void read_outline(ObjectReader& io, Stroke& stroke) {
+  std::vector<glm::dvec2> in_mm;
+  io.points("outline", stroke.outline, kPositionMm, 2, kMostOutlinePoints);
+  io.points("outline_mm", in_mm, kPositionMm, 2, kMostOutlinePoints);
+  stroke.outline_in_mm = !in_mm.empty();
+  io.check([&](ObjectReader& reader) {
+    reader.expect(stroke.outline.empty() || in_mm.empty(), "outline_mm", "no outline beside it");
+    if (stroke.outline_in_mm)
+      stroke.outline = std::move(in_mm);
+    else
+      reader.require({"outline"});
+  });
+  io.check([&](ObjectReader& reader) {
+    check_heights(reader, stroke.outline_in_mm ? "outline_mm" : "outline", stroke.outline);
+  });
+}
 
-  void refuse_others() const {
-    for (const auto& [name, value] : object_.items())
-      if (std::ranges::find(known_, name) == known_.end())
-        throw Refusal{at(printable(name)) + ": unknown field"};
-  }
+void read_pull(ObjectReader& io, Stroke& stroke) {
+  read_outline(io, stroke);
+  io.require({"gap_mm", "from_mm"});
+  io.series("gap_mm", stroke.gap_mm, kGapMm);
+  io.number("from_mm", stroke.from_mm, kHeightMm);
+  io.number("ease_mm", stroke.ease_mm, kHeightMm);
+  io.check([&](ObjectReader& reader) {
+    reader.expect(stroke.gap_mm.size() <= 2, "gap_mm", "a number or an array of 2");
+  });
+}
 
- private:
-  [[nodiscard]] std::string at(const std::string& name) const {
-    return place_.empty() ? name : place_ + "." + name;
-  }
-
-  const Json& object_;
-  std::string place_;
-  std::vector<std::string> known_;
-};
-
-/// The fields that a stroke of a kind needs.
-std::vector<const char*> required_of(const Json& json, const Stroke& stroke) {
-  const char* outline = json.contains("outline_mm") ? "outline_mm" : "outline";
+/// The fields of one kind; those of the other kinds would have no effect, and are unknown.
+void read_kind(ObjectReader& io, Stroke& stroke) {
   switch (stroke.kind) {
     case StrokeKind::path:
-      return {"through_mm"};
+      return read_path(io, stroke);
     case StrokeKind::shape:
-      return {outline};
+      read_outline(io, stroke);
+      return io.flag("inside", stroke.inside);
     case StrokeKind::pull:
-      return {outline, "gap_mm", "from_mm"};
+      return read_pull(io, stroke);
     case StrokeKind::lip:
-      return {};
+      return;
   }
-  return {};
 }
 
-void check_path(const Json& json, const std::string& place, const Stroke& stroke) {
-  // A spline has no direction between equal points.
-  if (std::ranges::adjacent_find(stroke.through_mm) != stroke.through_mm.end())
-    throw Refusal{place + ".through_mm: expected neighbours apart, found two equal"};
-  if (const std::size_t gaps = stroke.gap_mm.size(), points = stroke.through_mm.size();
-      json.contains("gap_mm") && json["gap_mm"].is_array() && gaps != points)
-    throw Refusal{place + ".gap_mm: expected a number or an array of " + std::to_string(points) +
-                  ", as many as through_mm, found an array of " + std::to_string(gaps)};
+}  // namespace
+
+static void describe(ObjectReader& io, Stroke& stroke) {
+  read_text(io, "name", stroke.name);
+  read_text(io, "hint", stroke.hint);
+  io.choice("kind", stroke.kind, kKinds);
+  io.number("speed_mm_s", stroke.speed_mm_s, kSpeedMmS);
+  io.integer("passes", stroke.passes, 1, kMostPasses);
+  io.number("hold_s", stroke.hold_s, kHoldS);
+  io.flag("trim", stroke.trim);
+  read_kind(io, stroke);
 }
 
-void check_outline(const Json& json, const std::string& place, const Stroke& stroke) {
-  const auto& outline = stroke.outline;
-  const double way = outline.back().y - outline.front().y;
-  for (std::size_t k = 1; k < outline.size(); ++k)
-    if (!((outline[k].y - outline[k - 1].y) * way > 0.0))
-      throw Refusal{place + (stroke.outline_in_mm ? ".outline_mm" : ".outline") +
-                    ": expected heights in strictly ascending or descending order, found " +
-                    Json(outline[k - 1].y).dump() + " before " + Json(outline[k].y).dump()};
-  if (stroke.kind == StrokeKind::pull && stroke.gap_mm.size() > 2)
-    throw Refusal{place + ".gap_mm: expected a number or an array of 2, found an array of " +
-                  std::to_string(json["gap_mm"].size())};
+static void describe(ObjectReader& io, StrokeScript& script) {
+  io.require({"start_mm", "strokes"});
+  io.natural("seed", script.seed);
+  io.number("rate_hz", script.rate_hz, kRateHz);
+  io.number("tremor_mm", script.tremor_mm, kTremorMm);
+  io.number("travel_mm_s", script.travel_mm_s, kSpeedMmS);
+  io.vector("start_mm", script.start_mm, kPositionMm);
+  io.parts("strokes", script.strokes);
+  io.check([&](ObjectReader& reader) {
+    reader.expect(!script.strokes.empty(), "strokes", "one stroke at least");
+  });
 }
 
-void read(const Json& json, const std::string& place, Stroke& stroke) {
-  if (json.is_object() && json.contains("kind")) read(json["kind"], place + ".kind", stroke.kind);
-  stroke.outline_in_mm = json.is_object() && json.contains("outline_mm");
-  Members(json, place, required_of(json, stroke))
-      .field("name", stroke.name)
-      .field("hint", stroke.hint)
-      .field("kind", stroke.kind)
-      .field("through_mm", stroke.through_mm, std::size_t{2})
-      .field(stroke.outline_in_mm ? "outline_mm" : "outline", stroke.outline, std::size_t{2})
-      .field("inside", stroke.inside)
-      .field("from_mm", stroke.from_mm, kHeightMm)
-      .field("ease_mm", stroke.ease_mm, kHeightMm)
-      .field("speed_mm_s", stroke.speed_mm_s, kSpeedMmS)
-      .field("passes", stroke.passes, kPasses)
-      .field("step_mm", stroke.step_mm)
-      .field("hold_s", stroke.hold_s, kHoldS)
-      .field("trim", stroke.trim)
-      .field("gap_mm", stroke.gap_mm)
-      .refuse_others();
-  if (stroke.kind == StrokeKind::path) check_path(json, place, stroke);
-  if (stroke.kind == StrokeKind::shape || stroke.kind == StrokeKind::pull)
-    check_outline(json, place, stroke);
-}
-
-void read(const Json& json, StrokeScript& script) {
-  Members(json, "", {"start_mm", "strokes"})
-      .field("seed", script.seed, kSeed)
-      .field("rate_hz", script.rate_hz, kRateHz)
-      .field("tremor_mm", script.tremor_mm, kTremorMm)
-      .field("travel_mm_s", script.travel_mm_s, kSpeedMmS)
-      .field("start_mm", script.start_mm)
-      .field("strokes", script.strokes, std::size_t{1})
-      .refuse_others();
-}
+namespace {
 
 /// Estimated maximum of the poses of a stroke, from the distances between its points; the hand's
 /// mean speed is 8/15 of its peak, and varies by a tenth. The length of a stroke that is planned on
@@ -236,37 +158,31 @@ double poses_of(const StrokeScript& script, const Stroke& stroke) {
   return poses;
 }
 
-void refuse_endless(const StrokeScript& script) {
+/// Refuses an endless script before the hand moves; play() counts exactly.
+Result<StrokeScript> refuse_endless(const LocatedJson& document, StrokeScript script) {
   double poses = 0.0;
   for (const Stroke& stroke : script.strokes) poses += poses_of(script, stroke);
-  if (poses > static_cast<double>(kMaxPoses))
-    throw Refusal{"strokes: expected at most " + std::to_string(kMaxPoses) +
-                  " poses in a session, found about " + std::to_string(std::llround(poses)) +
-                  ", which would take " +
-                  std::to_string(std::llround(poses * sizeof(Pose) / 0x1p20)) + " MiB of memory"};
+  if (poses <= static_cast<double>(kMaxPoses)) return script;
+  return tl::make_unexpected(document.field_error(
+      {"strokes"},
+      "expected at most " + std::to_string(kMaxPoses) + " poses in a session, found about " +
+          std::to_string(std::llround(poses)) + ", which would take " +
+          std::to_string(std::llround(poses * sizeof(Pose) / 0x1p20)) + " MiB of memory"));
 }
 
 }  // namespace
 
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name) {
-  const auto refused = [&](const std::string& message) {
-    return tl::make_unexpected(
-        kind_error({ErrorKind::bad_input, std::string(name) + ": " + message}, text, name,
-                   "a stroke script (.strokes.json)"));
-  };
   constexpr std::size_t kMostValues = 1'000'000;
-  const auto document = LocatedJson::from_json(text, name, kMostValues);
-  if (!document)
-    return tl::make_unexpected(
-        kind_error(document.error(), text, name, "a stroke script (.strokes.json)"));
-  try {
-    StrokeScript script;
-    read(document->root(), script);
-    refuse_endless(script);
-    return script;
-  } catch (const Refusal& refusal) {
-    return refused(refusal.message);
-  }
+  return LocatedJson::from_json(text, name, kMostValues)
+      .and_then([](const LocatedJson& document) {
+        return ObjectReader::read(document, StrokeScript{}).and_then([&](StrokeScript script) {
+          return refuse_endless(document, std::move(script));
+        });
+      })
+      .map_error([&](Error error) {
+        return kind_error(std::move(error), text, name, "a stroke script (.strokes.json)");
+      });
 }
 
 }  // namespace clay::strokes

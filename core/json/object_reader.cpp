@@ -4,6 +4,7 @@
 #include "core/text.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace clay::inline json {
 namespace {
@@ -130,6 +131,10 @@ void ObjectReader::numbers(std::string_view name, std::optional<std::vector<doub
   at(name, [&](const Json& found) { values = numbers_in(found, range); });
 }
 
+void ObjectReader::vector(std::string_view name, glm::dvec2& value, const Range& range) {
+  at(name, [&](const Json& found) { value = point_in(found, range).value_or(value); });
+}
+
 void ObjectReader::vector(std::string_view name, glm::dvec3& value, const Range& range) {
   at(name, [&](const Json& found) {
     const auto read = numbers_in(found, range);
@@ -137,6 +142,31 @@ void ObjectReader::vector(std::string_view name, glm::dvec3& value, const Range&
       value = {read[0], read[1], read[2]};
     else
       expected("an array of 3 numbers", found);
+  });
+}
+
+void ObjectReader::points(std::string_view name, std::vector<glm::dvec2>& values,
+                          const Range& range, std::size_t fewest, std::size_t most) {
+  at(name, [&](const Json& found) {
+    if (!found.is_array() || found.size() < fewest || found.size() > most)
+      return expected(
+          "an array of " + std::to_string(fewest) + " to " + std::to_string(most) + " points",
+          found);
+    std::vector<glm::dvec2> read;
+    each_element(found, [&](const Json& element) {
+      if (const auto point = point_in(element, range)) read.push_back(*point);
+    });
+    values = std::move(read);
+  });
+}
+
+void ObjectReader::natural(std::string_view name, std::uint64_t& value) {
+  at(name, [&](const Json& found) {
+    // Only negative integers are not unsigned.
+    if (found.is_number_unsigned())
+      value = found.get<std::uint64_t>();
+    else
+      expected("an integer from 0 to " + std::to_string(UINT64_MAX), found);
   });
 }
 
@@ -155,6 +185,17 @@ void ObjectReader::series(std::string_view name, std::vector<std::int64_t>& valu
   });
 }
 
+void ObjectReader::series(std::string_view name, std::vector<double>& values, const Range& range) {
+  at(name, [&](const Json& found) {
+    if (found.is_array() && !found.empty())
+      values = numbers_in(found, range);
+    else if (found.is_array())
+      expected("a number, or an array of one at least", found);
+    else if (const auto read = number_in(found, range))
+      values = {*read};
+  });
+}
+
 void ObjectReader::expect(bool holds, std::string_view name, std::string_view what) {
   if (!holds) at(name, [&](const Json& found) { expected(what, found); });
 }
@@ -165,6 +206,15 @@ void ObjectReader::expect_element(bool holds, std::string_view name, std::size_t
   at(name, [&](const Json& found) {
     context_.path.emplace_back(index);
     expected(what, found.at(index));
+    context_.path.pop_back();
+  });
+}
+
+void ObjectReader::refuse_element(std::string_view name, std::size_t index,
+                                  const std::string& message) {
+  at(name, [&](const Json&) {
+    context_.path.emplace_back(index);
+    keep(context_.document.field_error(context_.path, message));
     context_.path.pop_back();
   });
 }
@@ -201,6 +251,13 @@ std::vector<double> ObjectReader::numbers_in(const Json& value, const Range& ran
     if (const auto read = number_in(element, range)) numbers.push_back(*read);
   });
   return numbers;
+}
+
+std::optional<glm::dvec2> ObjectReader::point_in(const Json& value, const Range& range) {
+  const auto read = numbers_in(value, range);
+  if (read.size() == 2) return glm::dvec2(read[0], read[1]);
+  expected("an array of 2 numbers", value);
+  return std::nullopt;
 }
 
 std::vector<std::int64_t> ObjectReader::integers_in(const Json& value, std::int64_t low,

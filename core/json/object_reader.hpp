@@ -5,6 +5,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <initializer_list>
 #include <limits>
@@ -55,7 +56,13 @@ class ObjectReader {
   void numbers(std::string_view name, std::vector<double>& values, const Range& range);
   void numbers(std::string_view name, std::optional<std::vector<double>>& values,
                const Range& range);
+  void vector(std::string_view name, glm::dvec2& value, const Range& range);
   void vector(std::string_view name, glm::dvec3& value, const Range& range);
+  /// An array of `fewest` to `most` arrays of 2 numbers.
+  void points(std::string_view name, std::vector<glm::dvec2>& values, const Range& range,
+              std::size_t fewest, std::size_t most);
+  /// Any integer that fits: from 0 to 2^64 - 1.
+  void natural(std::string_view name, std::uint64_t& value);
   template <std::integral Integer>
   void integer(std::string_view name, Integer& value, std::int64_t low, std::int64_t high);
   void integers(std::string_view name, std::vector<std::int64_t>& values, std::int64_t low,
@@ -63,6 +70,8 @@ class ObjectReader {
   /// A single integer is an array of one.
   void series(std::string_view name, std::vector<std::int64_t>& values, std::int64_t low,
               std::int64_t high);
+  /// A single number is an array of one; an empty array is an error.
+  void series(std::string_view name, std::vector<double>& values, const Range& range);
   /// A value stored as text, by `Code::encode`, `Code::decode` and `Code::kExpected`.
   template <class Code, class T>
   void coded(std::string_view name, T& value);
@@ -97,6 +106,8 @@ class ObjectReader {
   /// The same for element `index` of an array.
   void expect_element(bool holds, std::string_view name, std::size_t index,
                       std::string_view expected);
+  /// An error at element `index` of an array, with a message of its own.
+  void refuse_element(std::string_view name, std::size_t index, const std::string& message);
 
  private:
   struct Context {
@@ -118,6 +129,7 @@ class ObjectReader {
   std::optional<double> number_in(const Json& value, const Range& range);
   std::optional<std::int64_t> integer_in(const Json& value, std::int64_t low, std::int64_t high);
   std::vector<double> numbers_in(const Json& value, const Range& range);
+  std::optional<glm::dvec2> point_in(const Json& value, const Range& range);
   std::vector<std::int64_t> integers_in(const Json& value, std::int64_t low, std::int64_t high);
   std::optional<std::size_t> choice_in(const Json& value, Names names);
   std::optional<bool> flag_in(const Json& value);

@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import os
 import re
+import warnings
 from dataclasses import dataclass, field
 from typing import Optional, Sequence, Union
 
 import numpy as np
 
 from . import _native
+
+_Path = Union[str, bytes, os.PathLike]
 
 __version__: str = _native.version
 __all__ = [
@@ -31,13 +34,17 @@ class Error(Exception):
     the command line."""
 
     def __init__(self, kind: str, message: str):
-        super().__init__(message)
+        super().__init__(kind, message)  # all arguments, so that a process can pass it to another
         self.kind = kind
         self.message = message
         self.code = _STATUS[kind]
-        found = re.match(r"([^:\n]+\.\w+): ?(?:(\d+|facet \d+|[\w.\[\]]+): )?", message)
+        found = re.match(r"(.+?\.\w+):(?: |(?=\d+: ))(?:(\d+|facet \d+|[\w.\[\]]+): )?", message,
+                         re.DOTALL)
         self.file: Optional[str] = found.group(1) if found else None
         self.place: Optional[str] = found.group(2) if found else None
+
+    def __str__(self) -> str:
+        return self.message
 
 
 def _call(function, *arguments):
@@ -47,9 +54,14 @@ def _call(function, *arguments):
         raise Error(*failure.args) from None
 
 
-@dataclass(frozen=True)
+def _paths(files: Union[_Path, Sequence[_Path]]) -> list[bytes]:
+    return [os.fsencode(path)
+            for path in ([files] if isinstance(files, (str, bytes, os.PathLike)) else files)]
+
+
+@dataclass(frozen=True, eq=False)
 class Pot:
-    """A stack of rings of one height, the lowest first."""
+    """A stack of rings of one height, the lowest first. Equal pots give equal files."""
 
     ring_height_mm: float
     height_mm: float
@@ -57,7 +69,13 @@ class Pot:
     density_g_cm3: float
     collapsed: bool
     quanta: np.ndarray = field(repr=False)  #: R^2 and r^2 of each ring [2^-36 mm2], int64, no copy
-    _native: _native.Pot = field(repr=False, compare=False)
+    _native: _native.Pot = field(repr=False)
+
+    def __eq__(self, other: object) -> bool:
+        return self._native.equals(other._native) if isinstance(other, Pot) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash((self.ring_height_mm, self.height_mm, self.volume_mm3))
 
     @property
     def outer_mm(self) -> np.ndarray:
@@ -74,19 +92,28 @@ class Pot:
         """Of the clay as thrown."""
         return 1e-3 * self.volume_mm3 * self.density_g_cm3
 
-    def write(self, path: Union[str, os.PathLike]) -> None:
+    def write(self, path: _Path) -> None:
         """Writes a .pot.json or .pot.cbor."""
-        _call(_native.write_pot, self._native, os.fspath(path))
+        _call(_native.write_pot, self._native, os.fsencode(path))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Mesh:
     """Triangles of indices into points, counter-clockwise from outside; z is up in meshes of pots,
     as in the files."""
 
     points: np.ndarray = field(repr=False)  #: (n, 3) float64 [mm], no copy
     triangles: np.ndarray = field(repr=False)  #: (m, 3) uint32, no copy
-    _native: _native.Mesh = field(repr=False, compare=False)
+    _native: _native.Mesh = field(repr=False)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Mesh):
+            return NotImplemented
+        return (np.array_equal(self.points, other.points)
+                and np.array_equal(self.triangles, other.triangles))
+
+    def __hash__(self) -> int:
+        return hash((self.points.shape, self.triangles.shape))
 
 
 @dataclass(frozen=True)
@@ -151,17 +178,22 @@ def _mesh(native) -> Mesh:
 
 def _settings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm=None, process=None,
               shrinkage=0.0, certificates=False):
-    return _native.ExportSettings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm, process,
-                                  shrinkage, certificates)
+    return _native.ExportSettings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm,
+                                  None if process is None else os.fsencode(process), shrinkage,
+                                  certificates)
 
 
-def throw(scene: Union[str, os.PathLike], session: Union[str, os.PathLike, None] = None) -> Pot:
-    """Plays a session on a scene; by default the session beside it, as the command line does."""
-    path = os.fspath(scene)
+def throw(scene: _Path, session: Optional[_Path] = None) -> Pot:
+    """Plays a session on a scene; by default the session beside it, as the command line does. What
+    the command line warns of is a Python warning."""
+    path = os.fsencode(scene)
     if session is None:
-        ending = ".scene.json"
-        session = (path[: -len(ending)] if path.endswith(ending) else path) + ".session"
-    return _pot(_call(_native.throw_pot, path, os.fspath(session)))
+        ending = b".scene.json"
+        session = (path[: -len(ending)] if path.endswith(ending) else path) + b".session"
+    native, messages = _call(_native.throw_pot, path, os.fsencode(session))
+    for message in messages:
+        warnings.warn(message, stacklevel=2)
+    return _pot(native)
 
 
 def stack(ring_height_mm: float, outer_mm: Sequence[float], inner_mm: Sequence[float],
@@ -171,27 +203,27 @@ def stack(ring_height_mm: float, outer_mm: Sequence[float], inner_mm: Sequence[f
                       list(map(float, inner_mm)), density_g_cm3))
 
 
-def read_pot(path: Union[str, os.PathLike]) -> Pot:
+def read_pot(path: _Path) -> Pot:
     """Reads a .pot.json, a .pot.cbor, or the pot inside a .3mf by Claystack."""
-    return _pot(_call(_native.read_pot, os.fspath(path)))
+    return _pot(_call(_native.read_pot, os.fsencode(path)))
 
 
-def import_pot(path: Union[str, os.PathLike]) -> Pot:
+def import_pot(path: _Path) -> Pot:
     """Makes a pot of a drawing (SVG, DXF, CSV) or of a mesh of revolution."""
-    return _pot(_call(_native.import_pot, os.fspath(path)))
+    return _pot(_call(_native.import_pot, os.fsencode(path)))
 
 
-def export(pot: Pot, files: Sequence[Union[str, os.PathLike]], *, tolerance_mm: float = 0.02,
+def export(pot: Pot, files: Union[_Path, Sequence[_Path]], *, tolerance_mm: float = 0.02,
            smoothing: str = "fair", smooth_length_mm: Optional[float] = None,
-           min_wall_mm: Optional[float] = None, process: Optional[str] = None,
+           min_wall_mm: Optional[float] = None, process: Optional[_Path] = None,
            shrinkage: float = 0.0, certificates: bool = False) -> Export:
-    """Proves the pot and writes all files, or none. The solids are those of `claystack export`.
+    """Proves the pot and writes the file, or all files or none. The solids are those of `claystack export`.
 
     `smooth_length_mm`, for smoothing "fair": walls of continuous curvature; marks shorter than this
     are smoothed away. None: the radius of the pot's tool, or 0 if the pot remembers none."""
     settings = _settings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm, process, shrinkage,
                          certificates)
-    report = _call(_native.export_pot, pot._native, [os.fspath(path) for path in files], settings)
+    report = _call(_native.export_pot, pot._native, _paths(files), settings)
     report["files"] = tuple(File(**one) for one in report["files"])
     report["problems"] = tuple(Problem(**one) for one in report["problems"])
     return Export(**report)
@@ -204,12 +236,12 @@ def mesh(pot: Pot, *, tolerance_mm: float = 0.02, smoothing: str = "fair",
                        _settings(tolerance_mm, smoothing, smooth_length_mm)))
 
 
-def read_mesh(path: Union[str, os.PathLike]) -> Mesh:
+def read_mesh(path: _Path) -> Mesh:
     """Reads STL, OBJ, DRC, PLY, OFF, 3MF or GLB."""
-    return _mesh(_call(_native.read_mesh, os.fspath(path)))
+    return _mesh(_call(_native.read_mesh, os.fsencode(path)))
 
 
-def check(what: Union[Mesh, str, os.PathLike]) -> Check:
+def check(what: Union[Mesh, _Path]) -> Check:
     """Checks whether a mesh, or the mesh in a file, is a printable solid."""
     found = what if isinstance(what, Mesh) else read_mesh(what)
     report = _call(_native.check_mesh, found._native)

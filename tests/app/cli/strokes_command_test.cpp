@@ -36,11 +36,34 @@ TEST(StrokesCommand, NamesTheFileAndThePlaceOfAFault) {
                    R"({"start_mm": [80, 100], "strokes": [{"kind": "pull"}]})");
   const auto refused = claystack(strokes(folder.file("s.strokes.json"), folder.file("c.session")));
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("s.strokes.json: strokes[0].outline: expected"), std::string::npos)
+  EXPECT_NE(refused.err.find("s.strokes.json:1: strokes[0]: expected a field \"outline\""),
+            std::string::npos)
       << refused.err;
   EXPECT_FALSE(std::filesystem::exists(folder.file("c.session")));
   EXPECT_EQ(claystack(strokes(folder.file("none"), folder.file("c.session"))).status, 3);
   EXPECT_EQ(claystack(strokes(folder.file("s.strokes.json"), folder.file("c.stl"))).status, 2);
+}
+
+TEST(StrokesCommand, NamesTheFileThatTheWheelRefuses) {
+  const ScratchFolder folder;
+  std::string scene = read_text(sample("cylinder.scene.json"));
+  const auto gap = scene.find("\"gap_mm\"");
+  ASSERT_NE(gap, std::string::npos);
+  const auto comma = scene.rfind(',', gap);
+  scene.erase(comma, scene.find_first_of(",\n", gap) - comma);  // a scene of one tool
+  test::write_text(folder.file("one.scene.json"), scene);
+  test::write_text(folder.file("two.strokes.json"),
+                   R"({"start_mm": [80, 100], "strokes": [{"through_mm": [[60, 9], [50, 9]]},
+                       {"through_mm": [[60, 9], [50, 9]], "gap_mm": 4}]})");
+  const auto refused =
+      claystack("strokes " + folder.file("one.scene.json") + " " + folder.file("two.strokes.json") +
+                " -o " + folder.file("c.session"));
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("two.strokes.json: strokes[1].gap_mm: expected one tool, because the "
+                             "scene sets no tool.gap_mm"),
+            std::string::npos)
+      << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("c.session")));
 }
 
 }  // namespace

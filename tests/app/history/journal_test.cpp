@@ -1,5 +1,6 @@
 #include "app/history/journal.hpp"
 
+#include "app/history/file_lock.hpp"
 #include "app/history/recovery.hpp"
 #include "app/servo/recorder.hpp"
 #include "tests/app/history/strokes.hpp"
@@ -118,6 +119,27 @@ TEST(Journal, DoesNotOfferSavedOrEmptyWorks) {
   }
   EXPECT_TRUE(recoverable(folder.path).empty());
   EXPECT_TRUE(std::filesystem::is_empty(folder.path)) << "and is cleared away";
+}
+
+/// As programs leave them that are killed while they create a journal.
+TEST(Journal, RemovesAnUnfinishedJournalOfAnEndedProgram) {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path);
+  const auto unfinished = [&](const char* name, std::chrono::hours age) {
+    const auto path = folder.path / name;
+    std::ofstream(path) << "{";
+    std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() - age);
+    return path;
+  };
+  const auto left = unfinished("20261121T230307-4711.new-abc123", std::chrono::hours(1));
+  const auto fresh = unfinished("20261121T230307-4712.new-abc123", std::chrono::hours(0));
+  const auto held = unfinished("20261121T230307-4713.new-abc123", std::chrono::hours(1));
+  const auto other = unfinished("notes.txt", std::chrono::hours(1));
+  const FileLock lock(held, FileLock::Kind::exclusive);
+  ASSERT_TRUE(lock.held());
+  EXPECT_TRUE(recoverable(folder.path).empty());
+  EXPECT_FALSE(std::filesystem::exists(left));
+  for (const auto& path : {fresh, held, other}) EXPECT_TRUE(std::filesystem::exists(path)) << path;
 }
 
 TEST(Journal, IsNotOfferedWhileItsProgramRuns) {

@@ -2,10 +2,13 @@
 
 import math
 import os
+import pathlib
+import pickle
 import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 
@@ -58,6 +61,46 @@ class Package(unittest.TestCase):
                              [self.file("py/vase" + end)])
             self.run_program("export", self.file("vase.pot.json"), self.file("vase" + end))
             self.assertEqual(self.bytes_of("py/vase" + end), self.bytes_of("vase" + end), end)
+
+    def test_warns_where_the_command_line_does(self):
+        with open(sample("vase.session"), "rb") as whole:
+            lines = whole.read()
+        with open(self.file("torn.session"), "wb") as torn:
+            torn.write(lines[:-100])
+        for session in (self.file("torn.session"), sample("bowl.session")):
+            with self.assertWarns(UserWarning) as warned:
+                pot = claystack.throw(sample("vase.scene.json"), session)
+            ran = self.run_program("throw", sample("vase.scene.json"), "-s", session, "-o",
+                                   self.file("cli.pot.json"))
+            self.assertEqual(ran.stderr.decode(), f"claystack: warning: {warned.warning}\n")
+            pot.write(self.file("py.pot.json"))
+            self.assertEqual(self.bytes_of("py.pot.json"), self.bytes_of("cli.pot.json"))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            claystack.throw(sample("vase.scene.json"))
+
+    def test_refuses_two_tools_in_a_scene_of_one(self):
+        with open(sample("vase.scene.json"), encoding="utf-8") as file:
+            scene = file.read().split("\n")
+        with open(self.file("one.scene.json"), "w", encoding="utf-8") as file:
+            text = "\n".join(line for line in scene if "gap_mm" not in line)
+            file.write(text.replace('"press",\n', '"press"\n'))
+        with self.assertRaises(claystack.Error) as refused:
+            claystack.throw(self.file("one.scene.json"), sample("vase.session"))
+        self.assertIn("expected one tool throughout", refused.exception.message)
+        self.assertEqual(refused.exception.file, sample("vase.session"))
+
+    def test_compares_pots_and_meshes_by_value(self):
+        pot, same = (claystack.stack(2.0, [40.0, 41.0], [0.0, 30.0]) for _ in range(2))
+        other = claystack.stack(2.0, [40.0, 41.0], [0.0, 30.5])
+        self.assertEqual(pot, same)
+        self.assertNotEqual(pot, other)
+        self.assertEqual(len({pot, same, other}), 2)
+        self.assertIn(same, [other, pot])
+        self.assertNotEqual(pot, 1)
+        self.assertEqual(claystack.mesh(pot), claystack.mesh(same))
+        self.assertNotEqual(claystack.mesh(pot), claystack.mesh(other))
+        self.assertEqual(len({claystack.mesh(pot), claystack.mesh(same)}), 1)
 
     def test_refuses_an_impossible_density(self):
         for density in [float("nan"), -1.0, 0.0, 26.0]:
@@ -148,6 +191,47 @@ class Package(unittest.TestCase):
             self.assertEqual(refused.exception.message, message)
             self.assertEqual(refused.exception.code, 2)
             self.assertFalse(os.path.exists(self.file("refused.stl")))
+
+    def test_takes_one_file_or_several(self):
+        pot = claystack.stack(2.0, [40.0] * 10, [30.0] * 10)
+        folder = pathlib.Path(self.file("one"))
+        folder.mkdir()
+        self.assertEqual(len(claystack.export(pot, str(folder / "cup.stl")).files), 1)
+        self.assertEqual(len(claystack.export(pot, folder / "cup.obj").files), 1)
+        self.assertEqual(sorted(os.listdir(folder)), ["cup.obj", "cup.stl"])
+
+    def test_takes_names_that_are_not_unicode(self):
+        name = os.fsdecode(os.fsencode(self.file("cup")) + b"-\xff")
+        pot = claystack.stack(2.0, [40.0] * 10, [30.0] * 10)
+        pot.write(name + ".pot.json")
+        self.assertEqual(claystack.read_pot(name + ".pot.json"), pot)
+        report = claystack.export(pot, [name + ".stl"])
+        self.assertEqual(report.files[0].path, name + ".stl")
+        self.assertTrue(claystack.check(name + ".stl").sound)
+        with self.assertRaises(claystack.Error) as absent:
+            claystack.read_pot(name + ".absent.pot.json")
+        self.assertEqual(absent.exception.file, name + ".absent.pot.json")
+
+    def test_takes_a_process_as_a_path(self):
+        pot = claystack.stack(2.0, [40.0] * 10, [30.0] * 10)
+        with self.assertRaises(claystack.Error) as absent:
+            claystack.export(pot, self.file("cup.stl"),
+                             process=pathlib.Path(self.file("absent.process.json")))
+        self.assertEqual(absent.exception.file, self.file("absent.process.json"))
+
+    def test_an_error_goes_from_process_to_process(self):
+        with self.assertRaises(claystack.Error) as absent:
+            claystack.read_pot(self.file("absent.pot.json"))
+        copy = pickle.loads(pickle.dumps(absent.exception))
+        self.assertEqual(str(copy), absent.exception.message)
+        self.assertEqual((copy.kind, copy.code, copy.file), ("io", 3, self.file("absent.pot.json")))
+
+    def test_a_colon_in_a_name_is_part_of_it(self):
+        with open(self.file("a: b.off"), "w", encoding="utf-8") as file:
+            file.write("OFF\n3 1 0\n0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n")
+        with self.assertRaises(claystack.Error) as bad:
+            claystack.check(self.file("a: b.off"))
+        self.assertEqual((bad.exception.file, bad.exception.place), (self.file("a: b.off"), "5"))
 
     def test_errors_have_file_place_and_code(self):
         with self.assertRaises(claystack.Error) as absent:

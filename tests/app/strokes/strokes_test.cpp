@@ -228,6 +228,28 @@ RC_GTEST_PROP(Strokes, SeedDeterminesThePoses, (std::uint64_t seed)) {
   RC_ASSERT(play(script) != poses);
 }
 
+TEST(Strokes, RefusesAGapInASceneOfOneTool) {
+  StrokeScript script = script_through({{10.0, 10.0}, {10.0, 30.0}});
+  script.strokes.push_back(script.strokes[0]);
+  script.strokes[1].gap_mm = {4.0};
+  const auto refused = strokes::play(script, SceneSpec{});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message,
+            "strokes[1].gap_mm: expected one tool, because the scene sets no tool.gap_mm, found a "
+            "gap between two");
+}
+
+/// The length of a planned stroke is known only when it is played.
+TEST(Strokes, RefusesMorePosesThanTheLimit) {
+  const StrokeScript script = script_through({{10.0, 10.0}, {10.0, 30.0}});
+  const std::size_t count = strokes::play(script, SceneSpec{})->size();
+  EXPECT_EQ(strokes::play(script, SceneSpec{}, count)->size(), count);
+  const auto refused = strokes::play(script, SceneSpec{}, count - 1);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message,
+            "strokes: expected at most " + std::to_string(count - 1) + " poses, found more");
+}
+
 TEST(Strokes, QuantizesPosesLikeASession) {
   for (const Pose& pose : play(script_through({{10.0, 10.0}, {20.0, 40.0}}, 0.05)))
     ASSERT_EQ(quantized(pose), pose);

@@ -1,0 +1,128 @@
+#include "app/cli/batch_results.hpp"
+
+#include "app/cli/console.hpp"
+#include "core/file_reader.hpp"
+#include "core/json/located_json.hpp"
+#include "core/system_calls.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+namespace clay::cli {
+namespace {
+
+/// What distinguishes one job from another.
+std::string key_of(const Json& words, const std::string& id) { return words.dump() + id; }
+
+bool is_result(const Json& line) {
+  return line.is_object() && line.contains("id") && line.at("id").is_string() &&
+         line.contains("run") && line.contains("status") && line.at("status").is_number_integer();
+}
+
+}  // namespace
+
+ResultFile::ResultFile(std::string path) : path_(std::move(path)) {}
+
+ResultFile::ResultFile(ResultFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      done_(std::move(other.done_)) {}
+
+ResultFile::~ResultFile() {
+  if (descriptor_ != -1) ::close(descriptor_);
+}
+
+Result<ResultFile> ResultFile::open(const std::string& path) {
+  ResultFile file(path);
+  if (path.empty()) return file;
+  // A pipe that this process could read too would never end, and would outlive its reader.
+  struct stat kind {};
+  const bool written_only = ::stat(path.c_str(), &kind) == 0 && !S_ISREG(kind.st_mode);
+  const int mode = written_only ? O_WRONLY : O_RDWR | O_CREAT;
+  file.descriptor_ = ::open(path.c_str(), mode | O_APPEND | O_CLOEXEC, 0666);
+  if (file.descriptor_ == -1) return file.io_failure("cannot open");
+  if (::fstat(file.descriptor_, &kind) != 0) return file.io_failure("cannot open");
+  if (!S_ISREG(kind.st_mode)) return file;
+  if (::flock(file.descriptor_, LOCK_EX | LOCK_NB) != 0)
+    return file.io_failure("cannot lock, another batch may write it");
+  return file.read_done().map([&] { return std::move(file); });
+}
+
+bool ResultFile::is_standard_output() const {
+  struct stat own {};
+  struct stat standard {};
+  return descriptor_ == -1 ||
+         (::fstat(descriptor_, &own) == 0 && ::fstat(STDOUT_FILENO, &standard) == 0 &&
+          own.st_dev == standard.st_dev && own.st_ino == standard.st_ino);
+}
+
+std::optional<int> ResultFile::status_of(const BatchJob& job) const {
+  const auto found = done_.find(key_of(Json(job.words), job.id));
+  return found == done_.end() ? std::nullopt : std::optional(found->second);
+}
+
+Result<void> ResultFile::add(const Json& result) {
+  const std::string line = result.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (descriptor_ == -1) {
+    put_out(line);
+    if (flush_out()) return {};
+    return failure(ErrorKind::io, "standard output: could not write");
+  }
+  const auto size = ::lseek(descriptor_, 0, SEEK_END);
+  if (write_all(descriptor_, line)) return {};
+  const auto failed = io_failure("cannot write");
+  if (size >= 0) (void)::ftruncate(descriptor_, size);  // if it fails, the next batch removes it
+  return failed;
+}
+
+tl::unexpected<Error> ResultFile::io_failure(const char* what) const {
+  return failure(ErrorKind::io,
+                 path_ + ": " + what + ": " + std::generic_category().message(errno));
+}
+
+Result<void> ResultFile::read_done() {
+  auto file = FileReader::open(path_);
+  if (!file) return tl::make_unexpected(file.error());
+  FileLines lines(std::move(*file), kMaxBatchBytes);
+  for (;;) {
+    const auto line = lines.next();
+    if (!line) return tl::make_unexpected(line.error());
+    if (!*line) return remove_unfinished(lines.rest(), lines.bytes());
+    if (auto read = read_line(**line, lines.number()); !read) return read;
+  }
+}
+
+Result<void> ResultFile::read_line(std::string_view line, std::size_t number) {
+  const auto document = LocatedJson::from_json(line, path_, SIZE_MAX, number);
+  if (!document) return tl::make_unexpected(document.error());
+  const Json& one = document->root();
+  if (!is_result(one))
+    return tl::make_unexpected(
+        document->error_at({}, "expected a result of claystack batch, found something else"));
+  const auto status = one.at("status").get<int>();
+  if (status == kDone || status == kUnsound)
+    done_[key_of(one.at("run"), one.at("id").get<std::string>())] = status;
+  return {};
+}
+
+/// The last line that a killed batch left. Any other file without a line feed at its end stays.
+Result<void> ResultFile::remove_unfinished(std::string_view rest, std::uint64_t size) {
+  if (rest.empty()) return {};
+  const std::string begin = fmt::format(R"({{"schema":"{}",)", kBatchSchema);
+  if (!rest.starts_with(begin) && !begin.starts_with(rest))
+    return failure(ErrorKind::bad_input,
+                   path_ + ": expected results of claystack batch, found something else");
+  if (::ftruncate(descriptor_, static_cast<off_t>(size - rest.size())) != 0)
+    return io_failure("cannot remove the unfinished last line");
+  return {};
+}
+
+}  // namespace clay::cli

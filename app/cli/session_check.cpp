@@ -1,0 +1,46 @@
+#include "app/cli/session_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace clay::cli {
+
+std::vector<std::string> session_warnings(const Session& session, const SceneSpec& scene,
+                                          const ReplayFiles& files) {
+  std::vector<std::string> warnings;
+  if (session.torn)
+    warnings.push_back(
+        fmt::format("{}: the last line is cut off; its poses are not played", files.session));
+  if (session.scene_hash != 0 && session.scene_hash != hash_of(scene))
+    warnings.push_back(
+        fmt::format("{}: recorded on another scene ({}); the pot may differ from the recorded one",
+                    files.session, session.scene_name));
+  return warnings;
+}
+
+Result<void> check_gaps(const Session& session, const SceneSpec& scene, const ReplayFiles& files) {
+  if (scene.tool.gap_mm) return {};
+  const auto pose =
+      std::ranges::find_if(session.poses, [](const Pose& p) { return p.gap_mm > 0.0; });
+  if (pose == session.poses.end()) return {};
+  const bool of_pot = files.scene.empty();
+  return failure(
+      ErrorKind::bad_input,
+      fmt::format(
+          "{}: expected one tool throughout, because {} no tool.gap_mm, found a gap of {:.6g} "
+          "mm at {:.3f} s{}",
+          files.session, of_pot ? "the pot " + files.from + " holds" : "the scene sets",
+          pose->gap_mm, 1e-6 * static_cast<double>(pose->time_us),
+          of_pot ? "; name the scene of the session before --from" : ""));
+}
+
+std::vector<std::string> replay_warnings(std::size_t refused, bool ring_limit) {
+  std::vector<std::string> warnings;
+  if (refused > 0) warnings.push_back(fmt::format("{} invalid poses were not played", refused));
+  if (ring_limit)
+    warnings.emplace_back("there is clay above the top ring: increase lump.max_rings");
+  return warnings;
+}
+
+}  // namespace clay::cli
