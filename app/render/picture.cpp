@@ -57,12 +57,18 @@ const Row* row_at(const PotView& pot, double y_mm) {
   return &pot.rows[static_cast<std::size_t>(std::min(y_mm / pot.height_mm * rows, rows - 1.0))];
 }
 
-std::optional<double> floor_mm(const PotView& pot) {
-  const auto open = std::ranges::find_if(
-      pot.rows, [](const Row& row) { return static_cast<double>(row.inner_mm) > kBoreMm; });
-  if (open == pot.rows.end()) return std::nullopt;
-  return pot.height_mm * static_cast<double>(open - pot.rows.begin()) /
-         static_cast<double>(pot.rows.size());
+std::optional<Floor> floor_of(const PotView& pot) {
+  const auto is_open = [](const Row& row) { return static_cast<double>(row.inner_mm) > kBoreMm; };
+  const auto end = pot.rows.end();
+  auto bottom = std::find_if_not(pot.rows.begin(), end, is_open);
+  if (bottom == end) bottom = pot.rows.begin();  // a tube
+  const auto top = std::find_if(bottom, end, is_open);
+  if (top == end) return std::nullopt;
+  const auto height_mm = [&](auto row) {
+    return pot.height_mm * static_cast<double>(row - pot.rows.begin()) /
+           static_cast<double>(pot.rows.size());
+  };
+  return Floor{height_mm(bottom), height_mm(top)};
 }
 
 double wheel_radius_mm(const PotView& pot) noexcept {

@@ -48,8 +48,13 @@ struct PotView {
 [[nodiscard]] const Row* row_at(const PotView& pot, double y_mm);
 /// A bore begins at this radius: a narrower one is a dimple.
 inline constexpr double kBoreMm = 2.0;
-/// Thickness of the floor under the bore; empty: no bore.
-[[nodiscard]] std::optional<double> floor_mm(const PotView& pot);
+/// The clay under a bore: above the wheel, or above a hollow that was cut into the foot.
+struct Floor {
+  double bottom_mm = 0.0, top_mm = 0.0;
+  [[nodiscard]] double thickness_mm() const noexcept { return top_mm - bottom_mm; }
+};
+/// Empty: no bore. A pot without a floor has one without thickness, on the wheel.
+[[nodiscard]] std::optional<Floor> floor_of(const PotView& pot);
 
 /// A body of revolution about a vertical axis through the HIP; two of them for a pinch.
 struct ToolView {

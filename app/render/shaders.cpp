@@ -34,11 +34,19 @@ vec3 background() {
 )";
 
 constexpr const char* kLight = R"(
+// The lamp is a window: at the edge of the shade a part of it is still seen. `facing`: the cosine
+// to its middle.
+float lamp_light(float facing) {
+  const float kHalf = 0.30;  // of the zone in which the window sets
+  float in_zone = clamp(facing + kHalf, 0.0, 2.0 * kHalf);
+  return facing > kHalf ? facing : in_zone * in_zone / (4.0 * kHalf);
+}
+
 // Matte with a sheen that grows at grazing angles, like a wet surface. `open`: visible fraction of
 // the sky; `lit`: visible fraction of the lamp.
 vec3 lit_surface(vec3 base, vec3 n, vec3 v, float open, float lit, float gloss, float shine) {
   vec3 l = frame.to_lamp.xyz, h = normalize(l + v);
-  float facing = clamp(dot(n, l), 0.0, 1.0);
+  float facing = lamp_light(dot(n, l));
   vec3 ambient = mix(frame.bounce.rgb, frame.sky.rgb, 0.5 + 0.5 * n.y);
   // Parts hidden from the sky receive a little light reflected by clay.
   vec3 diffuse = base * (ambient * mix(0.16 * base + 0.10, vec3(1.0), open) +

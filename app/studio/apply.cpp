@@ -24,9 +24,24 @@ const char* replaces_work(const Action& action) {
   return open != nullptr && !is_process(open->path) && !is_drawing(open->path) ? "open" : nullptr;
 }
 
+/// An export that ended with the program would leave no file. Shows its progress instead.
+bool waits_for_export(AppState& state) {
+  const bool picture = state.pictures.busy();
+  if (!picture && state.exporter.running() != Exporter::Kind::files) return false;
+  if (picture)
+    state.ui.dialog = PictureDialog{};
+  else if (!state.ui.shows<ExportDialog>())
+    state.ui.dialog = ExportDialog{};
+  state.ui.notices.show(Grade::warning,
+                        "An export is in progress. Quit when it has ended, or cancel it first");
+  state.log("prompt: export");
+  return true;
+}
+
 }  // namespace
 
 void apply(AppState& state, const Action& action) {
+  if (std::holds_alternative<Quit>(action) && waits_for_export(state)) return;
   if (const char* reason = replaces_work(action)) {
     state.stroke.release();
     if (state.document.unsaved()) {

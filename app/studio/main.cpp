@@ -94,6 +94,7 @@ void log_motion(const FrameTimes& times, const LogLine& log) {
 Result<void> run_window(const StudioOptions& options, const LogLine& log) {
   if (auto exists = expect_file(options.file); !exists) return exists;
   LoadedSettings loaded = load_settings(settings_path());
+  const Settings stored = loaded.settings;
   apply(options, loaded.settings);
   if (options.scale > 0.0) loaded.settings.scale = static_cast<float>(options.scale);
   auto host = GlfwHost::create(options.size_px);
@@ -101,7 +102,7 @@ Result<void> run_window(const StudioOptions& options, const LogLine& log) {
   auto studio = Studio::create(**host, loaded.settings, log);
   if (!studio) return tl::make_unexpected(studio.error());
   AppState& state = (*studio)->state();
-  if (loaded.may_save) state.settings_file = SettingsFile(settings_path(), state.settings);
+  if (loaded.may_save) state.settings_file = SettingsFile(settings_path(), stored, state.settings);
   state.document.keep_journals();
   state.recoverable = history::recoverable();
   if (options.device != "none")

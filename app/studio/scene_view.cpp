@@ -296,7 +296,8 @@ glm::dvec2 along_wall(const ViewModel& view, glm::dvec2 aim_mm) {
   const auto tool = built(view.tool_in_use());
   const render::PotView& pot = view.stroke.view();
   if (!tool) return aim_mm;
-  aim_mm.y = std::max(aim_mm.y, floor_mm(pot).value_or(0.0) - tool->low());
+  const double floor_mm = render::floor_of(pot).value_or(render::Floor{}).top_mm;
+  aim_mm.y = std::max(aim_mm.y, floor_mm - tool->low());
   const auto wall = wall_at(pot, *tool, std::min(aim_mm.y, pot.height_mm - kRimMm));
   if (!wall) return aim_mm;
   // The foot stands still: a wall that is led out over it tears off there.

@@ -1,5 +1,6 @@
 // Facts that scripts query.
 
+#include "app/studio/panels/panels.hpp"
 #include "app/studio/script.hpp"
 
 #include <fmt/format.h>
@@ -139,10 +140,7 @@ const std::array kFacts = {
            return yes_or_no(s.readings.check() && s.readings.check()->ready());
          }},
     Fact{"verdict",
-         [](const AppState& s) {
-           return s.readings.check() ? ready_text(*s.readings.check(), s.settings.unit)
-                                     : std::string();
-         }},
+         [](const AppState& s) { return verdict_text(s.document, s.readings, s.settings.unit); }},
     Fact{"goal",
          [](const AppState& s) {
            const auto& check = s.readings.check();

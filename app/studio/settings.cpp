@@ -166,7 +166,14 @@ Result<void> save_settings(const Settings& settings, const std::filesystem::path
 }
 
 SettingsFile::SettingsFile(std::filesystem::path path, const Settings& stored)
-    : path_(std::move(path)), stored_(write_settings(stored)) {}
+    : SettingsFile(std::move(path), stored, stored) {}
+
+SettingsFile::SettingsFile(std::filesystem::path path, const Settings& stored,
+                           const Settings& window)
+    : path_(std::move(path)),
+      stored_(write_settings(stored)),
+      theme_(stored.theme, window.theme),
+      scale_(stored.scale, window.scale) {}
 
 Result<void> SettingsFile::update(const Settings& settings, double now_s) {
   if (path_.empty() || now_s < next_s_) return {};
@@ -177,9 +184,12 @@ Result<void> SettingsFile::update(const Settings& settings, double now_s) {
 }
 
 Result<void> SettingsFile::save(const Settings& settings) {
-  std::string text = write_settings(settings);
+  Settings wanted = settings;
+  wanted.theme = theme_.to_store(settings.theme);
+  wanted.scale = scale_.to_store(settings.scale);
+  std::string text = write_settings(wanted);
   if (text == stored_) return {};
-  return save_settings(settings, path_).map([&] { stored_ = std::move(text); });
+  return save_settings(wanted, path_).map([&] { stored_ = std::move(text); });
 }
 
 }  // namespace clay::studio

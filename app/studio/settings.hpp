@@ -70,6 +70,23 @@ Result<void> save_settings(const Settings& settings, const std::filesystem::path
 
 inline constexpr double kSettingsDelayS = 1.0;
 
+/// A setting that the command line may have given to this window only: the file keeps the value
+/// from before until the user changes it.
+template <class T>
+class ForThisWindow {
+ public:
+  ForThisWindow() = default;
+  ForThisWindow(T stored, T given) : stored_(stored), given_(given), given_only_(stored != given) {}
+  [[nodiscard]] T to_store(T shown) {
+    given_only_ = given_only_ && shown == given_;
+    return given_only_ ? stored_ : shown;
+  }
+
+ private:
+  T stored_{}, given_{};
+  bool given_only_ = false;
+};
+
 /// Saves settings soon after they change, so that a window that is killed loses only the changes of
 /// its last second.
 class SettingsFile {
@@ -78,6 +95,8 @@ class SettingsFile {
   SettingsFile() = default;
   /// `stored`: what the file holds, or would hold if it existed.
   SettingsFile(std::filesystem::path path, const Settings& stored);
+  /// `window`: the settings with the theme and the scale of the command line.
+  SettingsFile(std::filesystem::path path, const Settings& stored, const Settings& window);
   /// To be called every frame; saves at most once in kSettingsDelayS. An error is returned for the
   /// first of several failures only.
   Result<void> update(const Settings& settings, double now_s);
@@ -87,6 +106,8 @@ class SettingsFile {
  private:
   std::filesystem::path path_;
   std::string stored_;
+  ForThisWindow<Theme> theme_;
+  ForThisWindow<float> scale_;
   double next_s_ = 0.0;
   bool failed_ = false;
 };

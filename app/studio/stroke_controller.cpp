@@ -1,5 +1,7 @@
 #include "app/studio/stroke_controller.hpp"
 
+#include "app/servo/servo_check.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,8 +24,10 @@ render::PotView view_of(const servo::LiveProfile& profile) {
 }
 
 /// The scene with its contact stiffness limited to what the device can render at this rate. This
-/// does not change the clay.
-Result<SceneSpec> softened(SceneSpec scene, const servo::LiveSettings& settings) {
+/// does not change the clay, so the work records the scene as the user has set it.
+Result<SceneSpec> felt_scene(SceneSpec scene, const falcon::HapticDevice& device,
+                             const servo::LiveSettings& settings) {
+  if (!device.info().can_push) return scene;
   return servo::soften(scene, settings).map([&](double) { return scene; });
 }
 
@@ -67,16 +71,25 @@ Result<void> StrokeController::begin_session(const SceneSpec& scene, falcon::Hap
 
 Result<void> StrokeController::start_servo(const SceneSpec& scene, falcon::HapticDevice& device,
                                            const servo::LiveSettings& settings) {
+  const auto felt = felt_scene(scene, device, settings);
+  if (!felt) return tl::make_unexpected(felt.error());
   auto begun = document_.begin_stroke(scene);
   if (!begun) return tl::make_unexpected(begun.error());
-  wheel_.emplace(std::move(begun->wheel));
-  auto live = servo::LiveMeasures::build(
-      {.wheel = *wheel_, .device = device, .scene = scene, .sink = begun->sink, .clock = &clock_},
-      settings, &trace_);
-  if (!live) {
+  const auto refused = [this](const Error& error) -> tl::unexpected<Error> {
+    live_.reset();
     (void)document_.end_stroke(std::nullopt, history::Recording::one_stroke);  // adds none
-    return tl::make_unexpected(live.error());
-  }
+    return tl::make_unexpected(error);
+  };
+  auto wheel = *felt == scene ? Result<Wheel>(std::move(begun->wheel))
+                              : Wheel::build(*felt, document_.pot());
+  if (!wheel) return refused(wheel.error());
+  wheel_.emplace(std::move(*wheel));
+  felt_ = settings_of(*felt);
+  force_ = scene.force;
+  auto live = servo::LiveMeasures::build(
+      {.wheel = *wheel_, .device = device, .scene = *felt, .sink = begun->sink, .clock = &clock_},
+      settings, &trace_);
+  if (!live) return refused(live.error());
   if (&device == &mouse_ && resisting_rpm_ > 0.0)
     mouse_.meet({&wheel_->stack(), &wheel_->plan().tool, resisting_rpm_,
                  scene.tool.mode == ToolMode::trim_foot ? std::optional(wheel_->stack().height_mm())
@@ -85,11 +98,8 @@ Result<void> StrokeController::start_servo(const SceneSpec& scene, falcon::Hapti
   auto started = live_->start(!threads_                ? servo::Pace::stepped
                               : device.info().can_push ? servo::Pace::real_time
                                                        : servo::Pace::thread);
-  if (!started) {
-    live_.reset();
-    (void)document_.end_stroke(std::nullopt, history::Recording::one_stroke);  // adds none
-  }
-  return started;
+  if (!started) return refused(started.error());
+  return {};
 }
 
 void StrokeController::command(const servo::Command& command) noexcept {
@@ -119,7 +129,7 @@ void StrokeController::release() {
     news_.error = Error{ErrorKind::io,
                         "The end of the stroke is lost: the machine was too slow to record it"};
   else
-    thrown = wheel_->pot();
+    thrown = servo::with_force_of_scene(wheel_->pot(), felt_, force_);
   const auto recording =
       device_ ? history::Recording::several_strokes : history::Recording::one_stroke;
   const std::size_t before = document_.work().size();
@@ -180,12 +190,8 @@ void StrokeController::begin_with_device() {
   device_waits_ = false;
   closed_gap_mm_ = gap_mm_ = device_settings_.gap_mm;
   if (!device_->open()) return lose_device();
-  const SceneSpec& wanted = document_.scene();
-  auto scene =
-      device_->info().can_push ? softened(wanted, device_settings_) : Result<SceneSpec>(wanted);
-  auto begun = std::move(scene).and_then(
-      [&](SceneSpec&& soft) { return begin_session(soft, *device_, device_settings_); });
-  if (!begun) news_.error = begun.error();
+  if (auto begun = begin_session(document_.scene(), *device_, device_settings_); !begun)
+    news_.error = begun.error();
 }
 
 void StrokeController::advance(std::int64_t now_ns) {

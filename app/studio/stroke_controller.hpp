@@ -132,6 +132,8 @@ class StrokeController {
   servo::TickTrace trace_;
   std::optional<Wheel> wheel_;            // of the stroke in progress
   std::optional<servo::LiveThrow> live_;  // the same
+  ThrowSettings felt_;                    // the same; the device may render less than `force_`
+  std::optional<ForceSpec> force_;        // of the work's scene
   servo::LiveStatus status_;
   ServoRecord servo_;
   bool touched_ = false;  // the clay, in this stroke

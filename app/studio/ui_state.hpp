@@ -27,6 +27,8 @@ struct Notice {
   double until_s = 0.0;                      ///< on the host's clock; 0: until the user closes it
   std::string_view command;                  ///< a button runs it; empty: none
   bool (*holds)(const Document&) = nullptr;  ///< closed as soon as this is false
+  /// Index in `Dialog` of the dialog in which it appeared; empty: it has just appeared.
+  std::optional<std::size_t> dialog{};
 };
 
 /// Two banners at most: the answer to the latest action, and a state that lasts, such as that of an
@@ -57,6 +59,11 @@ class Notices {
       const bool late = (*notice)->until_s > 0.0 && now_s > (*notice)->until_s;
       if (late || ((*notice)->holds != nullptr && !(*notice)->holds(document))) notice->reset();
     }
+  }
+  /// New notices belong to the open dialog.
+  void appear_in(std::size_t dialog) {
+    for (std::optional<Notice>* notice : {&answer_, &state_})
+      if (*notice && !(*notice)->dialog) (*notice)->dialog = dialog;
   }
   [[nodiscard]] const std::optional<Notice>& answer() const noexcept { return answer_; }
   [[nodiscard]] const std::optional<Notice>& state() const noexcept { return state_; }
@@ -99,7 +106,8 @@ struct DiscardDialog {
   std::size_t index = 0;  ///< index in AppState::recoverable
 };
 struct ExportDialog {
-  std::optional<ExportChoices> previewed;  ///< choices of the current preview
+  std::optional<ExportChoices> previewed{};  ///< choices of the current preview
+  history::SharedPot pot = nullptr;          ///< and its pot
 };
 /// A picture or a turntable of the pot.
 struct PictureDialog {};

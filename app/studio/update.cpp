@@ -292,20 +292,25 @@ void take_preview(AppState& state, Exporter::Outcome outcome) {
   state.log(fmt::format("export previewed: {} triangles", exporting.preview->triangles));
 }
 
-/// The choices that change the solid or the sizes of its files.
+/// The choices that change the solid. A name changes some bytes of a file, not what is shown of it.
 ExportChoices solid_choices(ExportChoices choices) {
   choices.folder.clear();
+  choices.name.clear();
   choices.section = choices.dxf = choices.pdf = choices.report = choices.pot = false;
   return choices;
 }
 
-/// While the dialog is open, an export is previewed after every change of the choices.
+/// While the dialog is open, an export is previewed after every change of the choices or, by an
+/// arm, of the pot.
 void update_export(AppState& state) {
   ExportState& exporting = state.ui.exporting;
   auto* dialog = std::get_if<ExportDialog>(&state.ui.dialog);
   const bool writing = state.exporter.running() == Exporter::Kind::files;
-  if (dialog != nullptr && !writing && dialog->previewed != solid_choices(exporting.choices)) {
+  const bool stale = dialog != nullptr && (dialog->previewed != solid_choices(exporting.choices) ||
+                                           dialog->pot != state.document.shared_pot());
+  if (stale && !writing) {
     dialog->previewed = solid_choices(exporting.choices);
+    dialog->pot = state.document.shared_pot();
     exporting.preview.reset();
     exporting.problem.clear();
     exporting.refused = false;
@@ -363,6 +368,7 @@ void update(AppState& state) {
   update_arm_notice(state);
   update_fall(state);
   (void)succeeded(state, state.settings_file.update(state.settings, state.now_s()));
+  state.ui.notices.appear_in(state.ui.dialog.index());
 }
 
 }  // namespace clay::studio

@@ -65,8 +65,8 @@ std::vector<std::string> figures_upright(const ViewModel& model, const render::T
   const render::Row* row = row_at(pot, tool.place_mm.y);
   if (row != nullptr && static_cast<double>(row->inner_mm) > render::kBoreMm)
     lines.push_back("wall " + thickness_text(wall_mm(model, *row, tool.place_mm.y), unit));
-  if (const auto floor = floor_mm(pot); floor && tool.inside)
-    lines.push_back("floor " + thickness_text(*floor, unit));
+  if (const auto floor = render::floor_of(pot); floor && tool.inside)
+    lines.push_back("floor " + thickness_text(floor->thickness_mm(), unit));
   lines.push_back(fmt::format("radius {}", length_text(rho, unit)));
   lines.push_back(fmt::format("height {}", length_text(tool.place_mm.y, unit)));
   const ToolMode mode = model.tool_in_use().mode;

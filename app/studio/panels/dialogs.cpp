@@ -49,7 +49,8 @@ void draw_work_settings(const ViewModel& model, Actions& actions) {
   if (choose_process(model, "None", process, actions)) actions.emplace_back(SetProcess{process});
   form_row("Output folder");
   std::string folder = settings.folder;
-  if (ImGui::InputText("##folder", &folder)) actions.emplace_back(SetFolder{folder});
+  if (ImGui::InputTextWithHint("##folder", "The current folder", &folder))
+    actions.emplace_back(SetFolder{folder});
   form_row("First steps");
   bool hints = settings.hints;
   if (ImGui::Checkbox("Show in the view", &hints)) actions.emplace_back(SetHints{hints});

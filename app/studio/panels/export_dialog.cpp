@@ -16,7 +16,7 @@
 namespace clay::studio {
 namespace {
 
-/// Boxes in columns, the same for every row: six, or as many as have room.
+/// Six boxes in columns, the same for every row: in one line, or in lines of equal length.
 class BoxRow {
  public:
   explicit BoxRow(const char* label) {
@@ -26,7 +26,9 @@ class BoxRow {
     const float room = ImGui::GetContentRegionAvail().x;
     const float least = ImGui::GetFrameHeight() + ImGui::CalcTextSize("Report").x +
                         style.ItemInnerSpacing.x + 0.5f * style.ItemSpacing.x;
-    columns_ = std::clamp(static_cast<int>(room / least), 1, 6);
+    const int fitting = std::clamp(static_cast<int>(room / least), 1, 6);
+    const int lines = (6 + fitting - 1) / fitting;
+    columns_ = (6 + lines - 1) / lines;
     pitch_ = room / static_cast<float>(columns_);
   }
   bool box(const char* title, bool& wanted) {
@@ -242,8 +244,10 @@ void draw_preview(const ViewModel& model) {
   else if (!exporting.preview)
     faint_text(model.colours(), "No mesh file is chosen");
   if (!exporting.preview || !exporting.problem.empty()) return;
-  for (const std::string& problem : exporting.preview->problems)
-    problem_text(problem, model.colours().warning);
+  const std::vector<std::string>& problems = exporting.preview->problems;  // failed limits first
+  for (std::size_t i = 0; i < problems.size(); ++i)
+    problem_text(problems[i],
+                 i < exporting.preview->failed ? model.colours().fault : model.colours().warning);
   draw_figures(model, *exporting.preview);
 }
 
@@ -269,7 +273,7 @@ void draw_outcome(const ViewModel& model) {
                                                                            : colours.warning);
   if (exporting.preview && exporting.preview->failed > 0)
     return wrapped_text(
-        failed_text(exporting.preview->failed) + "; " + replaced_text(exporting.choices),
+        failed_text(exporting.preview->failed) + ". " + replaced_text(exporting.choices),
         colours.warning);
   faint_text(colours, replaced_text(exporting.choices));
 }
@@ -295,11 +299,12 @@ void draw_buttons(const ViewModel& model, Actions& actions) {
 }  // namespace
 
 void draw(const ExportDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect) {
-  constexpr float kBesideEm = 64.0f, kBelowEm = 44.0f, kLeastBesideEm = 54.0f, kPreviewEm = 22.0f;
+  constexpr float kBesideEm = 67.0f, kBelowEm = 44.0f, kLeastBesideEm = 54.0f, kPreviewEm = 22.0f;
+  constexpr float kUsualHeightEm = 43.0f;
   const float em = ImGui::GetFontSize();
   // In a narrow window the preview is the end of the list.
   const bool beside = ImGui::GetIO().DisplaySize.x >= kLeastBesideEm * em;
-  begin_dialog("##export", rect, beside ? kBesideEm : kBelowEm);
+  begin_dialog("##export", rect, beside ? kBesideEm : kBelowEm, beside ? kUsualHeightEm : 0.0f);
   dialog_title(model, "Export");
   begin_body(rect, beside ? -kPreviewEm * em : 0.0f);
   ExportChoices choices = model.ui.exporting.choices;

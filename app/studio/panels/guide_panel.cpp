@@ -247,12 +247,18 @@ const ImVec4& colour_of(Verdict verdict, const Palette& colours) {
 
 }  // namespace
 
+std::string verdict_text(const Document& document, const Readings& readings, LengthUnit unit) {
+  if (!readings.check() || !document.has_work()) return {};
+  if (!readings.fallen()) return ready_text(*readings.check(), unit);
+  return document.can_undo() ? "Fallen: undo removes the last stroke"
+                             : "Fallen: no stroke is possible, but it can be exported";
+}
+
 float draw_verdict(const ViewModel& model, const ViewRect& rect) {
   const auto& check = model.readings.check();
-  if (!check || !model.document.has_work() || !model.ui.shows<NoDialog>()) return rect.corner_px.y;
+  const std::string text = verdict_text(model.document, model.readings, model.settings.unit);
+  if (text.empty() || !model.ui.shows<NoDialog>()) return rect.corner_px.y;
   const bool fallen = model.readings.fallen();
-  const std::string text =
-      fallen ? "Fallen: undo removes the last stroke" : ready_text(*check, model.settings.unit);
   const Palette& colours = model.colours();
   const float em = ImGui::GetFontSize();
   const Verdict verdict = fallen ? Verdict::not_ready : check->verdict();

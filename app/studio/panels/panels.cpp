@@ -291,17 +291,10 @@ void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size
 namespace {
 
 /// Whether it appeared while the present dialog was open, such as the error of a save. It belongs
-/// over the veil then. Call it in the window of the notice.
+/// over the veil then.
 bool answers_dialog(const ViewModel& model, const Notice& notice) {
-  ImGuiStorage& kept = *ImGui::GetStateStorage();
-  const ImGuiID text_id = ImGui::GetID("text"), dialog_id = ImGui::GetID("dialog");
-  const auto text = static_cast<int>(ImGui::GetID(notice.text.c_str()));
-  const auto dialog = static_cast<int>(model.ui.dialog.index());
-  if (kept.GetInt(text_id) != text) {
-    kept.SetInt(text_id, text);
-    kept.SetInt(dialog_id, dialog);
-  }
-  return !model.ui.shows<NoDialog>() && kept.GetInt(dialog_id) == dialog &&
+  const std::size_t dialog = model.ui.dialog.index();
+  return !model.ui.shows<NoDialog>() && notice.dialog.value_or(dialog) == dialog &&
          !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 

@@ -53,7 +53,10 @@ void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect);
 [[nodiscard]] float guide_height();
 /// Draws over the view: the path to follow in the present step.
 void draw_path(const ViewModel& model, const ViewRect& rect);
-/// Whether the pot is ready to print, or why not, at the top of the view. Returns its lower edge.
+/// Whether the pot is ready to print, or why not; empty: there is no pot, or no check yet.
+[[nodiscard]] std::string verdict_text(const Document& document, const Readings& readings,
+                                       LengthUnit unit);
+/// The same at the top of the view. Returns its lower edge.
 float draw_verdict(const ViewModel& model, const ViewRect& rect);
 /// Draws over the view: results of the checks at their places on the pot, and, below `top_px`, the
 /// scale of the wall map.

@@ -56,7 +56,7 @@ void draw_walls(const ViewModel& model, Actions& actions) {
     return faint_text(colours, "No clay on the wheel");
   const bool known = check->proved && !check->fallen;
   wrapped_text(wall_text(*check, model.settings.unit),
-               check->thin()           ? colours.warning
+               check->thin()           ? colours.fault
                : known && check->limit ? colours.good
                                        : ImGui::GetStyleColorVec4(ImGuiCol_Text));
   if (check->limit && ImGui::IsItemHovered())

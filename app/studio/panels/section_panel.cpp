@@ -18,7 +18,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr float kLeastHeightEm = 11.0f;
+constexpr float kLeastHeightEm = 8.0f, kUsualHeightEm = 11.0f;
 constexpr std::array kParts = {"Half", "Full"};
 
 /// From the profile's plane (rho, y) [mm] to pixels.
@@ -192,24 +192,25 @@ void draw_faults(const PlotArea& area, const Sheet& sheet, const PotCheck& check
   for (const ImVec2& end : {from, to}) draw->AddCircleFilled(end, 0.18f * em, ink);
 }
 
-/// Values at the pointer, as text. Heights of a pot upside down are those from its foot.
-std::string read_out(const PlotArea& area, const Sheet& sheet, bool full, const PotCheck* check,
-                     LengthUnit unit) {
-  if (!ImGui::IsMouseHoveringRect(area.low, area.high)) return "Point here to read values";
+/// Values at the pointer, beside it. Heights of a pot upside down are those from its foot.
+void read_out(const PlotArea& area, const Sheet& sheet, bool full, const PotCheck* check,
+              LengthUnit unit) {
+  if (!ImGui::IsWindowHovered() || !ImGui::IsMouseHoveringRect(area.low, area.high)) return;
   const ImVec2 mouse = ImGui::GetMousePos();
   const double rho = static_cast<double>((mouse.x - sheet.foot.x) / sheet.px_per_mm);
   const double up = static_cast<double>((sheet.foot.y - mouse.y) / sheet.px_per_mm);
   const double y = sheet.turned(up);
-  if (up < 0.0 || (!full && rho < 0.0)) return "Point here to read values";
+  if (up < 0.0 || (!full && rho < 0.0)) return;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text, 0.5f);
   draw->AddLine({area.low.x, mouse.y}, {area.high.x, mouse.y}, ink);
   draw->AddLine({mouse.x, area.low.y}, {mouse.x, area.high.y}, ink);
   std::string text =
-      fmt::format("Radius {}, {} {}", length_text(std::abs(rho), unit),
-                  sheet.turned_mm ? "from the foot" : "height", length_text(y, unit));
-  const auto wall = check != nullptr ? wall_mm_at(*check, y) : std::nullopt;
-  return wall ? text + ", wall " + thickness_text(*wall, unit) : text;
+      fmt::format("Radius {}\n{} {}", length_text(std::abs(rho), unit),
+                  sheet.turned_mm ? "From the foot" : "Height", length_text(y, unit));
+  if (const auto wall = check != nullptr ? wall_mm_at(*check, y) : std::nullopt)
+    text += "\nWall " + thickness_text(*wall, unit);
+  ImGui::SetTooltip("%s", text.c_str());
 }
 
 /// The colours of `match_at`.
@@ -223,13 +224,16 @@ void draw_match_legend(const Palette& colours, LengthUnit unit) {
   part(colours.fault, "farther", true);
 }
 
-/// The rest of the column, so that it scrolls only if it must; at most twice as high as wide.
+/// The rest of the column, so that it scrolls only if it must; at most twice as high as wide. In a
+/// low window the header of the panel below is left to scrolling.
 float plot_height_em(int lines) {
-  const float em = ImGui::GetFontSize(), below = ImGui::GetTextLineHeightWithSpacing();
-  const float room = ImGui::GetContentRegionAvail().y - static_cast<float>(lines) * below -
-                     3.0f * ImGui::GetStyle().ItemSpacing.y;
-  return std::clamp(room / em, kLeastHeightEm,
-                    std::max(kLeastHeightEm, 2.0f * ImGui::GetContentRegionAvail().x / em));
+  const float em = ImGui::GetFontSize(), gap = ImGui::GetStyle().ItemSpacing.y;
+  const float below = static_cast<float>(lines) * ImGui::GetTextLineHeightWithSpacing();
+  const float header = ImGui::GetFrameHeightWithSpacing() + gap;
+  float room_em = (ImGui::GetContentRegionAvail().y - below - 3.0f * gap) / em;
+  if (room_em - header / em >= kUsualHeightEm) room_em -= header / em;
+  const float most_em = 2.0f * ImGui::GetContentRegionAvail().x / em;
+  return std::clamp(room_em, kLeastHeightEm, std::max(kLeastHeightEm, most_em));
 }
 
 }  // namespace
@@ -240,7 +244,7 @@ void draw_section(const ViewModel& model, Actions& actions) {
   if (const int part = choice_row("part", kParts, full ? 1 : 0); part >= 0)
     actions.emplace_back(SetFullSection{part == 1});
   const PlotArea area =
-      begin_plot(plot_height_em(model.readings.fallen() || model.ui.target ? 2 : 1));
+      begin_plot(plot_height_em(model.readings.fallen() || model.ui.target ? 1 : 0));
   const ClayStack* stack = model.readings.stack();
   if (stack == nullptr || stack->size() == 0)
     return plot_text(area, Corner::upper_left, "No clay on the wheel", colours.faint);
@@ -264,9 +268,8 @@ void draw_section(const ViewModel& model, Actions& actions) {
                 model.settings.unit);
   if (check != nullptr) draw_faults(area, sheet, *check, colours);
   if (const auto tool = model.scene.tool_view(model)) draw_tool_at(*tool, upright, colours);
-  const std::string words = read_out(area, sheet, full, check, model.settings.unit);
+  read_out(area, sheet, full, check, model.settings.unit);
   draw->PopClipRect();
-  faint_text(colours, words);
   if (off != nullptr && !model.settings.wall_map) draw_match_legend(colours, model.settings.unit);
   if (model.readings.fallen()) faint_text(colours, "Shown as it stood before the fall.");
 }

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array kShapes = {"Sphere", "Ellipse", "Rib", "Custom"};
 constexpr double kUsualLimitN = 5.0;
 
-const char* help_text(ToolMode mode) {
+const char* help_text(ToolMode mode, bool fallen) {
   switch (mode) {
     case ToolMode::press:
       return "Displaces clay and keeps its volume. Hold Ctrl to trim.";
@@ -35,7 +35,8 @@ const char* help_text(ToolMode mode) {
     case ToolMode::trim_foot:
       break;
   }
-  return "The pot stands upside down: removes clay from its foot.";
+  return fallen ? "Removes clay from the foot. A fallen pot is not turned over."
+                : "The pot stands upside down: removes clay from its foot.";
 }
 
 /// As a length, or as a part of the wall.
@@ -127,7 +128,7 @@ void draw_shape(const ViewModel& model, ToolChoice tool, Actions& actions) {
 void draw_tool(const ViewModel& model, Actions& actions) {
   const bool held = model.stroke.by_hand();
   const ToolSpec used = model.tool_in_use();
-  faint_text(model.colours(), help_text(used.mode));
+  faint_text(model.colours(), help_text(used.mode, model.document.fallen()));
   if (held) draw_next_tool(model, used);
   if (cuts_level(used.mode)) return;
   ToolChoice tool = model.settings.tool;

@@ -349,7 +349,7 @@ void fill_row(float y, float from, float to, ImVec4 colour) {
 
 }  // namespace
 
-void begin_dialog(const char* id, const ViewRect& rect, float width_em) {
+void begin_dialog(const char* id, const ViewRect& rect, float width_em, float steady_em) {
   const float em = ImGui::GetFontSize();
   const ImVec2 low(rect.corner_px.x, rect.corner_px.y);
   const ImVec2 high(low.x + rect.size_px.x, low.y + rect.size_px.y);
@@ -357,7 +357,12 @@ void begin_dialog(const char* id, const ViewRect& rect, float width_em) {
   const float room = ImGui::GetIO().DisplaySize.x;
   const float width = std::min(width_em * em, room);
   const float middle = width > rect.size_px.x ? 0.5f * room : 0.5f * (low.x + high.x);
-  ImGui::SetNextWindowPos({middle, 0.5f * (low.y + high.y)}, ImGuiCond_Always, {0.5f, 0.5f});
+  const float y = 0.5f * (low.y + high.y);
+  if (steady_em > 0.0f)
+    ImGui::SetNextWindowPos({middle, std::max(low.y, y - 0.5f * steady_em * em)}, ImGuiCond_Always,
+                            {0.5f, 0.0f});
+  else
+    ImGui::SetNextWindowPos({middle, y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({width, 0.0f});  // as high as its content, at most as the view
   ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, rect.size_px.y});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);

@@ -95,8 +95,8 @@ inline constexpr float kOverView = 0.82f;
 void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImVec4& colour);
 
 /// Begins a window in the middle of the dimmed view, as high as its content. Call ImGui::End() to
-/// end it.
-void begin_dialog(const char* id, const ViewRect& rect, float width_em);
+/// end it. `steady_em`: where more or less content must not move its top, its usual height.
+void begin_dialog(const char* id, const ViewRect& rect, float width_em, float steady_em = 0.0f);
 
 /// The part of a dialog between its title and its buttons. Where the view is too low for all of it,
 /// it scrolls, so that the buttons stay in sight. Arrow keys go through its controls. `width_px` 0:

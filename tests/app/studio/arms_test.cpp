@@ -109,6 +109,25 @@ TEST_F(Arms, RecordedPosesReplayToEveryPot) {
   EXPECT_NE(*again.pot(1).value(), *again.pot(0).value());
 }
 
+/// What an arm can render is a matter of that arm; the stiffness of the work is the user's choice.
+TEST_F(Arms, TheWorkKeepsItsStiffness) {
+  constexpr double kTooStiff = 5.0;  // N/mm^2
+  apply(state(), SetStiffness{kTooStiff});
+  ArmScript& arm = arms_.emplace_back();
+  plug_and_engage(arm);
+  arm.goal_mm = 47.9;
+  play("wait 0.6\nexpect contact yes\n");
+  EXPECT_GT(arm.last_force_n, 0.0);
+  state().stroke.release();
+  const auto& record = state().document.work().record();
+  ASSERT_EQ(record.nodes.size(), 2u);
+  EXPECT_EQ(record.scenes.at(record.nodes[1].scene).force->stiffness_n_per_mm2, kTooStiff);
+  EXPECT_EQ(state().document.stiffness(), kTooStiff);
+  history::Work again = history::Work::open(record).value();
+  EXPECT_EQ(write_pot(state().document.pot(), PotEncoding::cbor),
+            write_pot(*again.pot().value(), PotEncoding::cbor));
+}
+
 TEST_F(Arms, MouseReplacesALostArmUntilItReturns) {
   ArmScript& arm = arms_.emplace_back();
   plug_and_engage(arm);

@@ -26,6 +26,40 @@ TEST_F(ActionsTest, WallsAndExportHaveOneProcess) {
   EXPECT_EQ(of_export(), state.settings.process);
 }
 
+TEST_F(ActionsTest, ThePreviewIsOfTheChoicesAndThePotOnTheWheel) {
+  const auto previews = [this] {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = log.find("export previewed", at)) != std::string::npos; ++at)
+      ++count;
+    return count;
+  };
+  apply(state, ShowDialog{DialogKind::export_files});
+  update(state);
+  ASSERT_EQ(previews(), 1u) << state.ui.exporting.problem;
+  const double lump_g = state.ui.exporting.preview->weight_g;
+  ExportChoices choices = state.ui.exporting.choices;
+  for (const char letter : {'j', 'u', 'g'}) {
+    choices.name += letter;
+    apply(state, EditExport{choices});
+    update(state);
+  }
+  EXPECT_EQ(previews(), 1u) << "a name does not change the solid";
+  choices.tolerance_mm = 0.1;
+  apply(state, EditExport{choices});
+  update(state);
+  EXPECT_EQ(previews(), 2u);
+  // An arm may change the pot while the dialog is open.
+  SceneSpec trimming = test::small_scene(8.0, ToolMode::trim);
+  auto begun = state.document.begin_stroke(trimming);
+  ASSERT_TRUE(begun);
+  test::record(test::press_stroke(1), *begun->sink);
+  ASSERT_TRUE(state.document.end_stroke(std::nullopt, history::Recording::one_stroke));
+  update(state);
+  EXPECT_EQ(previews(), 3u);
+  ASSERT_TRUE(state.ui.exporting.preview) << state.ui.exporting.problem;
+  EXPECT_LT(state.ui.exporting.preview->weight_g, lump_g);
+}
+
 TEST_F(ActionsTest, APotInPartsIsNotExportedAndTheDialogSaysSo) {
   auto parted = test::cup_rings();
   for (std::size_t i = 80; i < parted.size(); ++i)
@@ -73,6 +107,25 @@ TEST_F(ActionsTest, AnExportThatFailsALimitIsAWarning) {
   update(state);
   EXPECT_EQ(exporting.grade, Grade::note) << exporting.result;
   EXPECT_EQ(exporting.result.find("failed"), std::string::npos) << exporting.result;
+}
+
+/// Ended with the program, an export would leave no file.
+TEST_F(ActionsTest, QuittingWaitsForAnExport) {
+  apply(state, ShowDialog{DialogKind::export_files});
+  ExportChoices choices = state.ui.exporting.choices;
+  choices.folder = folder.path().string();
+  apply(state, EditExport{choices});
+  apply(state, WriteExport{true});
+  apply(state, CloseDialog{});
+  apply(state, Quit{});
+  EXPECT_FALSE(state.done);
+  EXPECT_TRUE(state.ui.shows<ExportDialog>()) << "it shows the progress, and can be cancelled";
+  ASSERT_TRUE(state.ui.notices.answer());
+  EXPECT_EQ(state.ui.notices.answer()->grade, Grade::warning);
+  update(state);
+  ASSERT_EQ(state.ui.exporting.written.size(), 1u) << state.ui.exporting.problem;
+  apply(state, Quit{});
+  EXPECT_TRUE(state.done);
 }
 
 TEST_F(ActionsTest, TheOutcomeIsThatOfTheChoices) {

@@ -78,6 +78,18 @@ class Panels : public ::testing::Test {
       ImGui::End();
     };
   }
+  /// The text that a panel shows.
+  template <class Panel>
+  std::string text_of(Panel panel) {
+    std::string text;
+    (void)frame(in_window([&](const ViewModel& model, Actions& actions) {
+      ImGui::LogToBuffer();
+      panel(model, actions);
+      text = ImGui::GetCurrentContext()->LogBuffer.c_str();
+      ImGui::LogFinish();
+    }));
+    return text;
+  }
   static constexpr ViewRect kView{{100.0f, 50.0f}, {800.0f, 600.0f}};
 
   StillHost host;
@@ -161,9 +173,10 @@ TEST_F(Panels, EnterSavesUnderTheTypedName) {
 
 /// Such as that of a save; a banner from before the dialog stays behind it.
 TEST_F(Panels, TheErrorOfADialogIsOverItsVeil) {
-  const auto draw = [](const ViewModel& model, Actions& actions) {
+  const auto draw = [this](const ViewModel& model, Actions& actions) {
     draw_dialog(model, actions, kView);
     draw_banners(model, actions, kView, 40.0f);
+    update(state);
   };
   const auto in_front = [](const char* name) {
     return ImGui::GetCurrentContext()->Windows.back() == ImGui::FindWindowByName(name);
@@ -176,6 +189,23 @@ TEST_F(Panels, TheErrorOfADialogIsOverItsVeil) {
   report(state, {ErrorKind::io, "cannot save"});
   for (int i = 0; i < 3; ++i) (void)frame(draw);
   EXPECT_TRUE(in_front("##answer"));
+}
+
+/// The same text may answer another dialog later.
+TEST_F(Panels, TheSameErrorIsOverTheVeilOfAnyDialog) {
+  const auto draw = [this](const ViewModel& model, Actions& actions) {
+    draw_dialog(model, actions, kView);
+    draw_banners(model, actions, kView, 40.0f);
+    update(state);
+  };
+  for (const Dialog& dialog : {Dialog(OpenDialog{"a.work"}), Dialog(SaveDialog{"a.work", {}})}) {
+    state.ui.dialog = dialog;
+    for (int i = 0; i < 3; ++i) (void)frame(draw);
+    report(state, {ErrorKind::io, "no room"});
+    for (int i = 0; i < 3; ++i) (void)frame(draw);
+    EXPECT_EQ(ImGui::GetCurrentContext()->Windows.back(), ImGui::FindWindowByName("##answer"));
+    apply(state, CloseNotice{});
+  }
 }
 
 /// The list of choices is no stop between the arrow keys and its controls.
@@ -233,6 +263,28 @@ TEST_F(Panels, ADialogThatFitsHasNoScrollbar) {
   EXPECT_LT((*body)->Size.y, kLarge.size_px.y) << "it fits";
   EXPECT_FALSE((*body)->ScrollbarY);
   EXPECT_EQ((*body)->ScrollMax.y, 0.0f);
+}
+
+/// Some choices have further rows. No control moves from under the pointer when they appear.
+TEST_F(Panels, TheTopOfTheExportStandsStill) {
+  constexpr ViewRect kLarge{{0.0f, 0.0f}, {1280.0f, 744.0f}};
+  ImGui::GetIO().DisplaySize = {1280.0f, 800.0f};
+  const auto dialog = [&](const ViewModel& model, Actions& actions) {
+    draw_dialog(model, actions, kLarge);
+  };
+  const auto shown = [&](solid::Smoothing smoothing) {
+    ExportChoices choices = state.ui.exporting.choices;
+    choices.smoothing = smoothing;
+    apply(state, EditExport{choices});
+    for (int i = 0; i < 4; ++i) (void)frame(dialog);
+    const ImGuiWindow& window = *ImGui::FindWindowByName("##export");
+    EXPECT_LE(window.Pos.y + window.Size.y, kLarge.size_px.y);
+    return ImVec2(window.Pos.y, window.Size.y);
+  };
+  apply(state, ShowDialog{DialogKind::export_files});
+  const ImVec2 fair = shown(solid::Smoothing::fair), exact = shown(solid::Smoothing::exact);
+  EXPECT_LT(exact.y, fair.y) << "without the row of the smoothing length";
+  EXPECT_EQ(exact.x, fair.x);
 }
 
 /// The middle of a logarithmic slider is the geometric mean of its ends, whatever the unit.
@@ -359,9 +411,10 @@ class FiguresAtTool : public Panels {
     state.readings.update(state.document, state.stroke, wanted_of(state.settings, state.ui), 0,
                           [](std::string_view) {});
   }
-  std::vector<std::string> figures(glm::dvec3 place_mm) {
+  std::vector<std::string> figures(glm::dvec3 place_mm, bool inside = false) {
     render::ToolView tool;
     tool.place_mm = place_mm;
+    tool.inside = inside;
     return figures_at(view_model(state), tool);
   }
 };
@@ -381,6 +434,29 @@ TEST_F(FiguresAtTool, AtAFootAreThoseOfThePotUpsideDown) {
             (std::vector<std::string>{"floor 10.0 mm", "radius 12.0 mm", "from the foot 3.0 mm"}));
   EXPECT_EQ(figures({12.0, 64.0, 0.0}).back(), "above the foot 4.0 mm");
   EXPECT_EQ(figures({100.0, 57.0, 0.0}).front(), "radius 100.0 mm") << "beside the foot";
+}
+
+TEST_F(FiguresAtTool, TheFloorIsTheClayBelowTheBore) {
+  EXPECT_EQ(figures({5.0, 20.0, 0.0}, true).at(1), "floor 10.0 mm");
+  // A hollow of 3 mm is cut into the foot.
+  std::vector<Ring> rings(6, Ring{quanta_from_radius(30.0), quanta_from_radius(15.0)});
+  rings.resize(20, Ring{quanta_from_radius(30.0), 0});
+  rings.resize(120, Ring{quanta_from_radius(30.0), quanta_from_radius(24.0)});
+  put(std::move(rings));
+  EXPECT_EQ(figures({5.0, 20.0, 0.0}, true).at(1), "floor 7.0 mm");
+}
+
+TEST_F(Panels, TheFootOfAFallenPotIsNotTrimmed) {
+  apply(state, SetToolMode{ToolMode::trim_foot});
+  const auto tool = [](const ViewModel& model, Actions& actions) { draw_tool(model, actions); };
+  EXPECT_NE(text_of(tool).find("stands upside down"), std::string::npos) << text_of(tool);
+  Pot pot = state.document.pot();
+  pot.collapse = Collapse{.failed_ring = 10};
+  apply(state, BeginWork{small_scene(), std::make_shared<const Pot>(pot), {}});
+  apply(state, SetToolMode{ToolMode::trim_foot});
+  ASSERT_TRUE(state.document.fallen());
+  EXPECT_EQ(text_of(tool).find("stands upside down"), std::string::npos) << text_of(tool);
+  EXPECT_NE(text_of(tool).find("fallen"), std::string::npos) << text_of(tool);
 }
 
 TEST_F(FiguresAtTool, TheDiameterIsThatOfTheExport) {

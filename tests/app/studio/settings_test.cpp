@@ -216,6 +216,30 @@ TEST(SettingsFile, SavesChangesAtMostOnceASecond) {
   EXPECT_EQ(test::read_text(path), write_settings(changed()));
 }
 
+/// `--theme` and `--scale` are for one window.
+TEST(SettingsFile, StoresTheLookOfTheCommandLineOnlyWhenTheUserChangesIt) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("studio.json");
+  const auto stored = [&] { return load_settings(path).settings; };
+  Settings window;
+  window.theme = Theme::light;
+  window.scale = 2.0f;
+  ASSERT_EQ(Settings().theme, Theme::dark);
+  SettingsFile file(path, Settings(), window);
+  window.wall_map = true;
+  ASSERT_TRUE(file.save(window));
+  EXPECT_TRUE(stored().wall_map);
+  EXPECT_EQ(stored().theme, Theme::dark);
+  EXPECT_EQ(stored().scale, 1.0f);
+  window.scale = 1.5f;
+  ASSERT_TRUE(file.save(window));
+  EXPECT_EQ(stored().theme, Theme::dark);
+  EXPECT_EQ(stored().scale, 1.5f);
+  window.scale = 2.0f;
+  ASSERT_TRUE(file.save(window));
+  EXPECT_EQ(stored().scale, 2.0f) << "now by the user";
+}
+
 TEST(SettingsFile, ReportsAFailureOnce) {
   const test::ScratchFolder folder;
   test::write_text(folder.file("file"), "");

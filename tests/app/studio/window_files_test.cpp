@@ -143,6 +143,7 @@ TEST_F(Window, FallenPotIsShownAndExportedButNotThrown) {
   const Ran ran =
       run("open FOLDER/fallen.pot.json\nexpect fallen yes\nexpect can_undo no\nkey 1\n"
           "wait 0.1\nexpect proved yes\n"
+          "expect verdict \"Fallen: no stroke is possible, but it can be exported\"\n"
           "screenshot FOLDER/fallen.png\npoint 50 10\npress left\nexpect throwing no\n"
           "expect banner \"The clay has fallen: no stroke is possible, but it can be "
           "exported\"\nrelease left\n"

@@ -216,8 +216,8 @@ TEST_F(Window, AFallIsShownAndUndone) {
   // Until the neck fails.
   for (int i = 0; i < 40; ++i) script += "wait 0.05\n";
   script +=
-      "release left\nhold\nexpect fallen yes\nwait 0.1\nexpect proved yes\nexpect thin no\nkey "
-      "1\nscreenshot FOLDER/fell.png\n"
+      "release left\nhold\nexpect fallen yes\nwait 0.1\nexpect proved yes\nexpect thin no\n"
+      "expect verdict \"Fallen: undo removes the last stroke\"\nkey 1\nscreenshot FOLDER/fell.png\n"
       "do file.export\nwait 0.1\nexpect triangles above 100\nkey Esc\n"
       "point 45 30\npress left\nrelease left\nexpect throwing no\n"
       "expect banner \"The clay has fallen: undo removes the last stroke\"\n"
