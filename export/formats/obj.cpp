@@ -29,6 +29,14 @@ struct VertexList {
   std::size_t bad_line = 0;  ///< the first that names one which cannot be; 0: none
 };
 
+/// Lines of one kind, and the first of them.
+struct Lines {
+  std::size_t count = 0, first = 0;
+  void add(std::size_t line) {
+    if (count++ == 0) first = line;
+  }
+};
+
 /// A face's corner: "v", "v/vt", "v//vn" or "v/vt/vn". Some programs write the strokes without the
 /// numbers.
 struct CornerWords {
@@ -54,7 +62,7 @@ CornerWords split_corner(std::string_view word) {
 class ObjReader {
  public:
   ObjReader(ByteStream& text, std::string_view name, const ReadOptions& options)
-      : scanner_(text, name, LineRule::backslash_continues, kLongLineKib),
+      : scanner_(text, name, LineRule::comments_and_continuation, kLongLineKib),
         name_(name),
         options_(options) {}
 
@@ -91,8 +99,6 @@ class ObjReader {
     } else if (keyword == "vn") {
       read_numbers(3, 3);
       count(normals_);
-    } else if (keyword.starts_with('#')) {
-      scanner_.skip_comment();
     } else if (std::ranges::find(kPassedOver, keyword) != kPassedOver.end()) {
       scanner_.skip_line();
     } else {
@@ -113,11 +119,8 @@ class ObjReader {
                          is("f") || is("vt") || is("vn");
     if (begun && (surface || mesh_.triangles.empty()))
       return scanner_.fail_expected("a statement of a polygon mesh", keyword);
-    StrayLines& lines = begun ? trailing_ : header_;
-    if (lines.count++ == 0) {
-      lines.first = scanner_.line();
-      if (begun) trailing_word_ = shown_word(keyword);
-    }
+    if (begun && trailing_.count == 0) trailing_word_ = shown_word(keyword);
+    (begun ? trailing_ : header_).add(scanner_.line());
     scanner_.skip_line();
   }
 
@@ -128,15 +131,16 @@ class ObjReader {
       point[axis] = scanner_.coordinate(scanner_.word_in_line());
     }
     if (read_numbers(0, 3) == 2) scanner_.fail("expected v with 3, 4 or 6 numbers, found 5");
+    if (scanner_.at_comment()) commented_.add(scanner_.line());
     count(points_);
     mesh_.points.emplace_back(point + 0.0F);  // -0 + 0 is 0
   }
 
-  /// Reads finite numbers up to the end of the line; returns their count.
+  /// Reads numbers up to the end of the line; returns their count.
   std::size_t read_numbers(std::size_t fewest, std::size_t most) {
     std::size_t found = 0;
     for (auto word = scanner_.word_in_line(); !word.empty(); word = scanner_.word_in_line()) {
-      scanner_.finite_number(word);
+      scanner_.unused_number(word);
       if (++found > most) scanner_.fail_expected("the end of the line", word);
     }
     if (found < fewest) scanner_.fail_expected("a number", {});
@@ -165,8 +169,9 @@ class ObjReader {
     if (mesh_.triangles.size() + corners_.size() > kMaxTriangles + 2)
       scanner_.fail(expected_at_most(kMaxTriangles, "triangles"));
     if (scanner_.fault()) return;
-    if (odd && odd_faces_++ == 0) odd_face_line_ = line;
-    if (corners_.size() > 4 && refused_faces_++ == 0) refused_face_line_ = line;
+    if (odd) odd_faces_.add(line);
+    if (corners_.size() > 4) refused_faces_.add(line);
+    if (scanner_.at_comment()) commented_.add(line);
     polygons_.add(corners_, mesh_);
   }
 
@@ -174,7 +179,7 @@ class ObjReader {
     if (!options_.repair)
       return scanner_.fail("expected a face of at least 3 corners, found " +
                            std::to_string(corners_.size()) + "; " + kByRepair + " leaves it out");
-    if (short_faces_++ == 0) short_face_line_ = line;
+    short_faces_.add(line);
   }
 
   std::uint32_t resolve_point(std::string_view word) {
@@ -208,47 +213,46 @@ class ObjReader {
 
   void note_faults() {
     if (options_.slicer_reads_less != nullptr)
-      *options_.slicer_reads_less = odd_faces_ + refused_faces_ > 0;
+      *options_.slicer_reads_less = odd_faces_.count + refused_faces_.count + commented_.count > 0;
     if (options_.notes == nullptr) return;
-    const auto note = [this](std::size_t line, std::string what) {
-      options_.notes->push_back("line " + std::to_string(line) + ": " + std::move(what));
-    };
     if (header_.count > 0)
       options_.notes->push_back(stray_lines_note(header_.first, header_.count, "before"));
     if (trailing_.count > 0)
       options_.notes->push_back(stray_lines_note(trailing_.first, trailing_.count, "after"));
+    scanner_.note_not_finite(options_.notes);
     for (const VertexList* list : {&textures_, &normals_}) {
       const bool beyond = list->highest_used > list->count;
       if (list->bad_line == 0 && !beyond) continue;
       note(list->bad_line > 0 ? list->bad_line : list->line_of_highest,
            "a face names a " + std::string(list->keyword) + " that the file does not define");
     }
-    if (short_faces_ > 0)
-      note(short_face_line_, counted(short_faces_, "face") + " of fewer than 3 corners left out");
-    if (odd_faces_ > 0)
-      note(odd_face_line_, counted(odd_faces_, "face") +
-                               " with a slash at the end of a corner, or on several lines: "
-                               "PrusaSlicer does not read such faces");
-    if (refused_faces_ > 0)
-      note(refused_face_line_, counted(refused_faces_, "face") +
-                                   " of more than 4 corners: PrusaSlicer refuses such a file; " +
-                                   kByRepair + " writes triangles");
+    note(short_faces_, "face", " of fewer than 3 corners left out");
+    note(
+        odd_faces_, "face",
+        " with a slash at the end of a corner, or on several lines: PrusaSlicer does not read such "
+        "faces");
+    const std::string refused =
+        std::string(": PrusaSlicer refuses such a file; ").append(kByRepair).append(" writes ");
+    note(refused_faces_, "face", " of more than 4 corners" + refused + "triangles");
+    note(commented_, "line", " of points or faces with a comment" + refused + "none");
+  }
+
+  void note(std::size_t line, const std::string& what) {
+    options_.notes->push_back("line " + std::to_string(line) + ": " + what);
+  }
+  void note(const Lines& lines, std::string_view noun, std::string_view what) {
+    if (lines.count > 0) note(lines.first, counted(lines.count, noun).append(what));
   }
 
   TextScanner scanner_;
   std::string_view name_;
   ReadOptions options_;
-  /// Faces that PrusaSlicer 2.5 passes over without a message; the first.
-  std::size_t odd_faces_ = 0, odd_face_line_ = 0;
-  /// Faces of more than 4 corners: PrusaSlicer 2.5 refuses the whole file; the first.
-  std::size_t refused_faces_ = 0, refused_face_line_ = 0;
-  /// Faces of fewer than 3 corners, left out for repairs; the first.
-  std::size_t short_faces_ = 0, short_face_line_ = 0;
-  /// Unknown statements, and the line of the first.
-  struct StrayLines {
-    std::size_t count = 0, first = 0;
-  };
-  StrayLines header_, trailing_;
+  Lines header_, trailing_;  ///< unknown statements before and after the mesh
+  Lines short_faces_;        ///< of fewer than 3 corners, left out for repairs
+  Lines odd_faces_;          ///< PrusaSlicer 2.5 passes over them without a message
+  /// PrusaSlicer 2.5 refuses the whole file: faces of more than 4 corners, points and faces with a
+  /// comment on their line.
+  Lines refused_faces_, commented_;
   std::string trailing_word_;  ///< the first of them, for a message
   VertexList points_{"v"};
   VertexList textures_{"vt"};

@@ -9,7 +9,6 @@
 #include "export/formats/text_scanner.hpp"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace clay::solid::inline formats {
@@ -21,43 +20,29 @@ constexpr std::size_t kLeastPointBytes = 6, kLeastFaceBytes = 8;
 class OffReader {
  public:
   OffReader(ByteStream& text, std::string_view name, std::vector<std::string>* notes)
-      : scanner_(text, name, LineRule::plain), name_(name), size_(text.size()), notes_(notes) {}
+      : scanner_(text, name, LineRule::comments), name_(name), size_(text.size()), notes_(notes) {}
 
   Result<TriangleMesh> read() {
-    const std::string_view begin = word();
-    const std::string_view first = read_keyword(begin) ? word() : begin;
+    const std::string_view begin = scanner_.word();
+    const std::string_view first = read_keyword(begin) ? scanner_.word() : begin;
     if (first == "BINARY") scanner_.fail("expected OFF as text, found binary OFF");
     const std::size_t points = count(first, kLeastPointBytes, "vertices");
-    const std::size_t faces = count(word(), kLeastFaceBytes, "faces");
-    (void)scanner_.whole_number(word());  // edges, which many programs leave 0
+    const std::size_t faces = count(scanner_.word(), kLeastFaceBytes, "faces");
+    (void)scanner_.whole_number(scanner_.word());  // edges, which many programs leave 0
     if (scanner_.fault()) return tl::make_unexpected(*scanner_.fault());
     mesh_.points.reserve(points);
     for (std::size_t i = 0; i < points && !scanner_.fault(); ++i) read_point();
     for (std::size_t i = 0; i < faces && !scanner_.fault(); ++i) read_face();
-    if (const auto rest = word(); !rest.empty())
+    if (const auto rest = scanner_.word(); !rest.empty())
       scanner_.fail_expected("the end of the file after its faces", rest);
     if (scanner_.fault()) return tl::make_unexpected(*scanner_.fault());
+    scanner_.note_not_finite(notes_);
     polygons_.split(mesh_, notes_);
     share_equal_points(mesh_, notes_);
     return check_facet_count(mesh_.triangles.size(), name_).map([&] { return std::move(mesh_); });
   }
 
  private:
-  /// The next word that is not in a comment. A comment may follow a number without a space.
-  std::string_view word() {
-    for (;;) {
-      if (std::exchange(in_comment_, false)) scanner_.skip_comment();
-      const std::string_view found = before_comment(scanner_.word());
-      if (!found.empty() || !in_comment_) return found;
-    }
-  }
-
-  std::string_view before_comment(std::string_view found) {
-    const std::size_t end = found.find('#');
-    in_comment_ = end != found.npos;
-    return found.substr(0, end);
-  }
-
   /// Returns false if the file begins with its counts: the keyword is optional.
   bool read_keyword(std::string_view found) {
     if (is_off_count(found)) {
@@ -83,21 +68,21 @@ class OffReader {
   /// Three coordinates; normals, colours and texture coordinates may follow on the line.
   void read_point() {
     glm::vec3 point;
-    for (int axis = 0; axis < 3; ++axis) point[axis] = scanner_.coordinate(word());
+    for (int axis = 0; axis < 3; ++axis) point[axis] = scanner_.coordinate(scanner_.word());
     skip_numbers();
     mesh_.points.emplace_back(point + 0.0F);  // -0 + 0 is 0
   }
 
   /// A number of corners, their indices, and perhaps a colour on the line.
   void read_face() {
-    const long long corners = scanner_.whole_number(word());
+    const long long corners = scanner_.whole_number(scanner_.word());
     if (corners < 3 || corners > static_cast<long long>(kMaxFaceCorners))
       return scanner_.fail("expected a face of 3 to " + std::to_string(kMaxFaceCorners) +
                            " corners, found " + std::to_string(corners));
     if (mesh_.triangles.size() + static_cast<std::size_t>(corners) > kMaxTriangles + 2)
       return scanner_.fail(expected_at_most(kMaxTriangles, "triangles"));
     corners_.clear();
-    for (long long i = 0; i < corners; ++i) corners_.push_back(index(word()));
+    for (long long i = 0; i < corners; ++i) corners_.push_back(index(scanner_.word()));
     skip_numbers();
     if (scanner_.fault()) return;
     polygons_.add(corners_, mesh_);
@@ -113,11 +98,8 @@ class OffReader {
   }
 
   void skip_numbers() {
-    while (!in_comment_) {
-      const std::string_view found = before_comment(scanner_.word_in_line());
-      if (found.empty()) return;
-      (void)scanner_.finite_number(found);
-    }
+    for (auto found = scanner_.word_in_line(); !found.empty(); found = scanner_.word_in_line())
+      scanner_.unused_number(found);
   }
 
   TextScanner scanner_;
@@ -127,7 +109,6 @@ class OffReader {
   TriangleMesh mesh_;
   PolygonFaces polygons_;
   std::vector<std::uint32_t> corners_;
-  bool in_comment_ = false;  // the rest of this line is one
 };
 
 }  // namespace

@@ -55,6 +55,7 @@ class BinaryNumbers {
                  .value();
   }
   [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
+  static void add_notes(std::vector<std::string>*) {}  // numbers that are not needed are not read
 
  private:
   std::string_view take(std::size_t bytes) {
@@ -113,12 +114,12 @@ class TextNumbers {
  public:
   TextNumbers(ByteStream& text, const Header& header, std::string_view name)
       : scanner_(text, name, LineRule::plain) {
-    for (std::size_t line = 0; line < header.lines; ++line) scanner_.skip_comment();
+    for (std::size_t line = 0; line < header.lines; ++line) scanner_.skip_line();
   }
 
   float coordinate(Number) { return scanner_.coordinate(scanner_.word()); }
   long long whole(Number) { return scanner_.whole_number(scanner_.word()); }
-  void skip(Number) { (void)scanner_.finite_number(scanner_.word()); }
+  void skip(Number) { scanner_.unused_number(scanner_.word()); }
   void begin(std::string_view, std::uint64_t) {}
   void fail(const std::string& what) { scanner_.fail(what); }
   void expect_end() {
@@ -126,6 +127,7 @@ class TextNumbers {
       scanner_.fail_expected("the end of the file after its elements", rest);
   }
   [[nodiscard]] const std::optional<Error>& fault() const { return scanner_.fault(); }
+  void add_notes(std::vector<std::string>* notes) const { scanner_.note_not_finite(notes); }
 
  private:
   TextScanner scanner_;
@@ -182,6 +184,7 @@ class BodyReader {
     for (const Element& element : header_.elements) read_all(element);
     numbers_.expect_end();
     if (numbers_.fault()) return tl::make_unexpected(*numbers_.fault());
+    numbers_.add_notes(notes);
     polygons_.split(mesh_, notes);
     share_equal_points(mesh_, notes);
     return check_facet_count(mesh_.triangles.size(), name).map([&] { return std::move(mesh_); });

@@ -44,6 +44,7 @@ class StlTextReader {
     while (read_solid()) {
     }
     if (scanner_.fault()) return tl::make_unexpected(*scanner_.fault());
+    scanner_.note_not_finite(options_.notes);
     return check_facet_count(mesh_.triangles.size(), name_).map([&] { return std::move(mesh_); });
   }
 
@@ -71,7 +72,7 @@ class StlTextReader {
     if (mesh_.triangles.size() == kMaxTriangles)
       scanner_.fail(expected_at_most(kMaxTriangles, "facets"));
     scanner_.expect("normal");
-    for (int axis = 0; axis < 3; ++axis) scanner_.finite_number(scanner_.word());
+    for (int axis = 0; axis < 3; ++axis) scanner_.unused_number(scanner_.word());
     scanner_.expect("outer");
     scanner_.expect("loop");
     Corners corners;

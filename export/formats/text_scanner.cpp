@@ -106,7 +106,7 @@ std::string_view TextScanner::word() {
   for (;;) {
     const std::string_view found = word_in_line();
     if (!found.empty() || at_ >= text_.size()) return found;
-    leave_line(at_);
+    leave_line();
   }
 }
 
@@ -115,19 +115,22 @@ std::string_view TextScanner::word_in_line() {
   skip_blanks();
   const std::size_t begin = at_;
   while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '\n' &&
-         continuation_length() == 0) {
+         continuation_length() == 0 && !at_comment()) {
     ++at_;
   }
   return text_.substr(begin, at_ - begin);
 }
 
+bool TextScanner::at_comment() const noexcept {
+  if (rule_ == LineRule::plain || at_ >= text_.size() || text_[at_] != '#') return false;
+  return at_ == 0 || text_[at_ - 1] != '.';  // some programs write NaN as 1.#IND
+}
+
 void TextScanner::skip_line() {
   while (!word_in_line().empty()) {
   }
-  leave_line(at_);
+  leave_line();
 }
-
-void TextScanner::skip_comment() { leave_line(std::min(text_.find('\n', at_), text_.size())); }
 
 void TextScanner::skip_blanks() {
   while (at_ < text_.size()) {
@@ -143,8 +146,11 @@ void TextScanner::skip_blanks() {
   }
 }
 
-/// Moves to the next line, if there is one: the last line keeps its number for messages.
-void TextScanner::leave_line(std::size_t newline) {
+/// Moves to the next line, if there is one: the last line keeps its number for messages. A
+/// backslash does not continue a comment: a path in a comment may end with one, and would hide the
+/// next line.
+void TextScanner::leave_line() {
+  const std::size_t newline = std::min(text_.find('\n', at_), text_.size());
   at_ = std::min(newline + 1, text_.size());
   if (at_ < text_.size()) {
     ++line_;
@@ -154,7 +160,7 @@ void TextScanner::leave_line(std::size_t newline) {
 }
 
 std::size_t TextScanner::continuation_length() const noexcept {
-  if (rule_ != LineRule::backslash_continues || text_[at_] != '\\') return 0;
+  if (rule_ != LineRule::comments_and_continuation || text_[at_] != '\\') return 0;
   const std::string_view rest = text_.substr(at_ + 1, 2);
   if (rest.starts_with('\n')) return 2;
   return rest == "\r\n" ? 3 : 0;
@@ -165,11 +171,18 @@ void TextScanner::expect(std::string_view keyword) {
   if (!equal_ignoring_case(found, keyword)) fail_expected(keyword, found);
 }
 
-double TextScanner::finite_number(std::string_view word) {
-  const auto value = parse<double>(word);
-  if (value && std::isfinite(*value)) return *value;
-  fail_expected("a finite number", word);
-  return 0.0;
+void TextScanner::unused_number(std::string_view word) {
+  const auto value = parse<double>(word.substr(0, word.find(".#")));  // as of "-1.#IND"
+  if (!value) return fail_expected("a number", word);
+  const bool finite = std::isfinite(*value) && word.find(".#") == word.npos;
+  if (!finite && not_finite_++ == 0) not_finite_line_ = line_;
+}
+
+void TextScanner::note_not_finite(std::vector<std::string>* notes) const {
+  if (notes == nullptr || not_finite_ == 0) return;
+  notes->push_back("line " + std::to_string(not_finite_line_) + ": NaN or infinity in " +
+                   counted(not_finite_, "number") +
+                   " of normals or other attributes, which are not used");
 }
 
 float TextScanner::coordinate(std::string_view word) {

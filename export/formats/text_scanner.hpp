@@ -12,10 +12,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace clay::solid::inline formats {
 
-enum class LineRule { plain, backslash_continues };
+/// `comments`: a '#' begins a comment, which ends with its line. `comments_and_continuation`: also,
+/// a backslash at the end of a line continues it.
+enum class LineRule { plain, comments, comments_and_continuation };
 
 /// Of lines [KiB]; the longer ones are for formats whose faces may have any number of corners.
 inline constexpr std::size_t kUsualLineKib = 64, kLongLineKib = 16 * 1024;
@@ -30,16 +33,17 @@ class TextScanner {
   /// The next word on this line or a later one; empty at the end of the text. The view is valid
   /// until the next read.
   std::string_view word();
-  /// The next word on this line; empty at its end.
+  /// The next word on this line; empty at its end, and at a comment.
   std::string_view word_in_line();
+  /// Whether the words of this line end at a comment.
+  [[nodiscard]] bool at_comment() const noexcept;
   void skip_line();
-  /// Like `skip_line`, but a backslash does not continue a comment: a path in a comment may end
-  /// with one, and would hide the next line.
-  void skip_comment();
 
   /// Ignores case, because writers differ.
   void expect(std::string_view keyword);
-  double finite_number(std::string_view word);
+  /// A number that does not change the surface, such as a part of a normal: it may be NaN or
+  /// infinite, as some programs write for triangles without area. These are counted.
+  void unused_number(std::string_view word);
   float coordinate(std::string_view word);
   long long whole_number(std::string_view word);
 
@@ -49,12 +53,14 @@ class TextScanner {
   void fail_expected(std::string_view what, std::string_view found);
   [[nodiscard]] const std::optional<Error>& fault() const noexcept { return fault_; }
   [[nodiscard]] std::size_t line() const noexcept { return line_; }
+  /// A note on the unused numbers that are not finite, if there are any; `notes` may be null.
+  void note_not_finite(std::vector<std::string>* notes) const;
 
  private:
   bool next_lines();
   void check_lines(std::size_t line);
   void skip_blanks();
-  void leave_line(std::size_t newline);
+  void leave_line();
   [[nodiscard]] std::size_t continuation_length() const noexcept;
 
   ByteStream& stream_;
@@ -64,6 +70,7 @@ class TextScanner {
   std::size_t most_line_;  ///< bytes
   std::size_t at_ = 0;
   std::size_t line_ = 1;
+  std::size_t not_finite_ = 0, not_finite_line_ = 0;  ///< unused numbers; the first
   std::optional<Error> fault_;
 };
 

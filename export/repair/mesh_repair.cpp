@@ -10,6 +10,7 @@
 #include "export/repair/order_keeping.hpp"
 #include "export/repair/repair_distance.hpp"
 #include "export/repair/shell_turning.hpp"
+#include "export/repair/soup_edges.hpp"
 #include "export/repair/soup_repair.hpp"
 #include "export/repair/stage_report.hpp"
 #include "export/repair/surface_making.hpp"
@@ -23,6 +24,7 @@
 #include <glm/geometric.hpp>
 #include <new>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -98,21 +100,13 @@ Result<void> expect_quick_wraps(const TriangleMesh& soup, const RepairOptions& o
 /// Each edge has as many triangles in one direction as in the other: the mesh bounds solids, and
 /// any opening comes from taking its faces apart, as where two solids share a face.
 bool is_closed(const TriangleMesh& soup) {
-  std::vector<std::pair<std::uint64_t, int>> edges;  // between points, and the direction
-  edges.reserve(3 * soup.triangles.size());
-  for (const auto& t : soup.triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint64_t a = t[i], b = t[(i + 1) % 3];
-      edges.emplace_back(std::min(a, b) << 32 | std::max(a, b), a < b ? 1 : -1);
-    }
-  std::ranges::sort(edges);
-  for (auto it = edges.begin(); it != edges.end();) {
+  bool closed = true;
+  for_each_edge(soup, [&](std::span<const SoupEdge> edges) {
     int sum = 0;
-    const std::uint64_t edge = it->first;
-    for (; it != edges.end() && it->first == edge; ++it) sum += it->second;
-    if (sum != 0) return false;
-  }
-  return true;
+    for (const SoupEdge& edge : edges) sum += direction(soup, edge);
+    closed = closed && sum == 0;
+  });
+  return closed;
 }
 
 /// The union of closed solids that share edges, as the parts of a stacked cup do. No surface joins

@@ -2,6 +2,7 @@
 
 #include "core/cancel.hpp"
 #include "core/parallel_parts.hpp"
+#include "export/repair/soup_edges.hpp"
 #include "export/solid/box_tree.hpp"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 #include <queue>
 #include <span>
 #include <tuple>
@@ -86,6 +88,7 @@ struct Piece {
   bool operator<(const Piece& other) const { return most_mm < other.most_mm; }
 };
 
+double squared(double x) { return x * x; }
 double squared(const glm::dvec3& v) { return glm::dot(v, v); }
 
 double squared_distance(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
@@ -110,11 +113,33 @@ double squared_distance(const glm::dvec3& p, const Corners& triangle) {
       {squared_distance(p, a, b), squared_distance(p, b, c), squared_distance(p, c, a)});
 }
 
+/// The triangle beside each edge of a triangle; at an open edge, the triangle itself.
+class Neighbours {
+ public:
+  explicit Neighbours(const TriangleMesh& mesh) : beside_(mesh.triangles.size()) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) beside_[t].fill(t);
+    for_each_edge(mesh, [&](std::span<const SoupEdge> edges) {
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        const Triangle& t = mesh.triangles[edges[i].triangle];
+        std::size_t c = 0;
+        while (std::minmax(t.at(c), t.at((c + 1) % 3)) != std::minmax(edges[i].low, edges[i].high))
+          ++c;
+        beside_[edges[i].triangle].at(c) = edges[(i + 1) % edges.size()].triangle;
+      }
+    });
+  }
+  [[nodiscard]] const Triangle& of(std::uint32_t t) const { return beside_[t]; }
+
+ private:
+  std::vector<Triangle> beside_;
+};
+
 class Farthest {
  public:
-  explicit Farthest(const TriangleMesh& to) : to_(to), tree_(to) {}
+  Farthest(const TriangleMesh& to, double tolerance_mm)
+      : to_(to), tree_(to), tolerance_mm_(tolerance_mm) {}
 
-  double bound(const std::vector<Corners>& triangles, double tolerance_mm) {
+  double bound(const std::vector<Corners>& triangles) {
     const std::size_t most_pieces =
         std::clamp<std::size_t>(8 * (triangles.size() + to_.triangles.size()), 20'000, 400'000);
     std::priority_queue<Piece> open;
@@ -129,7 +154,7 @@ class Farthest {
     while (!open.empty()) {
       step_of_loop();
       const Piece top = open.top();
-      if (top.most_mm <= 1.02 * least_mm_ + tolerance_mm || ++pieces > most_pieces)
+      if (top.most_mm <= 1.02 * least_mm_ + tolerance_mm_ || ++pieces > most_pieces)
         return top.most_mm;
       open.pop();
       const auto& [a, b, c] = top.corners;
@@ -146,9 +171,10 @@ class Farthest {
   /// largest at a corner.
   Piece piece(const Corners& corners, std::uint32_t hint) {
     const glm::dvec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-    const std::uint32_t nearest = nearest_to(middle, hint);
-    const double at_middle = std::sqrt(squared_distance(middle, corners_of(nearest)));
-    least_mm_ = std::max(least_mm_, at_middle);
+    const Near near = near_to(middle, hint);
+    const std::uint32_t nearest = near.triangle;
+    const double at_middle = std::sqrt(near.mm2);
+    if (near.nearest) least_mm_ = std::max(least_mm_, at_middle);
     double way = 0.0, at_corner2 = 0.0;
     for (const glm::dvec3& corner : corners) {
       way = std::max(way, glm::distance(middle, corner));
@@ -162,33 +188,62 @@ class Farthest {
     return {to_.points[a], to_.points[b], to_.points[c]};
   }
 
-  /// The search begins with the distance to the hint.
-  [[nodiscard]] std::uint32_t nearest_to(const glm::dvec3& p, std::uint32_t hint) const {
-    std::uint32_t nearest = hint;
-    double nearest2 = squared_distance(p, corners_of(hint));
+  /// A triangle of the other mesh, and its squared distance.
+  struct Near {
+    std::uint32_t triangle = 0;
+    double mm2 = 0.0;
+    bool nearest = false;  ///< no other one is nearer
+  };
+
+  /// The search begins at the hint. If many boxes overlap, as those of long thin triangles in one
+  /// plane, it walks over the surface first: where both meshes coincide, it needs no boxes then.
+  [[nodiscard]] Near near_to(const glm::dvec3& p, std::uint32_t hint) {
+    constexpr double kNear = 0.1;  // of the tolerance: near enough
+    Near near{hint, squared_distance(p, corners_of(hint))};
+    if (!neighbours_ && visits_ > 100'000 + 64 * to_.triangles.size()) neighbours_.emplace(to_);
+    if (neighbours_) {
+      walk(p, near);
+      if (near.mm2 <= squared(kNear * tolerance_mm_)) return near;
+    }
+    search(p, near);
+    return near;
+  }
+
+  /// From triangle to triangle, as long as the next one is nearer.
+  void walk(const glm::dvec3& p, Near& near) const {
+    for (std::uint32_t from = UINT32_MAX; from != near.triangle;) {
+      from = near.triangle;
+      for (const std::uint32_t t : neighbours_->of(from))
+        if (const double to_t = squared_distance(p, corners_of(t)); to_t < near.mm2)
+          near = {t, to_t};
+    }
+  }
+
+  void search(const glm::dvec3& p, Near& near) {
     tree_.for_each_near(
         [&](const BoxTree::Box& box) {
           return squared(glm::max(glm::dvec3(0.0), glm::max(box.low - p, p - box.high)));
         },
-        [&] { return nearest2; },
+        [&] { return near.mm2; },
         [&](std::span<const std::uint32_t> triangles) {
-          for (const std::uint32_t t : triangles) {
-            const double to_t = squared_distance(p, corners_of(t));
-            if (to_t >= nearest2) continue;
-            nearest2 = to_t;
-            nearest = t;
-          }
+          visits_ += triangles.size();
+          for (const std::uint32_t t : triangles)
+            if (const double to_t = squared_distance(p, corners_of(t)); to_t < near.mm2)
+              near = {t, to_t};
         });
-    return nearest;
+    near.nearest = true;
   }
 
   const TriangleMesh& to_;
   BoxTree tree_;
+  std::optional<Neighbours> neighbours_;  ///< only if the boxes alone are slow
+  std::uint64_t visits_ = 0;              ///< of triangles, in all searches
+  double tolerance_mm_;
   double least_mm_ = 0.0;  ///< the largest distance found at a point
 };
 
 double change_of(const std::vector<Corners>& changed, const TriangleMesh& to, double tolerance_mm) {
-  return changed.empty() ? 0.0 : Farthest(to).bound(changed, tolerance_mm);
+  return changed.empty() ? 0.0 : Farthest(to, tolerance_mm).bound(changed);
 }
 
 }  // namespace

@@ -18,6 +18,14 @@ struct SoupEdge {
   }
 };
 
+/// 1 if the triangle follows the edge from its low vertex to its high one, otherwise -1.
+inline int direction(const TriangleMesh& mesh, const SoupEdge& edge) {
+  const Triangle& t = mesh.triangles[edge.triangle];
+  for (std::size_t c = 0; c < 3; ++c)
+    if (t.at(c) == edge.low) return t.at((c + 1) % 3) == edge.high ? 1 : -1;
+  return 0;  // no edge of the triangle
+}
+
 /// Calls visit(edges) for each edge of the mesh: one entry per triangle, in ascending order.
 template <class Visit>
 void for_each_edge(const TriangleMesh& mesh, const Visit& visit) {

@@ -2,6 +2,7 @@
 
 #include "export/formats/file_floats.hpp"
 #include "export/repair/crack_welding.hpp"
+#include "export/repair/duplicate_triangles.hpp"
 #include "export/repair/edge_splitting.hpp"
 #include "export/repair/soup_edges.hpp"
 #include "export/solid/disjoint_sets.hpp"
@@ -17,41 +18,6 @@ namespace {
 
 bool finite(const glm::dvec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-/// Whether the orientation of the corners is that of their sorted numbers.
-bool rises(const Triangle& t) { return (t[0] < t[1]) == (t[1] < t[2]) ? t[0] < t[1] : t[2] < t[0]; }
-
-/// Of triangles on the same vertices one is kept if one orientation prevails; if both are equally
-/// frequent they lie back to back, and none is kept.
-void drop_duplicates(TriangleMesh& mesh, std::vector<Repair>& repaired) {
-  const auto key = [&](std::uint32_t t) {
-    Triangle sorted = mesh.triangles[t];
-    std::sort(sorted.begin(), sorted.end());
-    return std::pair(sorted, t);
-  };
-  std::vector<std::pair<Triangle, std::uint32_t>> all;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) all.push_back(key(t));
-  std::sort(all.begin(), all.end());
-  std::vector<bool> drop(mesh.triangles.size(), false);
-  std::size_t doubled = 0, back_to_back = 0;
-  for (auto begin = all.begin(); begin != all.end();) {
-    const auto end = std::find_if(begin, all.end(),
-                                  [&](const auto& item) { return item.first != begin->first; });
-    const auto turns = [&](const auto& item) { return rises(mesh.triangles[item.second]); };
-    const std::ptrdiff_t rising = std::count_if(begin, end, turns), size = end - begin;
-    const bool cancel = 2 * rising == size;
-    const auto keep = cancel ? end : std::find_if(begin, end, [&](const auto& item) {
-      return turns(item) == (2 * rising > size);
-    });
-    for (auto item = begin; item != end; ++item) drop[item->second] = item != keep;
-    (cancel ? back_to_back : doubled) += static_cast<std::size_t>(cancel ? size : size - 1);
-    begin = end;
-  }
-  std::size_t number = 0;
-  std::erase_if(mesh.triangles, [&](const Triangle&) { return drop[number++]; });
-  note_repair(repaired, "duplicate triangle removed", doubled);
-  note_repair(repaired, "triangle back to back with another removed", back_to_back);
 }
 
 /// Triangles joined by edges of two triangles, as sets named by their smallest triangle.

@@ -53,6 +53,35 @@ TEST(Obj, MergesEqualPointsThatTrianglesDoNotShare) {
   EXPECT_EQ(notes.size(), 1u);
 }
 
+TEST(Obj, ReadsAttributesThatAreNotFinite) {
+  for (const std::string line : {"vn nan -nan(ind) 0\n", "vt inf -1.#IND\n"}) {
+    std::vector<std::string> notes;
+    const auto mesh = decode_obj(kSquare + line + "f 1 2 3\n", "x", {.notes = &notes}).value();
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
+    EXPECT_EQ(notes, std::vector<std::string>{"line 5: NaN or infinity in 2 numbers of normals or "
+                                              "other attributes, which are not used"});
+  }
+}
+
+/// A backslash at the end of a comment does not continue the line.
+TEST(Obj, ReadsCommentsAtTheEndOfALine) {
+  const std::string text =
+      "v 0 0 0 # first\nv 1 0 0#\nv 1 1 0 # C:\\\nv 0 1 0\nvn 0 0 1 # up\nf 1 2 3 # 4\nf 1 3 "
+      "4#2\\\n"
+      "#end";
+  std::vector<std::string> notes;
+  bool reads_less = false;
+  const auto mesh = decode_obj(text, "x", {.notes = &notes, .slicer_reads_less = &reads_less});
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh->points, kSquarePoints);
+  EXPECT_EQ(mesh->triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  // PrusaSlicer 2.5 refuses it.
+  EXPECT_TRUE(reads_less);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_TRUE(notes[0].starts_with("line 1: 5 lines of points or faces with a comment: "))
+      << notes[0];
+}
+
 TEST(Obj, ShortensAnOverlongName) {
   const std::string text = encode_obj(tetrahedron(), std::string(100'000, 'n'));
   EXPECT_EQ(decode_obj(text, "x").value(), tetrahedron());
@@ -147,9 +176,9 @@ TEST(Obj, ErrorsNameTheLine) {
            {"v 0 0 1e7\n", "pot.obj:1: expected a coordinate"},
            {"v 0 0 0 0 0\n", "pot.obj:1: expected v with 3, 4 or 6 numbers, found 5"},
            {"v 0 0 0 0 0 0 0\n", "pot.obj:1: expected the end of the line, found '0'"},
-           {"v 0 0 0 inf\n", "pot.obj:1: expected a finite number, found 'inf'"},
+           {"v 0 0 0 up\n", "pot.obj:1: expected a number, found 'up'"},
            {"vt\n", "pot.obj:1: expected a number, found the end of the line or file"},
-           {"vt nan\n", "pot.obj:1: expected a finite number, found 'nan'"},
+           {"vt up\n", "pot.obj:1: expected a number, found 'up'"},
            {"vt 0 0 0 0\n", "pot.obj:1: expected the end of the line, found '0'"},
            {"vn 0 0\n", "pot.obj:1: expected a number, found the end of the line or file"},
            {"v 0 0 0\ncurv 0 1\n",

@@ -24,6 +24,16 @@ TEST(Off, ReadsCommentsColoursAndNormals) {
     EXPECT_EQ(decode_off(file, "x").value(), tetrahedron()) << file;
 }
 
+TEST(Off, ReadsNormalsThatAreNotFinite) {
+  std::vector<std::string> notes;
+  const char* const file =
+      "NOFF\n4 4 0\n0 0 0 nan nan nan\n10 0 0 0 0 1\n0 10 0\n0 0 10\n3 0 2 1\n3 0 1 3\n3 1 2 3\n"
+      "3 0 3 2\n";
+  EXPECT_EQ(decode_off(file, "x", {.notes = &notes}), tetrahedron());
+  EXPECT_EQ(notes, std::vector<std::string>{"line 3: NaN or infinity in 3 numbers of normals or "
+                                            "other attributes, which are not used"});
+}
+
 TEST(Off, ReadsAFileWithoutKeywordWithANote) {
   std::vector<std::string> notes;
   const char* const file =

@@ -85,6 +85,16 @@ TEST(Ply, WritesTheDocumentedLayout) {
 
 // ---- reading
 
+TEST(Ply, ReadsTextWithAttributesThatAreNotFinite) {
+  const std::string file =
+      with(with(ply_text(), "property float z\n", "property float z\nproperty float nx\n"),
+           kTetrahedronBody.substr(0, 27), "0 0 0 nan\n10 0 0 inf\n0 10 0 0\n0 0 10 0\n");
+  std::vector<std::string> notes;
+  EXPECT_EQ(decode_ply(file, "x", {.notes = &notes}), tetrahedron());
+  EXPECT_EQ(notes, std::vector<std::string>{"line 13: NaN or infinity in 2 numbers of normals or "
+                                            "other attributes, which are not used"});
+}
+
 TEST(Ply, MergesEqualPointsThatTrianglesDoNotShare) {
   const char* const apart =
       "ply\nformat ascii 1.0\nelement vertex 12\nproperty float x\nproperty float y\nproperty "

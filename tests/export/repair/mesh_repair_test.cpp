@@ -323,6 +323,62 @@ TEST(Repair, KeepsOneOfDuplicates) {
   expect_repaired(mesh, 8.0, {{"duplicate triangle removed", 2}});
 }
 
+/// A cube and its lower half, which share the triangles of their floor.
+TEST(Repair, UnitesSolidsOnTheSameSideOfAFace) {
+  TriangleMesh half = cube(2.0);
+  for (glm::dvec3& p : half.points) p.z /= 2.0;
+  const TriangleMesh both = together(cube(2.0), half);
+  TriangleMesh doubled = both;  // a triangle of the top
+  doubled.triangles.push_back(cube(2.0).triangles[2]);
+  for (const auto& [mesh, duplicates] :
+       {std::pair(both, 0U), std::pair(inverted(both), 0U), std::pair(doubled, 1U)}) {
+    const auto repaired = repair_mesh(mesh);
+    ASSERT_TRUE(repaired) << repaired.error().message;
+    EXPECT_TRUE(check_mesh(repaired->mesh).sound()) << names(*repaired);
+    EXPECT_NEAR(signed_volume(repaired->mesh), 8.0, rounding_mm3(repaired->mesh));
+    EXPECT_EQ(times(*repaired, "duplicate triangle removed"), duplicates) << names(*repaired);
+  }
+}
+
+glm::dvec3 rotated(glm::dvec3 p, const glm::dvec3& turns) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int next = (axis + 1) % 3;
+    const double x = p[axis], y = p[next];
+    p[axis] = x * std::cos(turns[axis]) - y * std::sin(turns[axis]);
+    p[next] = x * std::sin(turns[axis]) + y * std::cos(turns[axis]);
+  }
+  return p;
+}
+
+/// Rounding opens the sheets of the first cuts of these boxes, of which the largest holds the
+/// others.
+TEST(Repair, CutsAnewWhereRoundingOpensSheets) {
+  const auto box = [](const glm::dvec3& low, const glm::dvec3& high) {
+    TriangleMesh mesh = cube(1.0);
+    for (glm::dvec3& p : mesh.points) p = low + p * (high - low);
+    return mesh;
+  };
+  const TriangleMesh boxes =
+      together(together(box({30, 0, 50}, {40, 60, 60}), box({30, 0, 50}, {50, 60, 60})),
+               box({40, 50, 50}, {50, 60, 60}));
+  for (const glm::dvec3& turns :
+       {glm::dvec3(0.3, 0.6, 0.0), glm::dvec3(0.7, 3.2, 2.6), glm::dvec3(3.0, 4.0, 2.5)}) {
+    TriangleMesh mesh = boxes;
+    for (glm::dvec3& p : mesh.points) p = rotated(p, turns);
+    const auto repaired = repair_mesh(mesh);
+    ASSERT_TRUE(repaired) << repaired.error().message;
+    EXPECT_TRUE(check_mesh(repaired->mesh).sound()) << names(*repaired);
+    EXPECT_NEAR(signed_volume(repaired->mesh), 12'000.0, 1.0);
+  }
+}
+
+TEST(Repair, RemovesOneOfTwoEqualSolids) {
+  const TriangleMesh mesh = ball(10.0);
+  expect_repaired(together(mesh, mesh), signed_volume(mesh),
+                  {{"points of one place merged", mesh.points.size()},
+                   {"duplicate triangle removed", mesh.triangles.size()}});
+}
+
 TEST(Repair, MergesSolidsThatShareAFace) {
   // Both contain the square between them, back to back.
   expect_repaired(

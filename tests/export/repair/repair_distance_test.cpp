@@ -31,5 +31,27 @@ TEST(RepairDistance, IsCloseBetweenManySmallTrianglesAndAFewLargeOnes) {
   }
 }
 
+/// A level square of 100 mm whose triangles have one corner in common, with `parts` along one side.
+TriangleMesh fan(std::uint32_t parts) {
+  TriangleMesh mesh{{{0, 0, 0}, {100, 0, 0}}, {}};
+  for (std::uint32_t i = 0; i <= parts; ++i)
+    mesh.points.emplace_back(100.0 - 100.0 * i / parts, 100, 0);
+  for (std::uint32_t i = 1; i < mesh.points.size() - 1; ++i)
+    mesh.triangles.push_back({0, i, i + 1});
+  return mesh;
+}
+
+/// The boxes of such triangles overlap, so the search walks over the surface.
+TEST(RepairDistance, IsCloseBetweenLongThinTrianglesInOnePlane) {
+  for (const double apart_mm : {0.0, 5.0}) {
+    const auto change = surface_change(fan(4'000), square(1, apart_mm), 0.01);
+    // Each thin triangle lies above one large one; a large one above many thin ones.
+    EXPECT_GE(change.removed_mm, apart_mm);
+    EXPECT_LE(change.removed_mm, apart_mm + 0.01);
+    EXPECT_GE(change.added_mm, apart_mm);
+    EXPECT_LE(change.added_mm, apart_mm + 0.5);
+  }
+}
+
 }  // namespace
 }  // namespace clay::solid
