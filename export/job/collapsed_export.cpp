@@ -71,6 +71,10 @@ class CollapsedExport {
                          glm::length(pot_.collapse->shift_mm);
     return choose_segments(parts_.together(), options_.tolerance_mm, options_, reach)
         .and_then([&](std::size_t segments) {
+          return check_triangles(triangle_count(parts_.together(), segments), segments, options_)
+              .map([&] { return segments; });
+        })
+        .and_then([&](std::size_t segments) {
           describe_parts(segments);
           return stages_.run("union", [&] {
             return collapsed_solid(parts_, *pot_.collapse, segments, options_.tolerance_mm);
@@ -207,7 +211,10 @@ class CollapsedExport {
   /// Encodes on finer and finer grids until the decoded mesh is sound. Returns the last problem if
   /// none is.
   Result<FileReport> write_on_grid(MeshFormat format, FileStore& store) {
-    const double allowed = std::max(options_.tolerance_mm, float_rounding_mm(mesh_));
+    const WallReport& walls = report_.walls;
+    const double allowed =
+        std::max(vertex_error_mm(options_.tolerance_mm, walls.min_wall_mm, walls.limit),
+                 float_rounding_mm(mesh_));
     FileContents contents = solid_contents(options_);
     DracoSettings& settings = contents.draco;
     settings.max_error_mm = allowed;
@@ -263,6 +270,7 @@ class CollapsedExport {
     if (const std::string& why = report_.section.no_smoothing; !why.empty())
       list.push_back({"smoothing", why, {}});
     add_formats_left_out(outputs_, list);
+    if (options_.measure_left_out) measure_left_out(list, pot_.stack, mesh_, options_);
   }
 
   const PreparedPot& prepared_;

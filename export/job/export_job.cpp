@@ -228,9 +228,7 @@ class FilesExport {
 
   Result<void> write_step(OpenFile& open) {
     Stages stages(report_.stages, progress_);
-    return named(job::write_step(report_.section, report_.prepared.counted_volume_mm3, options_,
-                                 *open.file, stages),
-                 open.asked->path)
+    return named(job::write_step(report_, options_, *open.file, stages), open.asked->path)
         .map([&](FileReport report) { open.report = std::move(report); });
   }
 

@@ -22,12 +22,11 @@ double encoding_seconds(MeshFormat format, const TriangleMesh& mesh, const Expor
   return seconds_of([&] { (void)encode_mesh(mesh, format, contents); });
 }
 
-void measure(std::vector<SkippedStage>& list, const ClayStack& stack, const RevolveLayout& rule,
-             const ExportOptions& options) {
-  TriangleMesh mesh;
-  const double meshing = seconds_of([&] { mesh = revolve(rule); });
+}  // namespace
+
+void measure_left_out(std::vector<SkippedStage>& list, const ClayStack& stack,
+                      const TriangleMesh& mesh, const ExportOptions& options) {
   for (SkippedStage& item : list) {
-    if (item.what == "mesh in memory") item.saved_s = meshing;
     if (item.what == "full verification")
       item.saved_s = seconds_of([&] { check_mesh(rounded_to_float(mesh)); });
     if (item.what == "smoothing")
@@ -40,8 +39,6 @@ void measure(std::vector<SkippedStage>& list, const ClayStack& stack, const Revo
       item.saved_s = encoding_seconds(*format, mesh, options);
   }
 }
-
-}  // namespace
 
 std::vector<SkippedStage> left_out(const ClayStack& stack, const std::string& no_smoothing,
                                    const RevolveLayout& rule, bool made_mesh,
@@ -58,7 +55,12 @@ std::vector<SkippedStage> left_out(const ClayStack& stack, const std::string& no
   add(!made_mesh, "mesh in memory", "no requested file needs one");
   add(!options.full_verification, "full verification", "the certificate covers it; not requested");
   add_formats_left_out(outputs, list);
-  if (options.measure_left_out) measure(list, stack, rule, options);
+  if (!options.measure_left_out || rule.triangles() > kMaxTriangles) return list;
+  TriangleMesh mesh;
+  const double meshing = seconds_of([&] { mesh = revolve(rule); });
+  for (SkippedStage& item : list)
+    if (item.what == "mesh in memory") item.saved_s = meshing;
+  measure_left_out(list, stack, mesh, options);
   return list;
 }
 

@@ -15,6 +15,10 @@ std::vector<SkippedStage> left_out(const ClayStack& stack, const std::string& no
                                    const std::vector<Output>& outputs,
                                    const ExportOptions& options);
 
+/// Measures the skipped stages of a list that take this mesh or the section.
+void measure_left_out(std::vector<SkippedStage>& list, const ClayStack& stack,
+                      const TriangleMesh& mesh, const ExportOptions& options);
+
 /// Adds the formats that were not requested.
 void add_formats_left_out(const std::vector<Output>& outputs, std::vector<SkippedStage>& list);
 

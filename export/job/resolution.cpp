@@ -43,17 +43,24 @@ Result<std::size_t> segments_within(const Profile& profile, double tolerance_mm,
 
 Result<std::size_t> choose_segments(const Profile& profile, double tolerance_mm,
                                     const ExportOptions& options, double reach_mm) {
-  return (options.segments ? Result<std::size_t>(*options.segments)
-                           : segments_within(profile, tolerance_mm, reach_mm))
-      .and_then([&](std::size_t segments) -> Result<std::size_t> {
-        const std::size_t triangles = triangle_count(profile, segments);
-        if (triangles <= kMaxTriangles || options.max_triangles) return segments;
-        return failure(ErrorKind::bad_input, "expected a mesh of at most " +
-                                                 std::to_string(kMaxTriangles) +
-                                                 " triangles, but " + std::to_string(segments) +
-                                                 " segments make " + std::to_string(triangles) +
-                                                 "; use a larger tolerance or fewer segments");
-      });
+  return options.segments ? Result<std::size_t>(*options.segments)
+                          : segments_within(profile, tolerance_mm, reach_mm);
+}
+
+Result<void> check_triangles(std::size_t triangles, std::size_t segments,
+                             const ExportOptions& options) {
+  if (triangles <= kMaxTriangles || options.max_triangles) return {};
+  return failure(ErrorKind::bad_input,
+                 "expected a mesh of at most " + std::to_string(kMaxTriangles) +
+                     " triangles, but " + std::to_string(segments) + " segments make " +
+                     std::to_string(triangles) + "; use a larger tolerance or fewer segments");
+}
+
+double vertex_error_mm(double tolerance_mm, double wall_mm, const std::optional<WallLimit>& limit) {
+  if (!limit || !limit->met_by(wall_mm)) return tolerance_mm;
+  // A little less than half, for rounding.
+  constexpr double kPart = 0.499;
+  return std::min(tolerance_mm, kPart * (wall_mm - limit->least_mm()));
 }
 
 Result<void> check_pieces(const std::vector<PieceShape>& shapes, bool allow_pieces) {

@@ -1,7 +1,5 @@
 #include "export/job/revolve_files.hpp"
 
-#include "export/job/solid_contents.hpp"
-
 #include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
 #include "core/parallel_parts.hpp"
@@ -13,6 +11,8 @@
 #include "export/formats/stl_stream.hpp"
 #include "export/formats/stored_file.hpp"
 #include "export/formats/three_mf_check.hpp"
+#include "export/job/resolution.hpp"
+#include "export/job/solid_contents.hpp"
 #include "export/proof/completed_check.hpp"
 #include "export/proof/describe.hpp"
 #include "export/proof/revolve_match.hpp"
@@ -163,12 +163,13 @@ Result<FileReport> RevolveFiles::write_whole(MeshFormat format, FileStore& store
   });
 }
 
-/// Encodes on the coarsest grid that the tolerance permits and the margins cover. If no grid is
-/// fine enough for the margins, tries finer grids until the decoded mesh passes the exact test, or
-/// returns the last problem.
+/// Encodes on the coarsest grid that tolerance and wall limit permit and the margins cover. If no
+/// grid is fine enough for the margins, tries finer grids until the decoded mesh passes the exact
+/// test, or returns the last problem.
 Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& store) {
   const double allowed = std::max(options_.tolerance_mm, float_rounding_mm(rule_));
-  const double safe = claims_.margins.safe_rounding_mm();
+  const double safe = std::min(allowed, claims_.margins.safe_rounding_mm());
+  const double kept = vertex_error_mm(safe, claims_.wall_lower_mm, walls_of_pot_.limit);
   const TriangleMesh& solid = mesh();
   const auto encode = [&](const DracoSettings& settings) {
     return stages_.run(stage_name("encode", format), [&]() -> Result<std::string> {
@@ -180,9 +181,11 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
     });
   };
   DracoSettings settings;
-  settings.max_error_mm = std::min(allowed, safe);
-  const auto covered = encode(settings);
-  if (covered) return certify_bytes(format, settings.max_error_mm, Proof::margins, *covered, store);
+  for (const double error_mm : {kept, safe}) {
+    settings.max_error_mm = error_mm;
+    if (const auto covered = encode(settings))
+      return certify_bytes(format, error_mm, Proof::margins, *covered, store);
+  }
 
   settings.max_error_mm = allowed;
   const auto judge = [&](const std::string& bytes) {

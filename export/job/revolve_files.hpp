@@ -26,10 +26,10 @@ namespace clay::solid::inline job {
 
 class RevolveFiles {
  public:
-  /// `claims`: before any rounding.
-  RevolveFiles(const RevolveLayout& rule, const SolidCertificate& claims,
+  /// `claims`: before any rounding. `walls`: a limit that the pot meets is met in each file.
+  RevolveFiles(const RevolveLayout& rule, const SolidCertificate& claims, const WallReport& walls,
                const ExportOptions& options, Stages& stages)
-      : rule_(rule), claims_(claims), options_(options), stages_(stages) {}
+      : rule_(rule), claims_(claims), walls_of_pot_(walls), options_(options), stages_(stages) {}
 
   Result<FileReport> write(MeshFormat format, FileStore& store);
 
@@ -59,6 +59,7 @@ class RevolveFiles {
 
   const RevolveLayout& rule_;
   const SolidCertificate& claims_;
+  const WallReport& walls_of_pot_;
   const ExportOptions& options_;
   Stages& stages_;
   std::optional<TriangleMesh> mesh_;

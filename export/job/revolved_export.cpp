@@ -138,12 +138,16 @@ class RevolvedExport {
           design.section.planar = planar;
           return choose_segments(design.section.profile(), tolerance_mm, options_);
         })
-        .map([&](std::size_t segments) {
+        .and_then([&](std::size_t segments) {
           design.size.segments = segments;
           design.size.triangles = triangle_count(design.section.profile(), segments);
+          // Without a mesh, as for a drawing, their number costs nothing.
+          if (!outputs_.empty())
+            if (auto few = check_triangles(design.size.triangles, segments, options_); !few)
+              return Result<Design>(tl::make_unexpected(few.error()));
           design.claims = stages_.run(
               "claims", [&] { return claims_of(design.section.profile(), segments, 0.0); });
-          return std::move(design);
+          return Result<Design>(std::move(design));
         });
   }
 
@@ -237,7 +241,7 @@ class RevolvedExport {
     report_.maker = numbers();
     announce_sizes();
     if (auto room = expect_memory(); !room) return room;
-    RevolveFiles files(rule, claims, options_, stages_);
+    RevolveFiles files(rule, claims, report_.walls, options_, stages_);
     for (const Output& output : outputs_) {
       auto file = named(files.write(output.format, *output.store),
                         output.name.empty() ? options_.source : output.name);

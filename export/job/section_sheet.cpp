@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <string>
@@ -56,19 +55,6 @@ std::vector<Outline> cut_faces(const Profile& profile) {
   return faces;
 }
 
-/// Distances from the axis at which the boundary crosses a height, farthest first.
-std::vector<double> crossings(const Profile& profile, double height) {
-  std::vector<double> found;
-  for (const Polygon& piece : profile.pieces)
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      const ProfilePoint &a = piece[i], &b = piece[i + 1 == piece.size() ? 0 : i + 1];
-      if ((a.y <= height) != (b.y <= height))
-        found.push_back(a.rho + (height - a.y) / (b.y - a.y) * (b.rho - a.rho));
-    }
-  std::ranges::sort(found, std::greater<>());
-  return found;
-}
-
 /// Of words 3 mm high in DejaVu Sans: a little more than those of dimensions take.
 double length_of(std::string_view words) {
   constexpr double kLetterMm = 2.15, kMoreMm = 1.5;
@@ -81,17 +67,13 @@ class SheetMaker {
   SheetMaker(const ExportReport& report, const ExportOptions& options)
       : report_(report),
         profile_(report.section.profile()),
+        measures_(profile_),
         numbers_(*report.maker),
-        lip_mm_(report.section.smoothed.lip_fillet_mm),
+        // The set-back for the glaze makes a round edge sharper.
+        lip_mm_(report.section.smoothed.lip_fillet_mm - options.finish.glaze_mm),
         shrinkage_(options.shrinkage),
         goal_(options.met_goal) {
     sheet_.title = options.name;
-    for (const Polygon& piece : profile_.pieces)
-      for (const ProfilePoint& p : piece) {
-        radius_ = std::max(radius_, p.rho);
-        top_ = std::max(top_, p.y);
-      }
-    low_ = high_ = glm::dvec2(0.0);
   }
 
   Sheet make() {
@@ -175,14 +157,9 @@ class SheetMaker {
   }
 
   void draw_diameters() {
-    double widest_at = 0.0, mouth = radius_;
-    for (const Polygon& piece : profile_.pieces)
-      for (const ProfilePoint& p : piece) {
-        if (p.rho == radius_) widest_at = p.y;
-        if (p.y == top_) mouth = std::min(mouth, p.rho);
-      }
-    diameter(2.0 * radius_, widest_at, top_ + 19.0);
-    if (mouth > 0.0) diameter(2.0 * mouth, top_, top_ + 10.0);
+    diameter(2.0 * radius_, measures_.widest_at_mm(), top_ + 19.0);
+    if (const double mouth = measures_.mouth_mm(); mouth > 0.0)
+      diameter(2.0 * mouth, top_, top_ + 10.0);
     diameter(numbers_.thrown.size.foot_diameter_mm, 0.0, -10.0);
   }
 
@@ -198,8 +175,8 @@ class SheetMaker {
     const double foot = 0.5 * numbers_.thrown.size.foot_diameter_mm;
     const double rim = lines_of(profile_.pieces.back()).outer.back().rho;
     if (numbers_.thrown.capacity_ml > 0.0) {
-      const double floor = floor_mm();
-      height(floor, top_, radius_ + 12.0, bore_at(floor), rim);
+      const double floor = measures_.floor_mm();
+      height(floor, top_, radius_ + 12.0, measures_.bore_at_mm(floor), rim);
       write_floor(floor);
     }
     height(0.0, top_, radius_ + 22.0, foot, rim);
@@ -222,11 +199,11 @@ class SheetMaker {
   /// too narrow for both.
   void write_floor(double floor) {
     constexpr double kLine = 4.5, kGap = 2.0;
-    std::string words = "floor " + size(floor - below_floor());
+    std::string words = "floor " + size(floor - measures_.below_floor_mm());
     std::string second;
     const auto fits = [&](double height) {
       return kGap + std::max(length_of(words), length_of(second)) + kGap <
-             bore_between(floor, floor + height);
+             measures_.bore_between_mm(floor, floor + height);
     };
     if (fits(kLine + 5.0))
       return write(SheetLayer::dimensions, {kGap, floor + 5.0}, words, Anchor::start);
@@ -241,39 +218,6 @@ class SheetMaker {
     }
     const double foot = 0.5 * numbers_.thrown.size.foot_diameter_mm;
     write(SheetLayer::dimensions, {-foot - 3.0, -5.0}, words, Anchor::end);
-  }
-
-  /// The narrowest bore between two heights in the air above the floor.
-  [[nodiscard]] double bore_between(double low, double high) const {
-    double bore = radius_;
-    for (const ProfilePoint& p : profile_.pieces.back())
-      if (p.y > low && p.y < high && p.rho > 0.0) bore = std::min(bore, p.rho);
-    for (const double height : {low + 1e-6, high})
-      if (const auto at = crossings(profile_, height); !at.empty())
-        bore = std::min(bore, at.back());
-    return bore;
-  }
-
-  /// The highest clay on the axis.
-  [[nodiscard]] double floor_mm() const {
-    double floor = 0.0;
-    for (const ProfilePoint& p : profile_.pieces.back())
-      if (p.rho == 0.0) floor = std::max(floor, p.y);
-    return floor;
-  }
-  /// The next boundary on the axis below the floor.
-  [[nodiscard]] double below_floor() const {
-    const double floor = floor_mm();
-    double below = 0.0;
-    for (const ProfilePoint& p : profile_.pieces.back())
-      if (p.rho == 0.0 && p.y < floor) below = std::max(below, p.y);
-    return below;
-  }
-  [[nodiscard]] double bore_at(double level) const {
-    double bore = 0.0;
-    for (const ProfilePoint& p : profile_.pieces.back())
-      if (p.y == level) bore = std::max(bore, p.rho);
-    return bore;
   }
 
   /// A template whose left edge shapes the outside.
@@ -381,30 +325,16 @@ class SheetMaker {
 
   const ExportReport& report_;
   const Profile& profile_;
+  SectionMeasures measures_;
+  double radius_ = measures_.radius_mm(), top_ = measures_.top_mm();
   const MakerNumbers& numbers_;
   double lip_mm_, shrinkage_;
   const std::optional<MetGoal>& goal_;
-  double radius_ = 0.0, top_ = 0.0;
   glm::dvec2 low_{0.0}, high_{0.0};  ///< of everything drawn
   Sheet sheet_;
 };
 
 }  // namespace
-
-std::array<CaliperRow, 5> caliper_rows(const Profile& profile) {
-  double top = 0.0;
-  for (const Polygon& piece : profile.pieces)
-    for (const ProfilePoint& p : piece) top = std::max(top, p.y);
-  std::array<CaliperRow, 5> rows;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double height = top * static_cast<double>(i + 1) / 6.0;
-    rows[i].height = top > 12.0 ? std::round(height) : height;
-    const std::vector<double> at = crossings(profile, rows[i].height);
-    if (!at.empty()) rows[i].outer = 2.0 * at[0];
-    if (at.size() > 1) rows[i].bore = 2.0 * at[1];
-  }
-  return rows;
-}
 
 std::string drawing_svg(const ExportReport& report, const ExportOptions& options) {
   return svg_of(section_sheet(report, options));

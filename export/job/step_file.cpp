@@ -7,13 +7,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace clay::solid::inline job {
 namespace {
 
 /// Curves count as lines within this part of the tolerance, and at most this far, in the proof.
-constexpr double kPartOfTolerance = 0.05, kFarthestMm = 1e-3;
+constexpr double kPartOfTolerance = 0.05, kFarthestMm = 2e-4;
+/// Parts of the tolerance for curves of which a wall limit demands more.
+constexpr double kCloser = 0.25, kClosest = 0.01;
 
 /// The solid in the file must be that of the brep: its volume within 1e-12, with all faces.
 Result<void> agrees(const StepSolid& found, const RevolvedBrep& brep) {
@@ -26,9 +30,16 @@ Result<void> agrees(const StepSolid& found, const RevolvedBrep& brep) {
                                          number_text(found.volume_mm3));
 }
 
-Result<StepReport> proved(const RevolvedBrep& brep, double counted_volume_mm3,
+/// A solid for CAD and what is proved of it.
+struct ProvedBrep {
+  RevolvedBrep brep;
+  StepReport report;
+};
+
+Result<ProvedBrep> proved(RevolvedBrep brep, double counted_volume_mm3,
                           const ExportOptions& options) {
-  const double error_mm = std::min(kPartOfTolerance * options.tolerance_mm, kFarthestMm);
+  const double error_mm =
+      brep.curved() ? std::min(kPartOfTolerance * options.tolerance_mm, kFarthestMm) : 0.0;
   const Profile section = brep.flattened(error_mm);
   return certify(section).map([&](const PlanarCertificate&) {
     StepReport report;
@@ -39,23 +50,50 @@ Result<StepReport> proved(const RevolvedBrep& brep, double counted_volume_mm3,
     report.volume_error_relative =
         std::abs(brep.volume_mm3 - counted_volume_mm3) / counted_volume_mm3;
     report.min_wall_mm = min_wall_mm(section) - 2.0 * error_mm;
-    return report;
+    return ProvedBrep{std::move(brep), report};
   });
+}
+
+/// The curves of one tolerance.
+Result<ProvedBrep> fitted(const ExportReport& report, const ExportOptions& options,
+                          double tolerance_mm, Stages& stages) {
+  return stages
+      .run(
+          "fit_step",
+          [&] { return revolved_brep(report.section.profile(), options.step_walls, tolerance_mm); })
+      .and_then([&](RevolvedBrep brep) {
+        return stages.run("prove_step", [&] {
+          return proved(std::move(brep), report.prepared.counted_volume_mm3, options);
+        });
+      });
+}
+
+/// Closer curves, as long as only they make a wall thinner than its limit.
+Result<ProvedBrep> fitted_within_limit(const ExportReport& report, const ExportOptions& options,
+                                       Stages& stages) {
+  const std::optional<WallLimit>& limit = report.walls.limit;
+  const bool met = limit && limit->met_by(report.walls.min_wall_mm);
+  auto made = fitted(report, options, options.tolerance_mm, stages);
+  for (double part = kCloser;
+       made && met && !limit->met_by(made->report.min_wall_mm) && part >= kClosest;
+       part *= kCloser) {
+    auto closer = fitted(report, options, part * options.tolerance_mm, stages);
+    if (!closer) break;
+    made = std::move(closer);
+  }
+  return made;
 }
 
 }  // namespace
 
-Result<FileReport> write_step(const ProvedSection& section, double counted_volume_mm3,
-                              const ExportOptions& options, FileStore& store, Stages& stages) {
-  const auto brep = stages.run("fit_step", [&] {
-    return revolved_brep(section.profile(), options.step_walls, options.tolerance_mm);
-  });
-  if (!brep) return tl::make_unexpected(brep.error());
-  const auto report =
-      stages.run("prove_step", [&] { return proved(*brep, counted_volume_mm3, options); });
-  if (!report) return tl::make_unexpected(report.error());
+Result<FileReport> write_step(const ExportReport& report, const ExportOptions& options,
+                              FileStore& store, Stages& stages) {
+  const auto made = fitted_within_limit(report, options, stages);
+  if (!made) return tl::make_unexpected(made.error());
+  const RevolvedBrep& brep = made->brep;
+  const StepReport& proof = made->report;
   const std::string bytes =
-      stages.run("encode_step", [&] { return encode_step(*brep, options.name); });
+      stages.run("encode_step", [&] { return encode_step(brep, options.name); });
   return stages
       .run("verify_step",
            [&] {
@@ -64,16 +102,16 @@ Result<FileReport> write_step(const ProvedSection& section, double counted_volum
                  .and_then([&](const std::string& again) {
                    return verify_step(again, "STEP as written");
                  })
-                 .and_then([&](const StepSolid& found) { return agrees(found, *brep); });
+                 .and_then([&](const StepSolid& found) { return agrees(found, brep); });
            })
       .map([&] {
         FileReport file;
         file.kind = FileKind::step;
         file.bytes = bytes.size();
         file.content_hash = hash_of(bytes_of(bytes));
-        file.max_error_mm = report->deviation_mm;
+        file.max_error_mm = proof.deviation_mm;
         file.read_back = store.rereadable();
-        file.step = *report;
+        file.step = proof;
         return file;
       });
 }

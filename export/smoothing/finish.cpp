@@ -4,11 +4,13 @@
 #include "claystack/export/smoothing.hpp"
 #include "claystack/export/walls.hpp"
 #include "core/svg_writer.hpp"
+#include "core/text.hpp"
 #include "export/smoothing/lip_fillet.hpp"
 #include "export/smoothing/set_back.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -16,6 +18,11 @@ namespace clay::solid::inline smoothing {
 namespace {
 
 std::string mm(double value) { return fixed(value, 2) + " mm"; }
+
+/// A limit as text that itself keeps the limit: rounded down.
+std::string at_most_mm(double value) { return mm(std::floor(100.0 * value) / 100.0); }
+/// The same, rounded up.
+std::string at_least_mm(double value) { return mm(std::ceil(100.0 * value) / 100.0); }
 
 tl::unexpected<Error> wrong(const std::string& part, const std::string& why) {
   return failure(ErrorKind::bad_input, part + ": " + why);
@@ -62,10 +69,17 @@ class FootCut {
     if (!(outside_ > ring_.width_mm))
       return wrong("foot ring", "expected a width below " + mm(outside_) +
                                     ", the radius of the ring, found " + mm(ring_.width_mm));
-    if (const double narrowest = narrowest_mm(); outside_ > narrowest)
-      return wrong("foot ring", "expected a diameter of at most " + mm(2.0 * narrowest) +
+    const double narrowest = narrowest_mm();
+    if (ring_.diameter_mm && outside_ > narrowest)
+      return wrong("foot ring", "expected a diameter of at most " + at_most_mm(2.0 * narrowest) +
                                     ", that of the pot over the depth of the ring, found " +
                                     mm(2.0 * outside_));
+    // A ring as wide as the foot, of a pot that narrows above it.
+    if (outside_ - ring_.width_mm >= narrowest)
+      return wrong("foot ring", "expected a width above " + at_least_mm(outside_ - narrowest) +
+                                    ", because the pot narrows by as much over the depth of the "
+                                    "ring, found " +
+                                    mm(ring_.width_mm));
     return {};
   }
 
@@ -82,7 +96,6 @@ class FootCut {
 
   /// The smallest outer radius along the cut.
   [[nodiscard]] double narrowest_mm() const {
-    if (!ring_.diameter_mm) return outside_;
     double narrowest = radius_at_depth();
     for (const ProfilePoint& p : lines_.outer)
       if (p.y <= high_) narrowest = std::min(narrowest, p.rho);
@@ -116,7 +129,7 @@ class FloorFillet {
     if (!has_floor())
       return wrong("floor fillet", "expected a flat floor under an open bore, found none");
     if (!fits(radius_mm))
-      return wrong("floor fillet", "expected a radius of at most " + mm(largest_mm()) +
+      return wrong("floor fillet", "expected a radius of at most " + at_most_mm(largest_mm()) +
                                        ", with which it meets floor and wall, found " +
                                        mm(radius_mm));
     WallLines lines = lines_;
@@ -148,6 +161,26 @@ class FloorFillet {
 };
 
 // ---- all of it -----------------------------------------------------------------------
+
+/// NaN is no length.
+Result<void> check_length(const std::string& name, double mm, bool zero_allowed) {
+  if (std::isfinite(mm) && (mm > 0.0 || (zero_allowed && mm == 0.0))) return {};
+  return wrong(name, std::string("expected ") + (zero_allowed ? "0 mm or more" : "more than 0 mm") +
+                         ", found " + nine_digit_text(mm) + " mm");
+}
+
+Result<void> check(const Finish& finish, double tolerance_mm) {
+  const std::optional<FootRing>& foot = finish.foot;
+  return check_length("tolerance", tolerance_mm, false)
+      .and_then([&] { return check_length("glaze allowance", finish.glaze_mm, true); })
+      .and_then([&] { return check_length("floor fillet", finish.floor_fillet_mm, true); })
+      .and_then([&] { return check_length("foot ring width", foot ? foot->width_mm : 1.0, false); })
+      .and_then([&] { return check_length("foot ring depth", foot ? foot->depth_mm : 1.0, false); })
+      .and_then([&] {
+        return check_length("foot ring diameter", foot ? foot->diameter_mm.value_or(1.0) : 1.0,
+                            false);
+      });
+}
 
 class Finisher {
  public:
@@ -227,7 +260,9 @@ class Finisher {
 
 Result<FinishedProfile> finished(const Profile& profile, const Finish& finish,
                                  std::optional<double> min_wall_mm, double tolerance_mm) {
-  return Finisher(profile, min_wall_mm, tolerance_mm).run(finish);
+  return check(finish, tolerance_mm).and_then([&] {
+    return Finisher(profile, min_wall_mm, tolerance_mm).run(finish);
+  });
 }
 
 }  // namespace clay::solid::inline smoothing

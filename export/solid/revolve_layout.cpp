@@ -88,10 +88,11 @@ double equal_area_factor(std::size_t segments) noexcept {
 }
 
 double float_rounding_mm(const RevolveLayout& rule) noexcept {
+  const double wider = equal_area_factor(rule.segments());
   double farthest = 0.0;
   for (const Shell& shell : rule.shells())
     for (const ProfilePoint& p : shell.points)
-      farthest = std::max(farthest, length_of(equal_area_factor(rule.segments()) * p.rho, p.y));
+      farthest = std::max(farthest, length_of(wider * p.rho, p.y));
   // The products are themselves rounded to double first.
   constexpr double kDoubleRounding = 1.0 + 0x1p-20;
   return std::ldexp(farthest * kDoubleRounding, -24);

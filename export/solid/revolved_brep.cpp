@@ -218,6 +218,14 @@ std::size_t RevolvedBrep::faces() const noexcept {
   return faces;
 }
 
+bool RevolvedBrep::curved() const noexcept {
+  for (const BrepBody& body : bodies)
+    for (const BrepShell& shell : body)
+      if (std::ranges::any_of(shell, [](const BrepWall& wall) { return wall.curve.has_value(); }))
+        return true;
+  return false;
+}
+
 Profile RevolvedBrep::flattened(double error_mm) const {
   Profile profile;
   for (const BrepBody& body : bodies) {

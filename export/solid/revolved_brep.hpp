@@ -33,6 +33,8 @@ struct RevolvedBrep {
   double volume_mm3 = 0.0;       ///< by closed form, of the numbers as written
 
   [[nodiscard]] std::size_t faces() const noexcept;
+  /// False if all walls are straight: then `flattened` is exact.
+  [[nodiscard]] bool curved() const noexcept;
   /// The section with curves replaced by lines within `error_mm` of them.
   [[nodiscard]] Profile flattened(double error_mm) const;
 };

@@ -158,6 +158,41 @@ TEST(ExportFallen, TheWallOfAFileOnAGridIsThinner) {
   EXPECT_LE(report.thinnest_mm(), sampled_wall(mesh, 20'000).value().least_mm);
 }
 
+/// With a limit that the parts keep, the grid is as fine as it has to be.
+TEST(ExportFallen, AGridKeepsAWallAtTheLimit) {
+  Pot pot = pot_of(shapes::vase(100));
+  pot.collapse = Collapse{30, {50, 70, 0}, {0, 0, 1}, 1.0, 12.0};
+  pot.collapse->shift_mm = {400.0, 0.0, 0.0};
+  ExportOptions options;
+  options.allow_pieces = true;
+  options.tolerance_mm = 0.2;
+  const auto free = exported(pot, {MeshFormat::drc}, options);
+  ASSERT_TRUE(free) << free.error().message;
+  options.walls.min_wall_mm = free->report.walls.min_wall_mm;
+  const auto result = exported(pot, {MeshFormat::drc}, options);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_FALSE(thin_wall_of(result->report)) << *thin_wall_of(result->report);
+  EXPECT_GT(free->report.walls.min_wall_mm, 1.0);
+  EXPECT_LT(free->report.thinnest_mm(), result->report.walls.limit->least_mm());
+}
+
+TEST(ExportFallen, MeasuresTheFormatsLeftOut) {
+  Pot pot = pot_of(shapes::vase(60));
+  pot.collapse = Collapse{20, {50, 40, 0}, {0, 0, 1}, 1.0, 12.0};
+  ExportOptions options;
+  options.tolerance_mm = 0.2;
+  options.measure_left_out = true;
+  const auto result = exported(pot, {MeshFormat::stl_binary}, options);
+  ASSERT_TRUE(result) << result.error().message;
+  std::size_t measured = 0;
+  for (const SkippedStage& item : result->report.left_out)
+    if (mesh_format_named(item.what)) {
+      EXPECT_TRUE(item.saved_s) << item.what;
+      ++measured;
+    }
+  EXPECT_EQ(measured, every_format().size() - 1);
+}
+
 TEST(ExportFallen, WritesSeparatePiecesOnlyIfAllowed) {
   for (const std::size_t failed : {std::size_t{1}, std::size_t{3}}) {
     Pot pot = pot_of(stack_of(2.0, {{10, 0}, {10, 0}, {10, 0}, {10, 0}, {30, 0}}));

@@ -8,9 +8,11 @@
 #include <gtest/gtest.h>
 
 #include <stdlib.h>
+#include <cmath>
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace clay::solid {
 namespace {
@@ -108,6 +110,44 @@ TEST_F(ExportFiles, AreListedInTheOrderOfTheRequest) {
       parse_certificate(read_file(path("a.stl.certificate.json")).value(), "certificate").value();
   EXPECT_TRUE(verify_certificate(certificate, read_file(path("a.stl")).value(), "a.stl"));
   EXPECT_EQ(certificate, *report->files[4].certificate);
+}
+
+TEST_F(ExportFiles, StraightWallsForCadAreExact) {
+  std::vector<shapes::Radii> rings(20, {30.0, 29.0});
+  rings.front() = {30.0, 0.0};
+  ExportRequest request;
+  request.files.push_back(file_request(path("a.step")).value());
+  request.options.walls.min_wall_mm = 1.0;
+  for (const StepWalls walls : {StepWalls::spline, StepWalls::lines}) {
+    request.options.step_walls = walls;
+    const auto report = export_files(pot_of(stack_of(1.0, rings)), request);
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_NEAR(report->files.at(0).step->min_wall_mm, 1.0, 1e-8);
+    EXPECT_FALSE(thin_wall_of(*report)) << *thin_wall_of(*report);
+  }
+}
+
+/// Curves lie within the tolerance of the walls, which they may thin on both sides.
+TEST_F(ExportFiles, CurvesForCadKeepAWallAtTheLimit) {
+  std::vector<shapes::Radii> rings;
+  for (int i = 0; i < 200; ++i) {
+    const double outside = 30.0 + 3.0 * std::sin(0.05 * i);
+    rings.push_back({outside, i < 5 ? 0.0 : outside - 1.5});
+  }
+  const Pot pot = pot_of(stack_of(0.5, rings));
+  ExportRequest request;
+  request.files.push_back(file_request(path("a.step")).value());
+  request.options.tolerance_mm = 0.3;
+  request.options.segments = 4096;  // facets that take little off a wall
+  const auto coarse = export_files(pot, request);
+  ASSERT_TRUE(coarse) << coarse.error().message;
+  request.options.walls.min_wall_mm = coarse->walls.min_wall_mm;
+  const auto report = export_files(pot, request);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_FALSE(thin_wall_of(*report)) << *thin_wall_of(*report);
+  EXPECT_GE(report->files.at(0).step->min_wall_mm, report->walls.limit->least_mm());
+  // Only the limit asks for that.
+  EXPECT_LT(coarse->files.at(0).step->min_wall_mm, report->walls.limit->least_mm());
 }
 
 TEST_F(ExportFiles, ADrawingShowsTheDrain) {

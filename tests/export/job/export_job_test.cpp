@@ -132,7 +132,8 @@ TEST(RunExport, RefusesOptionsThatCannotBeMet) {
     EXPECT_TRUE(refused(exported(pot, {}, options), ErrorKind::bad_input, "segments: expected 3"));
   }
   options.segments = std::size_t{1} << 20;
-  EXPECT_TRUE(refused(exported(pot, {}, options), ErrorKind::bad_input, "triangles"));
+  EXPECT_TRUE(
+      refused(exported(pot, {MeshFormat::stl_binary}, options), ErrorKind::bad_input, "triangles"));
 }
 
 TEST(RunExport, ThinWallsAreSmoothedNoThinner) {
@@ -358,6 +359,47 @@ TEST(RunExport, FinishIsInTheLedgerOfEveryMesh) {
     EXPECT_TRUE(file.full_verification->sound()) << name_of(file.format);
     EXPECT_NEAR(file.full_verification->volume_mm3 / report.prepared.counted_volume_mm3, 1.0, 5e-4);
   }
+}
+
+/// The grid of a DRC or a GLB takes up to twice the tolerance off a wall.
+TEST(RunExport, AWallDrawnAtTheLimitKeepsItInEveryFormat) {
+  for (const double wall_mm : {0.5, 1.0, 3.0}) {
+    // A cup whose walls and floor have this thickness.
+    std::vector<shapes::Radii> rings(20, {30.0, 30.0 - wall_mm});
+    rings.front() = {30.0, 0.0};
+    ExportOptions options;
+    options.walls.min_wall_mm = wall_mm;
+    const auto result = exported(pot_of(stack_of(wall_mm, rings)), every_format(), options);
+    ASSERT_TRUE(result) << result.error().message;
+    const ExportReport& report = result->report;
+    EXPECT_FALSE(thin_wall_of(report)) << *thin_wall_of(report);
+    EXPECT_GE(report.thinnest_mm(), report.walls.limit->least_mm());
+    for (const FileReport& file : report.files) EXPECT_LE(file.max_error_mm, options.tolerance_mm);
+    // A limit that the pot does not keep changes no file.
+    const auto plain = exported(pot_of(stack_of(wall_mm, rings)), every_format(), {});
+    options.walls.min_wall_mm = 1.1 * wall_mm;
+    const auto thin = exported(pot_of(stack_of(wall_mm, rings)), every_format(), options);
+    ASSERT_TRUE(plain && thin);
+    EXPECT_TRUE(thin_wall_of(thin->report));
+    for (std::size_t i = 0; i < plain->files.size(); ++i)
+      EXPECT_TRUE(plain->files[i] == thin->files[i]) << i;
+  }
+}
+
+TEST(RunExport, OnlyAMeshIsRefusedForItsTriangles) {
+  // Some 600 edges off the axis, two triangles each, in 20,000 segments.
+  std::vector<shapes::Radii> rings;
+  for (std::size_t i = 0; i < 300; ++i) rings.push_back({i % 2 == 0 ? 2000.0 : 1999.0, 1900.0});
+  const Pot pot = pot_of(stack_of(1.0, rings));
+  ExportOptions options;
+  options.smoothing = Smoothing::none;
+  options.segments = 20'000;
+  EXPECT_TRUE(refused(exported(pot, {MeshFormat::stl_binary}, options), ErrorKind::bad_input,
+                      "at most 20000000 triangles"));
+  const auto drawn = run_export(pot, {}, options);
+  ASSERT_TRUE(drawn) << drawn.error().message;
+  EXPECT_GT(drawn->size.triangles, kMaxTriangles);
+  EXPECT_FALSE(drawing_svg(*drawn, options).empty());
 }
 
 }  // namespace

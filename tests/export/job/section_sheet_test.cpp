@@ -67,9 +67,10 @@ TEST(SectionSheet, StatesNoCapacityOfATube) {
 }
 
 TEST(SectionSheet, StatesALipThatCanBeMeasured) {
-  const auto lip = [](double fillet_mm) {
+  const auto lip = [](double fillet_mm, double glaze_mm = 0.0) {
     ExportOptions options;
     options.smoothing = Smoothing::none;
+    options.finish.glaze_mm = glaze_mm;
     auto report = run_export(cup(), {}, options);
     if (!report) throw std::runtime_error(report.error().message);
     report->section.smoothed.lip_fillet_mm = fillet_mm;
@@ -80,6 +81,9 @@ TEST(SectionSheet, StatesALipThatCanBeMeasured) {
   };
   EXPECT_EQ(lip(1.5), "lip R 1.5");
   EXPECT_EQ(lip(0.03), "");
+  // A round edge that is set back has a smaller radius; one as small as the allowance is sharp.
+  EXPECT_EQ(lip(1.5, 0.5), "lip R 1.0");
+  EXPECT_EQ(lip(0.5, 0.5), "");
 }
 
 TEST(SectionSheet, StatesFiredSizesBesideThoseDrawn) {

@@ -11,7 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
+#include <stdexcept>
 #include <string>
 
 namespace clay::solid {
@@ -80,6 +83,55 @@ TEST(FootRing, RefusesWhatDoesNotFit) {
   expect({{{{34, 0}, {40, 0}, {40, 60}, {34, 60}}}}, foot(2, 1), "expected a solid foot");
   expect({{{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, {{0, 20}, {9, 20}, {9, 29}, {0, 29}}}}, foot(2, 1),
          "expected one piece, found 2");
+  // Narrows from 40 to 30 mm within the depth: the ring would end in the air.
+  const Profile narrowing{
+      {{{0, 0}, {40, 0}, {40, 2}, {30, 2}, {30, 60}, {24, 60}, {24, 8}, {0, 8}}}};
+  expect(narrowing, foot(6, 4), "width above 10.00 mm");
+  EXPECT_TRUE(finished(narrowing, foot(12, 4), {}, kTolerance));
+  EXPECT_TRUE(finished(narrowing, foot(6, 1), {}, kTolerance));
+}
+
+TEST(Finish, RefusesNumbersThatAreNoLengths) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  const auto expect = [](const Finish& finish, double tolerance_mm, const std::string& name) {
+    const auto result = finished(cup(), finish, {}, tolerance_mm);
+    ASSERT_FALSE(result) << name;
+    EXPECT_EQ(result.error().kind, ErrorKind::bad_input);
+    EXPECT_TRUE(result.error().message.starts_with(name + ": expected ")) << result.error().message;
+  };
+  for (const double wrong : {kNan, -1.0, kInfinite}) {
+    expect(foot(wrong, 4), kTolerance, "foot ring width");
+    expect(foot(6, wrong), kTolerance, "foot ring depth");
+    expect(foot(6, 4, wrong), kTolerance, "foot ring diameter");
+    expect(fillet(wrong), kTolerance, "floor fillet");
+    expect(glaze(wrong), kTolerance, "glaze allowance");
+    expect(glaze(1), wrong, "tolerance");
+  }
+  expect(foot(0, 4), kTolerance, "foot ring width");
+  expect(glaze(1), 0.0, "tolerance");
+}
+
+/// The number after `words` in the message of a refusal.
+double named_limit(const Result<FinishedProfile>& refused, const std::string& words) {
+  if (refused) throw std::runtime_error("not refused");
+  const std::string& message = refused.error().message;
+  return std::stod(message.substr(message.find(words) + words.size()));
+}
+
+TEST(Finish, TheLimitsOfItsMessagesAreAccepted) {
+  for (const double scale : {1.0, 1.00237, 1.00481, 0.99713}) {
+    Profile profile = cup();
+    for (ProfilePoint& p : profile.pieces.front()) p = {scale * p.rho, scale * p.y};
+    const double diameter =
+        named_limit(finished(profile, foot(6, 4, 90.0), {}, kTolerance), "diameter of at most ");
+    EXPECT_NEAR(diameter, scale * 80.0, 0.01);
+    EXPECT_TRUE(finished(profile, foot(6, 4, diameter), {}, kTolerance)) << scale;
+    const double radius =
+        named_limit(finished(profile, fillet(60), {}, kTolerance), "radius of at most ");
+    EXPECT_NEAR(radius, scale * 34.0, 0.015);
+    EXPECT_TRUE(finished(profile, fillet(radius), {}, kTolerance)) << scale;
+  }
 }
 
 TEST(FootRing, KeepsTheMinimumWallAndNamesThePlace) {
@@ -110,7 +162,7 @@ TEST(FloorFillet, FillsTheCornerByTheClosedForm) {
 TEST(FloorFillet, RefusesARadiusThatLeavesNoFloor) {
   const auto wide = finished(cup(), fillet(35), {}, kTolerance);
   ASSERT_FALSE(wide);
-  EXPECT_NE(wide.error().message.find("radius of at most 34.00 mm"), std::string::npos)
+  EXPECT_NE(wide.error().message.find("radius of at most 33.99 mm"), std::string::npos)
       << wide.error().message;
   const auto none = finished({{{{0, 0}, {9, 0}, {9, 9}, {0, 9}}}}, fillet(2), {}, kTolerance);
   ASSERT_FALSE(none);

@@ -84,7 +84,9 @@ struct SmoothedProfile {
   StackProfile section;
   std::vector<KeptSteps> guard;  ///< places with kept steps, by piece, reason and height
   /// Maximum distance of radii from those of the neighbouring rings; in `fair`, due to the volume
-  /// correction. In `exact` at most the limit, or 2^-20 of the largest radius if that is more.
+  /// correction: at most the tolerance or 1/100 of a ring's height, unless the outer wall also gets
+  /// the clay of a lip fillet. In `exact` at most the limit, or 2^-20 of the largest radius if that
+  /// is more.
   double overshoot_mm = 0.0;
   /// `exact`: the same where walls continue in their direction at foot, lip and cuts: there a
   /// radius may lie beyond those of its ring and of the two beside it by up to the smaller of the
@@ -94,7 +96,8 @@ struct SmoothedProfile {
   /// this much thinner than the guard promises, solids twice as much [mm].
   double taken_mm = 0.0;
   double lip_fillet_asked_mm = 0.0;  ///< radius
-  double lip_fillet_mm = 0.0;        ///< as made: requested, or as `lip_fillet_limit` allows
+  /// As made, before a set-back for glaze: requested, or as `lip_fillet_limit` allows.
+  double lip_fillet_mm = 0.0;
   FilletLimit lip_fillet_limit = FilletLimit::none;
   double volume_error_relative = 0.0;  ///< relative to the counted clay
   /// `exact`: maximum relative error of a ring's R^2 h or r^2 h, with levels in double precision;
@@ -182,11 +185,11 @@ struct FinishedProfile {
 };
 
 /// Sets the faces back, fills the corner of the floor, and cuts the foot, in this order. Arcs are
-/// chords within `tolerance_mm`. Errors: `bad_input` for a profile of several pieces, a ring that
-/// does not fit the foot, a foot without clay above it, a fillet wider than the floor; `unsound`,
-/// with the place, if the set-back leaves a wall thinner than `min_wall_mm` or none at all, or if
-/// the foot leaves one thinner than `min_wall_mm` and than the thinnest before, with the allowance
-/// of `WallLimit`.
+/// chords within `tolerance_mm`. Errors: `bad_input` for lengths that are negative or no numbers, a
+/// profile of several pieces, a ring that does not fit the foot, a foot without clay above it, a
+/// fillet wider than the floor; `unsound`, with the place, if the set-back leaves a wall thinner
+/// than `min_wall_mm` or none at all, or if the foot leaves one thinner than `min_wall_mm` and than
+/// the thinnest before, with the allowance of `WallLimit`.
 Result<FinishedProfile> finished(const Profile& profile, const Finish& finish,
                                  std::optional<double> min_wall_mm, double tolerance_mm);
 
