@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Prints the state of the house: per room its files, lines, long functions and public headers; then
-cycles between rooms, and the rooms that an export of a pot passes through.
+"""Prints, for each room (a folder of sources), its files, lines, long functions and public headers.
+Then prints the cycles between rooms, and the rooms that an export of a pot reaches.
 
 usage: tests/rooms.py [--long]      --long names every function of more than 40 lines
 The rooms are those of tests/layering.cmake, which checks who may include whom.
