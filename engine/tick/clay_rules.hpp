@@ -1,6 +1,6 @@
 #pragma once
-// The rules of real clay on top of model `conserving` (docs/model.md): clay that gives way moves
-// the wall (shift), becomes height (lift, hoop), or heaves up beside the tool; a wet finger smears.
+// The rules of real clay on top of model `conserving` (docs/clay-rules.md): clay that gives way
+// moves the wall (shift), becomes height (lift, hoop), or heaves up; a wet finger smears.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/plan.hpp"

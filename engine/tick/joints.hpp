@@ -1,5 +1,5 @@
 #pragma once
-// Whether neighbouring rings touch, and how a press keeps them together (docs/model.md, Joints).
+// Whether neighbouring rings touch, and how a press keeps them joined (docs/clay-rules.md, Joints).
 
 #include "claystack/engine/clay.hpp"
 #include "engine/clay/stack_writer.hpp"

@@ -114,8 +114,8 @@ struct StabilitySpec {
   friend bool operator==(const StabilitySpec&, const StabilitySpec&) = default;
 };
 
-/// Rules of real clay on top of `conserving` (docs/model.md), each a separate stage. The paper's
-/// model has none of them.
+/// Rules of real clay on top of `conserving` (docs/clay-rules.md), each a separate stage. The
+/// paper's model has none of them.
 struct ClaySpec {
   bool lift = true;          ///< clay that two tools squeeze out becomes height
   bool shift = true;         ///< a tool on one side moves the wall as a plastic shell
