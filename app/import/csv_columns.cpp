@@ -26,9 +26,12 @@ constexpr std::array<std::pair<std::string_view, double>, 8> kUnits = {{{"mm", 1
                                                                         {"centimetres", 10.0}}};
 constexpr std::array<std::string_view, 4> kRadii = {"radius", "r", "rho", "x"};
 constexpr std::array<std::string_view, 3> kDiameters = {"diameter", "d", "durchmesser"};
-constexpr std::array<std::string_view, 7> kHeights = {"height", "h",    "y",    "z",
-                                                      "höhe",   "hÖhe", "hoehe"};
-constexpr std::array<std::string_view, 4> kOuter = {"outer", "outside", "außen", "aussen"};
+// The escapes are of Windows-1252, in which German spreadsheets write tables.
+constexpr std::array<std::string_view, 9> kHeights = {
+    "height", "h", "y", "z", "höhe", "hÖhe", "hoehe", "h\xF6he", "h\xD6he"};
+constexpr std::array<std::string_view, 5> kOuter = {"outer", "outside", "außen", "aussen",
+                                                    "au\xDF"
+                                                    "en"};
 constexpr std::array<std::string_view, 3> kInner = {"inner", "inside", "innen"};
 
 template <std::size_t N>
@@ -91,20 +94,30 @@ bool wall_table(const std::vector<std::string>& names) {
   return has("thickness_mm") && has("opposite_rho_mm");
 }
 
+/// The end of the first field; a field in quotes may contain the mark. `mark`: a blank is any.
+std::size_t end_of_field(std::string_view row, char mark) {
+  const std::size_t first = std::min(row.find_first_not_of(" \t"), row.size());
+  std::size_t from = 0;
+  if (row.substr(first).starts_with('"')) {
+    const std::size_t close = row.find('"', first + 1);
+    if (close != std::string_view::npos) from = close;
+  }
+  return std::min(mark == ' ' ? row.find_first_of(" \t", from) : row.find(mark, from), row.size());
+}
+
 }  // namespace
 
 std::vector<std::string> csv_fields(std::string_view row) {
   char between = ' ';
   for (const char mark : {';', '\t', ','}) {
-    if (trimmed(row).find(mark) == std::string_view::npos) continue;
+    if (end_of_field(trimmed(row), mark) == trimmed(row).size()) continue;
     between = mark;
     break;
   }
   if (between == ' ') row = trimmed(row);  // other rows may begin or end with an empty field
   std::vector<std::string> fields;
   while (true) {
-    const std::size_t end =
-        std::min(between == ' ' ? row.find_first_of(" \t") : row.find(between), row.size());
+    const std::size_t end = end_of_field(row, between);
     std::string_view field = trimmed(row.substr(0, end));
     if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
       field = trimmed(field.substr(1, field.size() - 2));

@@ -23,6 +23,12 @@ std::optional<double> number_of(std::string field) {
   return number_in<double>(text);
 }
 
+/// The first row that Excel writes to name its separator, such as "sep=;".
+bool names_separator(std::string_view row) {
+  row = trimmed(row);
+  return row.size() == 5 && (row.starts_with("sep=") || row.starts_with("SEP="));
+}
+
 /// Reads a table row by row.
 class Table {
  public:
@@ -123,13 +129,18 @@ class Table {
 }  // namespace
 
 Result<Drawing> read_csv(std::string_view text, const std::string& name, double scale) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    return failure(ErrorKind::bad_input,
+                   name + ": expected a table in UTF-8, found UTF-16; save it as CSV (UTF-8)");
   text = without_byte_order_mark(text);
+  const char end_of_row = text.find('\n') == std::string_view::npos ? '\r' : '\n';
   Table table(name, scale);
   for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    if (auto done = table.row(text.substr(0, end), number); !done)
-      return tl::make_unexpected(done.error());
+    const std::size_t end = std::min(text.find(end_of_row), text.size());
+    const std::string_view row = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
+    if (number == 1 && names_separator(row)) continue;
+    if (auto done = table.row(row, number); !done) return tl::make_unexpected(done.error());
   }
   return table.take();
 }

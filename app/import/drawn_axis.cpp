@@ -94,6 +94,32 @@ bool drawn_left_of_its_edge(const std::vector<Line>& lines) {
          !nearly_mirrored(lines, 0.5 * (bounds.low.x + bounds.high.x));
 }
 
+/// A shape that is its own mirror image, with corners that are not: a half section with an
+/// additional corner, or both halves of one.
+bool mirrored_but_for_corners(const std::vector<Line>& lines, double middle) {
+  constexpr std::size_t kMostCorners = 20'000;  // comparing them takes time
+  std::size_t corners = 0;
+  for (const Line& line : lines) corners += line.points_mm.size();
+  return corners <= kMostCorners && mirrored_within(lines, middle, kSamePointMm);
+}
+
+/// Notes that the left end, which no rule but the last one chose as the axis, is doubtful.
+void note_doubt(HalfSection& section, const Drawing& drawing, double middle,
+                const std::string& name) {
+  if (only_a_corner_at(drawing.lines, section.axis_mm))
+    section.notes.push_back(fmt::format(
+        "{}: expected a straight edge of the outline along the axis, or a vertical line beside it, "
+        "found only a corner at the left end, x = {:g} mm, which is used as the axis; choose "
+        "another if it is wrong",
+        name, section.axis_mm / drawing.scale));
+  else if (mirrored_but_for_corners(drawing.lines, middle))
+    section.notes.push_back(fmt::format(
+        "{}: expected one half of a pot, or both with the same corners, found a shape that is "
+        "symmetric about x = {:g} mm but for its corners; its left end, x = {:g} mm, is used as "
+        "the axis; choose the middle if both halves are drawn",
+        name, middle / drawing.scale, section.axis_mm / drawing.scale));
+}
+
 }  // namespace
 
 Bounds bounds_of(const std::vector<Line>& lines) {
@@ -130,13 +156,8 @@ Result<void> place_axis(HalfSection& section, Drawing& drawing, const HalfSectio
                     : section.axis == AxisRule::middle ? middle
                     : section.axis == AxisRule::right  ? bounds.high.x
                                                        : bounds.low.x;
-  if (section.axis == AxisRule::left && settings.axis == AxisRule::by_itself &&
-      only_a_corner_at(drawing.lines, section.axis_mm))
-    section.notes.push_back(fmt::format(
-        "{}: expected a straight edge of the outline along the axis, or a vertical line beside it, "
-        "found only a corner at the left end, x = {:g} mm, which is used as the axis; choose "
-        "another if it is wrong",
-        name, section.axis_mm / drawing.scale));
+  if (section.axis == AxisRule::left && settings.axis == AxisRule::by_itself)
+    note_doubt(section, drawing, middle, name);
   return {};
 }
 

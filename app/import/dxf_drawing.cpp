@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -38,6 +39,13 @@ std::optional<double> mm_of_unit(long unit) {
     default:
       return std::nullopt;
   }
+}
+
+/// Kinds that may be the outline of a pot and are not read, unlike texts and dimensions.
+bool has_outline(std::string_view type) {
+  constexpr std::array<std::string_view, 6> kKinds = {"3DFACE", "3DSOLID", "BODY",
+                                                      "HELIX",  "MLINE",   "REGION"};
+  return std::ranges::find(kKinds, type) != kKinds.end();
 }
 
 std::string lower(std::string_view text) {
@@ -82,10 +90,22 @@ class Reader {
                                  seen_layers_.empty()
                                      ? "no lines on any layer"
                                      : fmt::format("\"{}\"", fmt::join(seen_layers_, "\", \""))));
-    return Drawing{std::move(lines_), false};
+    return drawing();
   }
 
  private:
+  Result<Drawing> drawing() {
+    Drawing drawing{std::move(lines_), false};
+    if (unread_.empty()) return drawing;
+    const std::string problem =
+        fmt::format("{}: expected lines, polylines, arcs, circles, ellipses and splines, found {}",
+                    name_, fmt::join(unread_, ", "));
+    if (drawing.lines.empty())
+      return failure(ErrorKind::bad_input, problem + " alone; explode what is of other kinds");
+    drawing.notes.push_back(problem + " too, which is not read");
+    return drawing;
+  }
+
   Result<void> section(const DxfEntity& start, DxfGroups& groups) {
     const std::string_view kind = start.text(2);
     if (kind == "HEADER") return header(start);
@@ -196,10 +216,11 @@ class Reader {
     if (entity.type == "INSERT") return drawn ? insert(entity, within, layer) : Result<void>();
     auto line = dxf_line(entity, groups, within.placement, limits_, name_);
     if (!line) return tl::make_unexpected(line.error());
+    const bool asked = layer_.empty() || layer == layer_;
+    if (drawn && asked && has_outline(entity.type)) unread_.insert(std::string(entity.type));
     if (!*line || (*line)->points_mm.size() < 2 || !visible) return {};
     seen_layers_.insert(layer);
-    if (!drawn) return {};
-    if (layer_.empty() || layer == layer_) lines_.push_back(std::move(**line));
+    if (drawn && asked) lines_.push_back(std::move(**line));
     return {};
   }
 
@@ -282,6 +303,7 @@ class Reader {
   const double scale_;
   double unit_mm_ = 1.0;
   std::set<Name> ignored_, seen_layers_;
+  std::set<std::string> unread_;  ///< kinds of entities
   std::map<Name, Block> blocks_;
   std::size_t entities_ = 0, groups_ = 0;  ///< as counted for their limits
   PointLimits limits_;

@@ -52,8 +52,12 @@ Line arc_line(const DxfPlacement& place, glm::dvec2 centre, glm::dvec2 u, glm::d
               double turn) {
   u = place.along(u), v = place.along(v), centre = place.at(centre);
   Line line{{centre + std::cos(from) * u + std::sin(from) * v}, false};
-  append_arc(line.points_mm, centre, u, v, from, from + turn);
   line.closed = std::abs(turn - kFullTurn) <= kSameAngle;
+  // With the same chords in each quarter, a circle has its full size and is its own mirror image.
+  const int parts = line.closed ? 4 : 1;
+  const double step = turn / parts;
+  for (int i = 0; i < parts; ++i)
+    append_arc(line.points_mm, centre, u, v, from + i * step, from + (i + 1) * step);
   if (line.closed) line.points_mm.pop_back();
   return line;
 }
@@ -205,6 +209,10 @@ Result<Line> spline_line(const DxfEntity& entity, const DxfPlacement& place,
                knots.size() == control.size() + order;
   for (std::size_t i = 1; sound && i < knots.size(); ++i) sound = knots[i] >= knots[i - 1];
   for (const glm::dvec3& p : control) sound = sound && p.z > 0.0;
+  if (control.empty() && !entity.text(11).empty())
+    return refusal(entity, name,
+                   "expected control points, found fit points alone; convert the spline to a "
+                   "polyline, or save the drawing with its control points");
   if (!sound)
     return refusal(
         entity, name,

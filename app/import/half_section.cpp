@@ -277,19 +277,8 @@ double size_of(const std::vector<Line>& lines) {
   return size.y > 0.0 ? size.y : size.x;
 }
 
-}  // namespace
-
-double HalfSection::volume_mm3() const noexcept {
-  const auto squares = [](double a, double b) { return (a * a + a * b + b * b) / 3.0; };
-  double sum = 0.0;
-  for (const Slab& slab : slabs)
-    sum += (slab.to_mm - slab.from_mm) * (squares(slab.outer_from_mm, slab.outer_to_mm) -
-                                          squares(slab.inner_from_mm, slab.inner_to_mm));
-  return std::numbers::pi * sum;
-}
-
-Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& settings,
-                                 const std::string& name) {
+Result<HalfSection> section_as_drawn(Drawing drawing, const HalfSectionSettings& settings,
+                                     const std::string& name) {
   drawing.lines = joined(std::move(drawing.lines));
   HalfSection section;
   if (auto placed = place_axis(section, drawing, settings, name); !placed)
@@ -317,6 +306,37 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
   section.slabs = std::move(*slabs);
   section.height_mm = section.slabs.back().to_mm;
   return section;
+}
+
+/// Removes what is drawn twice, before and after lines are joined. Returns the number of lines.
+std::size_t without_repeats(std::vector<Line>& lines) {
+  const std::size_t repeats = remove_repeats(lines);
+  lines = joined(std::move(lines));
+  return repeats + remove_repeats(lines);
+}
+
+}  // namespace
+
+double HalfSection::volume_mm3() const noexcept {
+  const auto squares = [](double a, double b) { return (a * a + a * b + b * b) / 3.0; };
+  double sum = 0.0;
+  for (const Slab& slab : slabs)
+    sum += (slab.to_mm - slab.from_mm) * (squares(slab.outer_from_mm, slab.outer_to_mm) -
+                                          squares(slab.inner_from_mm, slab.inner_to_mm));
+  return std::numbers::pi * sum;
+}
+
+Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& settings,
+                                 const std::string& name) {
+  auto section = section_as_drawn(drawing, settings, name);
+  // An outline that is drawn twice may enclose nothing, by the even-odd rule.
+  if (section && section->volume_mm3() > 0.0) return section;
+  const std::size_t repeats = without_repeats(drawing.lines);
+  if (repeats == 0) return section;
+  drawing.notes.push_back(fmt::format(
+      "{}: expected every line once, found {} drawn again: each is read once", name, repeats));
+  auto once = section_as_drawn(std::move(drawing), settings, name);
+  return once ? once : section;
 }
 
 Result<HalfSection> read_half_section(std::string_view bytes, const std::string& name,

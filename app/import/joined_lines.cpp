@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace clay::importing {
@@ -96,6 +97,17 @@ void extend(std::vector<glm::dvec2>& chain, const std::vector<Line>& lines, Loos
   }
 }
 
+/// The cells of a line's points, the same for equal lines.
+std::vector<Cell> cells_along(const Line& line) {
+  std::vector<Cell> cells;
+  std::ranges::transform(line.points_mm, std::back_inserter(cells), cell_of);
+  std::vector<Cell> reversed(cells.rbegin(), cells.rend());
+  if (line.closed)
+    for (std::vector<Cell>* loop : {&cells, &reversed})
+      std::rotate(loop->begin(), std::min_element(loop->begin(), loop->end()), loop->end());
+  return std::min(cells, reversed);
+}
+
 bool a_point(const Line& line) {
   return std::all_of(line.points_mm.begin(), line.points_mm.end(),
                      [&](glm::dvec2 p) { return p == line.points_mm.front(); });
@@ -105,6 +117,13 @@ bool a_point(const Line& line) {
 
 Cell cell_of(glm::dvec2 p) {
   return {std::llround(p.x / kSamePointMm), std::llround(p.y / kSamePointMm)};
+}
+
+std::size_t remove_repeats(std::vector<Line>& lines) {
+  std::set<std::pair<bool, std::vector<Cell>>> drawn;
+  return std::erase_if(lines, [&](const Line& line) {
+    return !drawn.emplace(line.closed, cells_along(line)).second;
+  });
 }
 
 std::vector<Line> joined(std::vector<Line> lines) {

@@ -13,6 +13,10 @@ inline constexpr double kSamePointMm = 0.01;
 using Cell = std::pair<std::int64_t, std::int64_t>;
 [[nodiscard]] Cell cell_of(glm::dvec2 p);
 
+/// Removes lines that equal an earlier one, drawn in either direction, or from another corner if
+/// they are closed. Returns their number.
+std::size_t remove_repeats(std::vector<Line>& lines);
+
 /// Joins open lines end to end, in either direction; closes those whose ends meet.
 [[nodiscard]] std::vector<Line> joined(std::vector<Line> lines);
 

@@ -167,7 +167,8 @@ Result<Made> rings_of(Revolved pot, const std::vector<bool>& complete,
   if (2 * static_cast<std::size_t>(off) > kMeshCuts)
     return failure(ErrorKind::bad_input,
                    fmt::format("{}: expected a pot that is nearly of revolution, found a mesh that "
-                               "is more than {:.3g} mm from it at {} of {} azimuths",
+                               "is more than {:.3g} mm from it at {} of {} azimuths; few triangles "
+                               "around the axis, or the noise of a scan, have the same effect",
                                name, made.limit_mm, off, kMeshCuts));
   auto drawn = drawn_pot(pot.section, settings, name);
   if (!drawn) return tl::make_unexpected(drawn.error());

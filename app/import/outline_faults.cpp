@@ -24,19 +24,24 @@ void for_each_piece(const std::vector<Line>& lines, Use use) {
 
 }  // namespace
 
-bool nearly_mirrored(const std::vector<Line>& lines, double middle_mm) {
+bool mirrored_within(const std::vector<Line>& lines, double middle_mm, double within_mm) {
   std::vector<Segment> outline;
   std::vector<glm::dvec2> images;
-  double half_mm = 0.0;
-  for_each_piece(lines, [&](glm::dvec2 a, glm::dvec2 b) { outline.push_back({a, b}); });
-  for (const Line& line : lines)
-    for (const glm::dvec2& p : line.points_mm) {
+  for_each_piece(lines, [&](glm::dvec2 a, glm::dvec2 b) {
+    outline.push_back({a, b});
+    for (const glm::dvec2& p : {a, 0.5 * (a + b), b})
       images.emplace_back(2.0 * middle_mm - p.x, p.y);
+  });
+  return std::ranges::all_of(distances_from(outline, images),
+                             [&](double mm) { return mm <= within_mm; });
+}
+
+bool nearly_mirrored(const std::vector<Line>& lines, double middle_mm) {
+  double half_mm = 0.0;
+  for (const Line& line : lines)
+    for (const glm::dvec2& p : line.points_mm)
       half_mm = std::max(half_mm, std::abs(p.x - middle_mm));
-    }
-  const std::vector<double> distances = distances_from(outline, images);
-  return std::all_of(distances.begin(), distances.end(),
-                     [&](double mm) { return mm <= 0.04 * half_mm; });
+  return mirrored_within(lines, middle_mm, 0.04 * half_mm);
 }
 
 bool edge_along(const std::vector<Line>& lines, double x_mm) {

@@ -10,8 +10,12 @@
 
 namespace clay::importing {
 
-/// A drawing of both halves by hand: every corner has a mirror image within a fiftieth of the width
-/// of the outlines.
+/// Every corner and the middle of every piece have a mirror image on the outlines, within a
+/// distance.
+[[nodiscard]] bool mirrored_within(const std::vector<Line>& lines, double middle_mm,
+                                   double within_mm);
+
+/// A drawing of both halves by hand: the same, within a fiftieth of the width of the outlines.
 [[nodiscard]] bool nearly_mirrored(const std::vector<Line>& lines, double middle_mm);
 
 /// Whether a straight piece of an outline lies along the vertical line at `x_mm`.

@@ -148,12 +148,11 @@ class Copier {
     inherit(state.filled, value(SvgProperty::fill), nullptr);
     inherit(state.stroked, value(SvgProperty::stroke), nullptr);
     if (kind == "g" && !enter_layer(node, state)) return {};
-    if (const auto& transform = value(SvgProperty::transform);
-        transform && *transform != "none" && parent != nullptr) {
+    if (const auto& transform = value(SvgProperty::transform); transform && *transform != "none") {
       const auto functions = svg_transform(*transform, value(SvgProperty::transform_origin));
       if (!functions) return refusal(node, functions.error().message);
-      parent = add(node, parent, "g");
-      set(parent, "transform", *functions);
+      if (parent == nullptr) return viewport(node, node, parent, state, *functions);
+      parent = transformed(node, parent, *functions);
     }
     if (kind == "use") return use(node, parent, state);
     if (kind == "svg") return viewport(node, node, parent, state);
@@ -252,8 +251,16 @@ class Copier {
     return end - begin > kMost ? text + " -> ..." : text;
   }
 
-  /// The content of an svg or a symbol; the size is that of `sized`, if it has one.
-  Result<void> viewport(xmlNode* node, xmlNode* sized, xmlNode* parent, const Inherited& state) {
+  xmlNode* transformed(const xmlNode* source, xmlNode* parent, const std::string& functions) {
+    xmlNode* group = add(source, parent, "g");
+    set(group, "transform", functions);
+    return group;
+  }
+
+  /// The content of an svg or a symbol; the size is that of `sized`, if it has one. `functions`:
+  /// the transform of the page, which applies to all that is on it.
+  Result<void> viewport(xmlNode* node, xmlNode* sized, xmlNode* parent, const Inherited& state,
+                        const std::string& functions = {}) {
     if (state.depth + 1 > kDeepest)
       return refusal(node, fmt::format("expected elements at most {} deep, found more", kDeepest));
     xmlNode* copied = add(node, parent, "svg");
@@ -263,6 +270,7 @@ class Copier {
         set(copied, attribute, svg_attribute(sized, attribute));
     }
     if (parent == nullptr) size_page(copied);
+    if (!functions.empty()) copied = transformed(node, copied, functions);
     Inherited inside = state;
     ++inside.depth;
     return children(node, copied, inside);

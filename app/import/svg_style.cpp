@@ -57,15 +57,22 @@ void skip_block(std::string_view& css) {
   }
 }
 
-void set_declarations(SvgValues& values, std::string_view text) {
+SvgDeclarations declarations_of(std::string_view text) {
+  SvgDeclarations found;
   while (!text.empty()) {
-    std::string_view value = take_until(text, ';');
-    const std::string_view name = stripped(take_until(value, ':'));
+    std::string_view rest = take_until(text, ';');
+    const std::string_view name = stripped(take_until(rest, ':'));
     const auto known = std::find(kNames.begin(), kNames.end(), name);
     if (known == kNames.end()) continue;
-    value = stripped(value.substr(0, value.find('!')));
+    const std::string_view value = stripped(take_until(rest, '!'));
+    SvgValues& values = stripped(rest) == "important" ? found.important : found.normal;
     if (!value.empty()) values[static_cast<std::size_t>(known - kNames.begin())] = value;
   }
+  return found;
+}
+
+bool sets_nothing(const SvgValues& values) {
+  return std::ranges::none_of(values, [](const auto& value) { return value.has_value(); });
 }
 
 void lay_over(SvgValues& values, const SvgValues& above) {
@@ -160,10 +167,8 @@ void SvgStyles::add(std::string_view text) {
       continue;
     }
     std::string_view selectors = take_until(css, '{');
-    SvgValues values;
-    set_declarations(values, take_until(css, '}'));
-    if (std::none_of(values.begin(), values.end(), [](const auto& v) { return v.has_value(); }))
-      continue;
+    const SvgDeclarations values = declarations_of(take_until(css, '}'));
+    if (sets_nothing(values.normal) && sets_nothing(values.important)) continue;
     while (!selectors.empty()) {
       auto parts = parts_of(take_until(selectors, ','));
       if (!parts) continue;
@@ -255,7 +260,8 @@ Result<SvgValues> SvgStyles::of(xmlNode* node) {
     if (!set.empty()) values[i] = std::string(stripped(set));
     bytes += set.size();
   }
-  for (const auto& [rank, rule] : rules_of(node)) lay_over(values, rules_[rule].values);
+  const auto applied = rules_of(node);
+  for (const auto& [rank, rule] : applied) lay_over(values, rules_[rule].values.normal);
   const std::string style = svg_attribute(node, "style");
   comparisons_ += (bytes + style.size()) / kBytesPerComparison;
   if (comparisons_ > kMostComparisons)
@@ -263,7 +269,10 @@ Result<SvgValues> SvgStyles::of(xmlNode* node) {
                    fmt::format("expected style sheets that need at most {} comparisons with "
                                "elements, found more",
                                kMostComparisons));
-  set_declarations(values, without_comments(style));
+  const SvgDeclarations own = declarations_of(without_comments(style));
+  lay_over(values, own.normal);
+  for (const auto& [rank, rule] : applied) lay_over(values, rules_[rule].values.important);
+  lay_over(values, own.important);
   return values;
 }
 

@@ -35,6 +35,11 @@ inline constexpr std::string_view kSvgBlank = " \t\r\n\f";
 /// The values of one element, where they are set.
 using SvgValues = std::array<std::optional<std::string>, kSvgProperties>;
 
+/// What a rule or a style attribute sets; values that are !important apply last.
+struct SvgDeclarations {
+  SvgValues normal, important;
+};
+
 /// The text of an attribute's or element's children. Entities are replaced only if their content is
 /// short and names no others: nested ones can grow without bound.
 [[nodiscard]] std::string svg_text(xmlDoc* document, const xmlNode* children);
@@ -50,7 +55,8 @@ class SvgStyles {
   void add(std::string_view css);
 
   /// The values that presentation attributes, rules and the style attribute of `node` set, each
-  /// before the next. Refuses drawings that need too many comparisons.
+  /// before the next, and after them the important ones of rules and style attribute. Refuses
+  /// drawings that need too many comparisons.
   Result<SvgValues> of(xmlNode* node);
 
  private:
@@ -62,7 +68,7 @@ class SvgStyles {
   };
   struct Rule {
     std::vector<Part> parts;
-    SvgValues values;
+    SvgDeclarations values;
     int rank = 0;  ///< specificity
   };
 

@@ -73,7 +73,13 @@ TEST(CsvDrawing, ReadsColumnsByTheirNames) {
         "Radius [mm];Höhe [mm]\n25.4;0\n12.7;50.8\n",
         "Durchmesser (cm)\tHOEHE\n5,08\t0\n2,54\t50,8\n",
         "outer_radius, height\n25.4,0\n12.7,50.8\n", "x;y\n25,4;0\n12,7;50,8\n",
-        "25,4;0\n+12,7;50,8\n", "25,4\t0\n12,7\t50,8\n"}) {
+        "25,4;0\n+12,7;50,8\n", "25,4\t0\n12,7\t50,8\n",
+        // As spreadsheets write tables: quotes, a first row, old line ends, Windows-1252.
+        "\"radius\",\"height\"\n\"25,4\",\"0\"\n\"12,7\",\"50,8\"\n",
+        "sep=;\r\nRadius;Height\r\n25,4;0\r\n12,7;50,8\r\n", "SEP=,\n25.4,0\n12.7,50.8\n",
+        "radius;height\r25,4;0\r12,7;50,8\r", "Radius;H\xF6he\r\n25,4;0\r\n12,7;50,8\r\n",
+        "au\xDF"
+        "en Radius;H\xD6HE\n25,4;0\n12,7;50,8\n"}) {
     const auto found = points_of(csv);
     ASSERT_EQ(found.size(), 2u) << csv;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -129,6 +135,8 @@ TEST(CsvDrawing, RefusesTooManyLines) {
 
 TEST(CsvDrawing, RefusesAnEmptyDrawing) {
   EXPECT_THAT(refusal_of(read_drawing("", "cup.csv")), HasSubstr("found an empty file"));
+  EXPECT_THAT(refusal_of(read_drawing("\xFF\xFE" + std::string("1\0,\0", 4), "cup.csv")),
+              HasSubstr("expected a table in UTF-8, found UTF-16"));
   EXPECT_THAT(refusal_of(read_drawing("radius,height\n", "cup.csv")), HasSubstr("no line in it"));
   EXPECT_THAT(refusal_of(read_drawing("1,2\n", "cup.png")),
               HasSubstr("expected a drawing (.svg, .dxf, .csv)"));

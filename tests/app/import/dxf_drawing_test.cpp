@@ -54,6 +54,21 @@ TEST(DxfDrawing, JoinsLinesInAnyOrderAndDirection) {
   EXPECT_NEAR(volume_of(file(cone)), kPi * 90.0 / 3.0 * (1600.0 + 800.0 + 400.0), 0.01 * 90 * 50);
 }
 
+TEST(DxfDrawing, ACircleIsABall) {
+  // Whatever the number of its chords.
+  for (const double radius : {10.0, 20.0, 33.3, 50.0}) {
+    const auto section = section_of(
+        file(groups({{0, "CIRCLE"}, {10, "20"}, {20, "5"}, {40, fmt::format("{}", radius)}})),
+        "pot.dxf");
+    ASSERT_TRUE(section) << refusal_of(section);
+    EXPECT_EQ(section->axis, AxisRule::middle) << radius;
+    EXPECT_NEAR(section->axis_mm, 20.0, 1e-9);
+    EXPECT_NEAR(section->height_mm, 2.0 * radius, 1e-9);
+    EXPECT_NEAR(section->volume_mm3(), 4.0 / 3.0 * kPi * radius * radius * radius,
+                kFlatMm * 4.0 * kPi * radius * radius);
+  }
+}
+
 TEST(DxfDrawing, AppliesItsUnits) {
   const std::string box =
       line({0, 0}, {1, 0}) + line({1, 0}, {1, 2}) + line({1, 2}, {0, 2}) + line({0, 2}, {0, 0});

@@ -51,6 +51,36 @@ TEST(DxfFaults, OtherEntitiesDrawNothing) {
     EXPECT_NEAR(volume(drawing_of(box(30, 60) + " " + other)), kPi * 900.0 * 60.0, 1e-6) << other;
 }
 
+TEST(DxfFaults, NamesOutlinesThatAreNotRead) {
+  const auto notes = [](const std::string& entities) {
+    return section_of(drawing_of(box(30, 60) + entities), "pot.dxf", {AxisRule::left, 0.0, {}})
+        .value()
+        .notes;
+  };
+  EXPECT_EQ(notes(" 0 REGION 0 MLINE 0 REGION"),
+            std::vector<std::string>{"pot.dxf: expected lines, polylines, arcs, circles, ellipses "
+                                     "and splines, found MLINE, REGION too, which is not read"});
+  EXPECT_TRUE(notes(" 0 TEXT 1 words 0 DIMENSION 0 REGION 60 1").empty());
+  EXPECT_THAT(problem(drawing_of("0 REGION")), HasSubstr("found REGION alone; explode"));
+  EXPECT_THAT(problem(drawing_of("0 SPLINE 71 3 74 2 11 0 21 0 11 30 21 60")),
+              HasSubstr("expected control points, found fit points alone"));
+}
+
+TEST(DxfFaults, ReadsRepeatedLinesOnce) {
+  const std::string wall = " 0 LINE 10 30 20 0 11 30 21 60", foot = "0 LINE 10 0 20 0 11 30 21 0",
+                    lid = " 0 LINE 10 0 20 60 11 30 21 60", axis = " 0 LINE 10 0 20 0 11 0 21 60",
+                    back = " 0 LINE 10 30 20 60 11 30 21 0";
+  for (const std::string& twice : {foot + wall + lid + axis + wall, foot + back + wall + lid + axis,
+                                   foot + wall + lid + axis + " " + box(30, 60)}) {
+    const auto section = section_of(drawing_of(twice), "pot.dxf", {AxisRule::left, 0.0, {}});
+    ASSERT_TRUE(section) << refusal_of(section);
+    EXPECT_NEAR(section->volume_mm3(), kPi * 900.0 * 60.0, 1e-6) << twice;
+    EXPECT_EQ(section->notes,
+              std::vector<std::string>{"pot.dxf: expected every line once, found 1 drawn again: "
+                                       "each is read once"});
+  }
+}
+
 TEST(DxfFaults, LinesMayHaveAnyLength) {
   const std::string text(5'000'000, 'a');
   EXPECT_NEAR(volume(dxf_of("999 " + text + " 0 SECTION 2 ENTITIES 0 TEXT 1 " + text + " " +

@@ -40,6 +40,21 @@ TEST(SvgDrawing, UsesTheMirrorLineOfASymmetricDrawingAsAxis) {
               kFlatMm * 4.0 * kPi * 900.0);
 }
 
+TEST(SvgDrawing, WarnsOfAShapeThatIsSymmetricButForItsCorners) {
+  const auto section = section_of(page("<path d='M 20 30 H 60 V 80 H 20 V 50 Z'/>"), "pot.svg");
+  ASSERT_TRUE(section) << refusal_of(section);
+  EXPECT_NEAR(section->volume_mm3(), kPi * 1600.0 * 50.0, 1e-6);
+  ASSERT_EQ(section->notes.size(), 1u);
+  EXPECT_THAT(section->notes[0], HasSubstr("symmetric about x = 40 mm but for its corners; its "
+                                           "left end, x = 20 mm, is used as the axis"));
+  EXPECT_TRUE(section_of(page("<path d='M 20 30 H 60 V 80 H 20 V 50 Z'/>"), "pot.svg",
+                         {AxisRule::left, 0.0, {}})
+                  ->notes.empty());
+  // The images of all corners of this bore are on the outlines, and its wall is not symmetric.
+  EXPECT_TRUE(section_of(page("<path d='M 0 60 H 30 V 0 H 0 Z M 0 54 H 26 V 0 H 0 Z'/>"), "pot.svg")
+                  ->notes.empty());
+}
+
 TEST(SvgDrawing, FlattenedCurvesKeepTheirArea) {
   // A half circle by one arc, then by the usual two cubics, which deviate by 2.7e-4 of the radius.
   const std::string end = " Z'/>";
@@ -77,6 +92,18 @@ TEST(SvgDrawing, AppliesTransformsGroupsAndUnits) {
                                {AxisRule::left, 0.0, 60.0});
   ASSERT_TRUE(high) << refusal_of(high);
   EXPECT_NEAR(high->volume_mm3(), wanted, 1e-6);
+}
+
+TEST(SvgDrawing, AppliesTheTransformOfThePage) {
+  for (const char* attribute : {"transform='scale(2)'", "style='transform: scale(2)'"}) {
+    const auto section = section_of(
+        std::string("<svg xmlns='http://www.w3.org/2000/svg' width='200mm' height='200mm' "
+                    "viewBox='0 0 200 200' ") +
+            attribute + "><rect width='15' height='30'/></svg>",
+        "pot.svg", {AxisRule::left, 0.0, {}});
+    ASSERT_TRUE(section) << refusal_of(section);
+    EXPECT_NEAR(section->volume_mm3(), kPi * 900.0 * 60.0, 1e-6) << attribute;
+  }
 }
 
 TEST(SvgDrawing, PercentagesAreOfTheViewBox) {
@@ -198,6 +225,20 @@ TEST(SvgDrawing, IgnoresHiddenElements) {
         "<g style='display:none'>" + hidden + "</g>", "<g opacity='0'>" + hidden + "</g>",
         "<g style='opacity:0.0'>" + hidden + "</g>", "<clipPath id='c'>" + hidden + "</clipPath>"})
     EXPECT_NEAR(volume_of(wrapped + pot), wanted, 1e-6) << wrapped;
+}
+
+TEST(SvgDrawing, ImportantDeclarationsPrevail) {
+  const std::string pot = "<path d='M 0 0 H 30 V 60 H 0 L 0 30 Z'/>";
+  const auto with = [&](const std::string& css, const std::string& style) {
+    return volume_of("<style>" + css + "</style>" + pot + "<rect id='x' class='a b' style='" +
+                     style + "' width='90' height='60'/>");
+  };
+  const double wanted = kPi * 900.0 * 60.0;
+  EXPECT_NEAR(with(".a{display:none !important} #x{display:inline}", ""), wanted, 1e-6);
+  EXPECT_NEAR(with(".a{display:none!important}", "display:inline"), wanted, 1e-6);
+  EXPECT_NEAR(with(".a{fill: none ! important}", "fill:red"), wanted, 1e-6);
+  EXPECT_NEAR(with(".a.b{display:inline!important}", "display:none !important"), wanted, 1e-6);
+  EXPECT_NEAR(with("rect{display:none!important; display:inline}", ""), wanted, 1e-6);
 }
 
 TEST(SvgDrawing, ReportsClipPathsAndMasksOnce) {
