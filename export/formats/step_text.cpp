@@ -10,6 +10,23 @@ namespace {
 
 constexpr int kDeepest = 32;
 
+bool ends_word(char c) {
+  switch (c) {
+    case '(':
+    case ')':
+    case ',':
+    case ';':
+    case '=':
+    case ' ':
+    case '\n':
+    case '\r':
+    case '\t':
+      return true;
+    default:
+      return false;
+  }
+}
+
 class StepParser {
  public:
   StepParser(std::string_view text, std::string_view name) : text_(text), name_(name) {}
@@ -64,7 +81,7 @@ class StepParser {
           break;
       at_ = std::min(at_ + 1, text_.size());
     } else {
-      at_ = std::min(text_.find_first_of("(),;= \n\r\t", at_), text_.size());
+      while (at_ < text_.size() && !ends_word(text_[at_])) ++at_;
     }
     return std::string(text_.substr(begin, at_ - begin));
   }

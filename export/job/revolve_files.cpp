@@ -188,6 +188,7 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
   }
 
   settings.max_error_mm = allowed;
+  double farthest_mm = 0.0;
   const auto judge = [&](const std::string& bytes) {
     return stages_.run("exact_test", [&] {
       return decode_mesh(bytes, format, as_written(format))
@@ -195,7 +196,7 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
             // A coarse grid may be sound and yet exchange close vertices.
             return check_sound(decoded, as_written(format)).and_then([&] {
               return match_revolve(decoded, rule_, allowed, format, as_written(format))
-                  .map([](double) {});
+                  .map([&](double found_mm) { farthest_mm = found_mm; });
             });
           });
     });
@@ -208,7 +209,9 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
              },
              judge)
       .and_then([&](const std::string& bytes) {
-        return certify_bytes(format, allowed, Proof::exact_test, bytes, store);
+        return store_judged(format, bytes, store).and_then([&] {
+          return certified(format, farthest_mm, Proof::exact_test, bytes, store);
+        });
       });
 }
 
@@ -231,7 +234,7 @@ Result<FileReport> RevolveFiles::write_3mf(FileStore& store) {
         .run(stage_name("encode", kFormat),
              [&] { return proved_package(model, contents, rounding); })
         .and_then([&](const std::string& bytes) {
-          return store_package(bytes, store).and_then([&] {
+          return store_judged(kFormat, bytes, store).and_then([&] {
             return certified(kFormat, rounding, proof, bytes, store);
           });
         });
@@ -261,15 +264,15 @@ Result<std::string> RevolveFiles::proved_package(const ModelPart& model, FileCon
   return matched ? package : tl::make_unexpected(matched.error());
 }
 
-Result<void> RevolveFiles::store_package(const std::string& bytes, FileStore& store) {
-  constexpr auto kFormat = MeshFormat::three_mf;
-  return stages_.run(stage_name("store", kFormat), [&] { return write_in_parts(store, bytes); })
+Result<void> RevolveFiles::store_judged(MeshFormat format, const std::string& bytes,
+                                        FileStore& store) {
+  return stages_.run(stage_name("store", format), [&] { return write_in_parts(store, bytes); })
       .and_then([&] {
-        return stages_.run(stage_name("verify", kFormat), [&] {
+        return stages_.run(stage_name("verify", format), [&] {
           return read_back(store, bytes).and_then([&](const std::string& again) -> Result<void> {
             if (again == bytes) return {};
             return failure(ErrorKind::io,
-                           as_written(kFormat) + ": the bytes read back differ from those written");
+                           as_written(format) + ": the bytes read back differ from those written");
           });
         });
       });

@@ -47,7 +47,8 @@ class RevolveFiles {
   Result<FileReport> write_3mf(FileStore& store);
   Result<std::string> proved_package(const ModelPart& model, FileContents contents,
                                      double rounding_mm);
-  Result<void> store_package(const std::string& bytes, FileStore& store);
+  /// Of bytes that were decoded and matched with the solid: those read back need only be the same.
+  Result<void> store_judged(MeshFormat format, const std::string& bytes, FileStore& store);
   [[nodiscard]] DracoClaims draco_claims(double reach_mm) const;
   Result<Proof> prove_rounded(MeshFormat format, double rounding_mm);
   Result<FileReport> certify_bytes(MeshFormat format, double rounding_mm, Proof proof,

@@ -65,11 +65,7 @@ class RevolvedExport {
   /// Computed once; does not depend on the tolerance.
   Result<void> take_section() {
     return stages_.run("profile", [&] { return profile_of(stack_, min_step_mm(stack_)); })
-        .map([&](StackProfile steps) {
-          steps_ = std::move(steps);
-          if (options_.smoothing == Smoothing::exact)
-            wall_as_steps_mm_ = min_wall_mm(steps_.profile);
-        });
+        .map([&](StackProfile steps) { steps_ = std::move(steps); });
   }
 
   /// At the requested resolution; with a limit of triangles, at the smallest tolerance that meets
@@ -290,9 +286,11 @@ class RevolvedExport {
     WallReport& walls = report_.walls;
     walls.min_wall_mm = min_wall_mm;
     walls.thinnest = stages_.run("wall", [&] { return min_wall(profile); });
-    if (report_.section.smoothing == Smoothing::exact &&
-        wall_as_steps_mm_ > walls.thinnest.thickness_mm)
-      walls.as_steps_mm = wall_as_steps_mm_;
+    if (report_.section.smoothing == Smoothing::exact) {
+      const Wall of_steps = stages_.run("wall", [&] { return min_wall(steps_.profile); });
+      if (of_steps.thickness_mm > walls.thinnest.thickness_mm)
+        walls.as_steps_mm = of_steps.thickness_mm;
+    }
     if (options_.wall_spacing_mm) {
       walls.field =
           stages_.run("wall_field", [&] { return wall_field(profile, *options_.wall_spacing_mm); });
@@ -300,7 +298,7 @@ class RevolvedExport {
     }
     walls.limit = options_.walls.for_size(size_sum_mm(report_.size.extents_mm));
     report_.process.limits = options_.walls.process;
-    report_.process.overhang = steepest_overhang(profile);
+    report_.process.overhang = stages_.run("overhang", [&] { return steepest_overhang(profile); });
   }
 
   MakerNumbers numbers() const {
@@ -317,7 +315,6 @@ class RevolvedExport {
   const std::vector<Output>& outputs_;
   const ExportOptions& options_;
   StackProfile steps_;
-  std::optional<double> wall_as_steps_mm_;
   ExportReport report_;
   Stages stages_;
 };

@@ -25,6 +25,15 @@ Kernel::Segment_3 last_side(const TriangleMesh& mesh, const Triangle& t) {
   return {cgal_point(mesh, t[1]), cgal_point(mesh, t[2])};
 }
 
+/// True if the last side of `b` is on one side of the plane of `a`. Then `b` has no more than the
+/// first corner, which both share, in that plane.
+bool leaves_plane(const TriangleMesh& mesh, const Triangle& a, const Triangle& b) {
+  const CgalPoint p = cgal_point(mesh, a[0]), q = cgal_point(mesh, a[1]),
+                  r = cgal_point(mesh, a[2]);
+  const CGAL::Orientation side = CGAL::orientation(p, q, r, cgal_point(mesh, b[1]));
+  return side != CGAL::COPLANAR && side == CGAL::orientation(p, q, r, cgal_point(mesh, b[2]));
+}
+
 std::size_t bring_shared_to_front(Triangle& a, Triangle& b) {
   std::size_t shared = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -48,6 +57,7 @@ bool PairTest::meet(Triangle a, Triangle b) const {
     case 0:
       return CGAL::do_intersect(whole(mesh_, a), whole(mesh_, b));
     case 1:
+      if (leaves_plane(mesh_, a, b) || leaves_plane(mesh_, b, a)) return false;
       return CGAL::do_intersect(whole(mesh_, a), last_side(mesh_, b)) ||
              CGAL::do_intersect(whole(mesh_, b), last_side(mesh_, a));
     case 2:

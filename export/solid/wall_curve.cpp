@@ -132,22 +132,22 @@ std::vector<double> bounds_by_span(const WallCurve& curve, const LineByLength& l
 
 }  // namespace
 
+/// Control point i is the blossom at i times b and 3 - i times a.
 std::array<ProfilePoint, 4> WallCurve::bezier(std::size_t span, double a, double b) const {
-  std::array<ProfilePoint, 4> points;
   const std::size_t k = span + 3;
-  for (std::size_t i = 0; i < 4; ++i) {
-    std::array<ProfilePoint, 4> d{control[span], control[span + 1], control[span + 2],
-                                  control[span + 3]};
-    for (std::size_t r = 1; r <= 3; ++r) {
-      const double t = r <= 3 - i ? a : b;  // the blossom at i times b and 3 - i times a
-      for (std::size_t j = 3; j >= r; --j) {
-        const double left = knot_at(knots, j + k - 3), right = knot_at(knots, j + 1 + k - r);
-        d[j] = mix(d[j - 1], d[j], (t - left) / (right - left));
-      }
+  using Points = std::array<ProfilePoint, 4>;
+  const auto blossom = [&](Points d, std::size_t r, double t) {
+    for (std::size_t j = 3; j >= r; --j) {
+      const double left = knot_at(knots, j + k - 3), right = knot_at(knots, j + 1 + k - r);
+      d[j] = mix(d[j - 1], d[j], (t - left) / (right - left));
     }
-    points[i] = d[3];
-  }
-  return points;
+    return d;
+  };
+  const Points all{control[span], control[span + 1], control[span + 2], control[span + 3]};
+  const Points at_a = blossom(all, 1, a), at_aa = blossom(at_a, 2, a);
+  const Points at_ab = blossom(at_a, 2, b), at_bb = blossom(blossom(all, 1, b), 2, b);
+  return {blossom(at_aa, 3, a)[3], blossom(at_aa, 3, b)[3], blossom(at_ab, 3, b)[3],
+          blossom(at_bb, 3, b)[3]};
 }
 
 WallCurve fitted(const Polygon& line, double tolerance_mm) {

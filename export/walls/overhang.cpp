@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace clay::solid::inline walls {
@@ -38,19 +39,20 @@ std::vector<FaceLine> edges_of(const Profile& profile) {
 /// section of the place.
 class ClayBelow {
  public:
-  explicit ClayBelow(const std::vector<FaceLine>& edges) : edges_(edges) {
+  explicit ClayBelow(const std::vector<FaceLine>& lines) {
     bed_ = kUnheld;
     double top = -kUnheld;
-    for (const FaceLine& edge : edges) {
-      bed_ = std::min({bed_, edge.from.y, edge.to.y});
-      top = std::max({top, edge.from.y, edge.to.y});
+    edges_.reserve(lines.size());
+    for (const FaceLine& line : lines) {
+      const Edge& edge = edges_.emplace_back(line);
+      bed_ = std::min(bed_, edge.bottom);
+      top = std::max(top, edge.top);
     }
     band_mm_ = std::max(kOverhangDepthMm, (top - bed_) / kMostBands);
     bands_.resize(band(top) + 1);
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      const auto [low, high] = std::minmax(edges[i].from.y, edges[i].to.y);
-      for (std::size_t b = band(low); b <= band(high); ++b) bands_[b].push_back(i);
-    }
+    for (std::size_t i = 0; i < edges_.size(); ++i)
+      for (std::size_t b = band(edges_[i].bottom); b <= band(edges_[i].top); ++b)
+        bands_[b].push_back(i);
   }
 
   /// The least slope of a line from the place down to clay or to the bed, if it is below `most`.
@@ -58,39 +60,54 @@ class ClayBelow {
     const double low = place.y - kOverhangDepthMm;
     if (low <= bed_) return 0.0;
     double least = most;
-    for (std::size_t b = band(low); b <= band(place.y); ++b)
-      for (const std::size_t i : bands_[b])
-        if (beside(place, edges_[i]) <= least * kOverhangDepthMm)
-          least = std::min(least, slope(place, edges_[i], low));
+    // From the top down: the nearest clay comes first, and rules out most of the rest.
+    const std::size_t lowest = band(low);
+    for (std::size_t b = band(place.y) + 1; b-- > lowest;)
+      for (const std::size_t i : bands_[b]) {
+        const Edge& edge = edges_[i];
+        if (edge.beside(place) <= least * std::min(place.y - edge.bottom, kOverhangDepthMm))
+          least = std::min(least, slope(place, edge, low));
+      }
     return least;
   }
 
  private:
+  /// Its bounds are computed once, as each place compares them.
+  struct Edge {
+    explicit Edge(const FaceLine& of) : line(of) {
+      std::tie(inner, outer) = std::minmax(of.from.rho, of.to.rho);
+      std::tie(bottom, top) = std::minmax(of.from.y, of.to.y);
+    }
+
+    /// How far the edge is from the vertical line through the place [mm].
+    [[nodiscard]] double beside(const ProfilePoint& place) const {
+      return std::max({inner - place.rho, place.rho - outer, 0.0});
+    }
+
+    FaceLine line;
+    double inner = 0.0, outer = 0.0, bottom = 0.0, top = 0.0;
+  };
+
   [[nodiscard]] std::size_t band(double y) const {
     return static_cast<std::size_t>((y - bed_) / band_mm_);
   }
 
-  /// How far an edge is from the vertical line through the place [mm].
-  static double beside(const ProfilePoint& place, const FaceLine& edge) {
-    const auto [inner, outer] = std::minmax(edge.from.rho, edge.to.rho);
-    return std::max({inner - place.rho, place.rho - outer, 0.0});
-  }
-
   /// Along a straight edge the slope is least at an end, or 0 where it passes below the place.
-  static double slope(const ProfilePoint& place, const FaceLine& edge, double low) {
+  static double slope(const ProfilePoint& place, const Edge& edge, double low) {
     constexpr double kRoundingMm = 1e-6;  // of the place's own level
-    const double high = place.y - kRoundingMm, rise = edge.to.y - edge.from.y;
-    const auto [bottom, top] = std::minmax(edge.from.y, edge.to.y);
-    if (bottom > high || top < low) return kUnheld;
-    const auto part = [&](double y) { return std::clamp((y - edge.from.y) / rise, 0.0, 1.0); };
-    const ProfilePoint a = rise == 0.0 ? edge.from : edge.at(part(low));
-    const ProfilePoint b = rise == 0.0 ? edge.to : edge.at(part(high));
+    const double high = place.y - kRoundingMm;
+    if (edge.bottom > high || edge.top < low) return kUnheld;
+    const FaceLine& line = edge.line;
+    const double rise = line.to.y - line.from.y;
+    const auto part = [&](double y) { return std::clamp((y - line.from.y) / rise, 0.0, 1.0); };
+    const ProfilePoint a = rise == 0.0 ? line.from : line.at(part(low));
+    const ProfilePoint b = rise == 0.0 ? line.to : line.at(part(high));
     const double aside_a = a.rho - place.rho, aside_b = b.rho - place.rho;
     if (aside_a * aside_b <= 0.0) return 0.0;
     return std::min(std::abs(aside_a) / (place.y - a.y), std::abs(aside_b) / (place.y - b.y));
   }
 
-  const std::vector<FaceLine>& edges_;
+  std::vector<Edge> edges_;
   double bed_ = 0.0, band_mm_ = 0.0;
   std::vector<std::vector<std::size_t>> bands_;
 };
