@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 namespace clay {
 namespace {
@@ -50,19 +51,38 @@ std::optional<XmlAttributeLimit::Fault> XmlAttributeLimit::take(std::string_view
     const std::string head = std::move(head_);
     if (auto fault = take(head)) return fault;
   }
+  if (width_ == 1)
+    take_narrow(piece);
+  else
+    take_wide(piece);
+  return fault_;
+}
+
+void XmlAttributeLimit::take_narrow(std::string_view piece) {
+  while (!piece.empty() && !fault_) {
+    if (declared_ && piece.front() == '<') {
+      // The next `<` begins anew, and a tag that ends within kMost bytes has fewer attributes: only
+      // the last `<` within that distance matters.
+      const auto last = static_cast<std::ptrdiff_t>(piece.rfind('<', kMost));
+      line_ += static_cast<std::size_t>(std::count(piece.begin(), piece.begin() + last, '\n'));
+      piece.remove_prefix(static_cast<std::size_t>(last));
+    }
+    take_character(piece.front());
+    piece.remove_prefix(1);
+  }
+}
+
+void XmlAttributeLimit::take_wide(std::string_view piece) {
   for (const char c : piece) {
     if (fault_) break;
-    if (width_ == 1) {
-      take_character(c);
-    } else if (!odd_) {
+    if (!odd_) {
       odd_ = c;
-    } else {
-      const char high = high_first_ ? *odd_ : c, low = high_first_ ? c : *odd_;
-      take_character(high == '\0' ? low : '\x80');
-      odd_.reset();
+      continue;
     }
+    const char high = high_first_ ? *odd_ : c, low = high_first_ ? c : *odd_;
+    take_character(high == '\0' ? low : '\x80');
+    odd_.reset();
   }
-  return fault_;
 }
 
 /// Finds the width of characters, as libxml2 does, and passes over a byte order mark.

@@ -29,6 +29,8 @@ class XmlAttributeLimit {
 
  private:
   [[nodiscard]] bool begin();
+  void take_narrow(std::string_view piece);
+  void take_wide(std::string_view piece);
   void take_character(char c);
   void take_declaration(char c);
   void expect_encoding();

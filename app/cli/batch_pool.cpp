@@ -69,12 +69,13 @@ struct Running {
   bool timed_out = false;
 };
 
-/// In the child: never returns.
-[[noreturn]] void become(const std::vector<std::string>& words, int out, int err) {
+/// In the child of `batch`: never returns.
+[[noreturn]] void become(const std::vector<std::string>& words, pid_t batch, int out, int err) {
   // A separate process group, so that a time limit ends all of its processes; and no job outlives
-  // the batch.
+  // the batch, even if the batch ended before this process asked for the signal.
   (void)::setpgid(0, 0);
   (void)::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (::getppid() != batch) ::_exit(128 + SIGTERM);
   (void)::dup2(out, STDOUT_FILENO);
   (void)::dup2(err, STDERR_FILENO);
   ::close(STDIN_FILENO);  // its number is then the lowest free one, even if no other is left
@@ -98,8 +99,8 @@ Result<Running> start(const std::vector<BatchJob>& jobs, std::size_t job) {
     return system_failure("cannot make a pipe");
   }
   Output err_end(err[0]);
-  const pid_t process = ::fork();
-  if (process == 0) become(jobs[job].words, out[1], err[1]);
+  const pid_t batch = ::getpid(), process = ::fork();
+  if (process == 0) become(jobs[job].words, batch, out[1], err[1]);
   const int failed = errno;
   ::close(out[1]);
   ::close(err[1]);

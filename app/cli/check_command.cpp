@@ -8,12 +8,16 @@
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/export/repair.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace clay::cli {
 namespace {
@@ -22,17 +26,28 @@ bool is_pot(std::string_view path) {
   return ends_ignoring_case(path, ".json") || ends_ignoring_case(path, ".cbor");
 }
 
+/// The options of a repair that are given.
+std::vector<std::string_view> details_of_repair(const solid::RepairOptions& options) {
+  std::vector<std::string_view> given;
+  for (const auto& [name, is_given] : {std::pair("--weld", options.weld_mm.has_value()),
+                                       {"--cap", options.cap_openings},
+                                       {"--thicken", options.thicken_mm.has_value()},
+                                       {"--wrap", options.wrap_mm.has_value()}})
+    if (is_given) given.push_back(name);
+  return given;
+}
+
 /// Checks combinations of options.
 Result<void> check_usage(const CheckCommand& command, const Console& console) {
   if (command.wall_samples_asked && !command.walls.asked() && !is_pot(command.file))
     return tl::make_unexpected(no_effect_without("--wall-samples", "--min-wall or --process"));
   if (command.dry_run && !command.changes_mesh())
     return failure(ErrorKind::bad_input, "--dry-run: expected --repair or --max-triangles with it");
-  const solid::RepairOptions& repair = command.repair_options;
-  if ((repair.weld_mm || repair.thicken_mm || repair.wrap_mm || repair.cap_openings) &&
-      !command.repair)
+  if (const auto details = details_of_repair(command.repair_options);
+      !details.empty() && !command.repair)
     return failure(ErrorKind::bad_input,
-                   "--weld, --cap, --thicken, --wrap: expected --repair with them");
+                   fmt::format("{}: expected --repair with {}", fmt::join(details, ", "),
+                               details.size() == 1 ? "it" : "them"));
   if (command.changes_mesh() == command.out.empty() && !command.dry_run)
     return failure(ErrorKind::bad_input,
                    command.changes_mesh()

@@ -76,6 +76,23 @@ Result<void> check_tool_length(const Pot& pot, const ExportCommand& command) {
   return {};
 }
 
+/// Refuses options of the solid and its section on which the drawing of a fallen pot does not
+/// depend.
+Result<void> check_fallen(const Pot& pot, const ExportCommand& command) {
+  const bool mesh = std::ranges::any_of(command.request.files, [](const FileRequest& file) {
+    return file.kind == solid::FileKind::mesh;
+  });
+  if (!pot.collapse || mesh) return {};
+  for (const char* option : {"--tolerance", "--smooth", "--pieces", "--measure-left-out"})
+    if (command.given(option))
+      return failure(
+          ErrorKind::bad_input,
+          fmt::format("{}: expected a mesh among the files to write, because the drawing "
+                      "of a fallen pot does not depend on it, found none",
+                      option));
+  return {};
+}
+
 /// The exit status: done, or unsound if a problem fails: wall, size or cavity.
 Result<int> export_pot(ExportCommand& command, Console console) {
   if (command.outputs.empty())
@@ -94,6 +111,8 @@ Result<int> export_pot(ExportCommand& command, Console console) {
     return tl::make_unexpected(complete.error());
   if (auto length = check_tool_length(*given, command); !length)
     return tl::make_unexpected(length.error());
+  if (auto fallen = check_fallen(*given, command); !fallen)
+    return tl::make_unexpected(fallen.error());
   progress.stage("scaling and copying");
   const auto pot = pot_at_goal(*given, command, console);
   if (!pot) return tl::make_unexpected(pot.error());

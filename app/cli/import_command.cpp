@@ -37,16 +37,19 @@ struct ImportOptions {
 Result<void> set_axis(ImportOptions& options) {
   HalfSectionSettings& section = options.section;
   if (options.axis.empty()) return {};
-  if (options.axis == "left" || options.axis == "middle") {
-    section.axis = options.axis == "left" ? AxisRule::left : AxisRule::middle;
-    return {};
-  }
+  for (const auto& [name, rule] : {std::pair("left", AxisRule::left),
+                                   {"middle", AxisRule::middle},
+                                   {"right", AxisRule::right}})
+    if (options.axis == name) {
+      section.axis = rule;
+      return {};
+    }
   constexpr double kFarthestMm = 1e6;
   const auto place = length_of(options.axis, -kFarthestMm, kFarthestMm);
   if (!place)
-    return failure(
-        ErrorKind::bad_input,
-        fmt::format("--axis: expected left, middle or a place in mm, found {}", options.axis));
+    return failure(ErrorKind::bad_input,
+                   fmt::format("--axis: expected left, middle, right or a place in mm, found {}",
+                               options.axis));
   section.axis_mm = *place;
   section.axis = AxisRule::at;
   return {};
@@ -101,7 +104,7 @@ const char* axis_source(const ImportOptions& options, const HalfSection& section
     case AxisRule::left:
       return "its left end";
     case AxisRule::right:
-      return "the straight edge at its right end";
+      return options.axis.empty() ? "the straight edge at its right end" : "its right end";
     case AxisRule::line:
       return "its vertical line";
     default:
@@ -179,7 +182,7 @@ Result<void> import_file(ImportOptions options, Console console) {
 void add_drawing_options(CLI::App* command, ImportOptions& options) {
   command->add_option(
       "--axis", options.axis,
-      "Axis of the pot in the drawing: left, middle, or its x position [mm]; default: "
+      "Axis of the pot in the drawing: left, middle, right, or its x position [mm]; default: "
       "a separate vertical line; else the middle of a symmetric drawing; else a straight edge at "
       "its right end, if the left end has none; else its left end");
   command->add_option("--layer", options.layer,

@@ -143,7 +143,9 @@ Result<void> place_axis(HalfSection& section, Drawing& drawing, const HalfSectio
   if (section.axis == AxisRule::at)
     asked = settings.axis == AxisRule::at ? settings.axis_mm * drawing.scale : 0.0;
   else if (section.axis != AxisRule::by_itself)
-    asked = section.axis == AxisRule::left ? bounds.low.x : middle;
+    asked = section.axis == AxisRule::left    ? bounds.low.x
+            : section.axis == AxisRule::right ? bounds.high.x
+                                              : middle;
   const auto line = take_axis_lines(drawing, asked, name);
   if (!line) return tl::make_unexpected(line.error());
   if (section.axis == AxisRule::by_itself)

@@ -43,7 +43,7 @@ constexpr std::array kForms = {
     Form{"key", 1, 1, "key CHORD"},
     Form{"type", 1, 1, "type TEXT"},
     Form{"do", 1, 1, "do ACTION"},
-    Form{"open", 1, 2, "open FILE [fails]"},
+    Form{"open", 1, 9, "open FILE... [fails]"},
     Form{"save", 1, 1, "save FILE"},
     Form{"close", 0, 0, "close"},
     Form{"wait", 1, 1, "wait SECONDS"},
@@ -163,7 +163,6 @@ std::string fault_of(const std::vector<std::string>& words) {
   if (command == "key" && !chord_of(words[1])) return expected("a key");
   if (command == "do" && find_command(words[1]) == nullptr) return expected("an action");
   if (command == "type" && !std::ranges::all_of(words[1], is_ascii)) return expected("ASCII text");
-  if (command == "open" && words.size() == 3 && words[2] != "fails") return expected("fails", 2);
   if (command != "expect") return fault_of_hand(words);
   if (!is_fact(words[1])) return expected("a fact");
   const bool limit = words.size() == 4;
@@ -395,9 +394,9 @@ Result<void> ScriptRunner::run_command(const Words& words) {
 Result<void> ScriptRunner::open(const Words& words) {
   std::optional<Error>& error = studio_.state().last_error;
   error.reset();
-  studio_.take(FilesDropped{{words[1]}});
+  const bool expected = words.size() > 2 && words.back() == "fails";
+  studio_.take(FilesDropped{{words.begin() + 1, words.end() - (expected ? 1 : 0)}});
   frames(1);
-  const bool expected = words.size() == 3;
   if (error && !expected) return tl::make_unexpected(*error);
   if (!error && expected)
     return failure(ErrorKind::unsound, fmt::format("{}: expected an error, found none", words[1]));

@@ -4,6 +4,7 @@
 #include "app/studio/studio.hpp"
 
 #define GLFW_INCLUDE_NONE
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <GLFW/glfw3.h>
@@ -117,7 +118,12 @@ void Studio::apply(const Input& input) {
   } else if (const auto* typed = std::get_if<TextTyped>(&input)) {
     io.AddInputCharacter(typed->character);
   } else if (const auto* files = std::get_if<FilesDropped>(&input)) {
-    if (!files->paths.empty()) actions.emplace_back(OpenFile{files->paths.front()});
+    if (files->paths.size() == 1)
+      actions.emplace_back(OpenFile{files->paths.front()});
+    else if (!files->paths.empty())
+      report(state_, Error{ErrorKind::bad_input,
+                           fmt::format("expected one file, found {}: drop one file at a time",
+                                       files->paths.size())});
   } else if (std::holds_alternative<CloseAsked>(input)) {
     actions.emplace_back(RunCommand{"file.quit"});
   } else if (const auto* plugged = std::get_if<GamepadPlugged>(&input)) {

@@ -421,7 +421,8 @@ async function start() {
   window.addEventListener('dragover', event => event.preventDefault());
   window.addEventListener('drop', async event => {
     event.preventDefault();
-    const file = event.dataTransfer.files[0];
+    const files = event.dataTransfer.files, file = files[0];
+    if (files.length > 1) return status(`Expected one file, found ${files.length}: drop one file at a time`);
     if (file) open({name: file.name, bytes: new Uint8Array(await file.arrayBuffer())});
   });
   by('open').onclick = () => pickFile(file => file && open(file));

@@ -273,6 +273,19 @@ TEST_F(Batch, RunsFewerJobsAtATimeWhereTheSystemAllowsNoMore) {
   EXPECT_NE(none.err.find("batch: cannot make a pipe"), std::string::npos) << none.err;
 }
 
+// The batch is killed when the process of the job exists, but is not yet bound to it. `cat` ends
+// with that process, which has inherited descriptor 9.
+TEST_F(Batch, NoJobBeginsAfterItsEnd) {
+  write_jobs({thrown("a.pot.json")});
+  const std::string batch =
+      "env ASAN_OPTIONS=verify_asan_link_order=0 CLAYSTACK_FAULT_ORPHAN=1 "
+      "LD_PRELOAD=" CLAYSTACK_FAULT_SHIM " " CLAYSTACK_PROGRAM " batch -q " +
+      folder.file("jobs.jsonl");
+  const Ran ran = shell("(" + batch + "; echo status $? >&9) 9>&1 | cat");
+  EXPECT_NE(ran.out.find("status 137"), std::string::npos) << ran.out << ran.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
+}
+
 TEST_F(Batch, TheErrorOfAJobIsNoWarning) {
   // It warns of the clip path, and then cannot write the pot.
   write_text(folder.file("clipped.svg"),

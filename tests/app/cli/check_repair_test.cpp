@@ -435,6 +435,8 @@ TEST_F(CheckRepair, ReportsBadUsageBeforeAnyWork) {
   refused("--repair " + in + " -o " + in, "in.stl: expected a separate output file");
   refused("--repair " + in + " -o " + folder.file("out.step"), ".obj");
   refused("--repair " + in + " --cap --thicken 3 -o " + folder.file("out.stl"), "--cap");
+  refused("--weld 0.1 " + in, "claystack: --weld: expected --repair with it");
+  refused("--weld 0.1 --wrap 1 --cap " + in, "--weld, --cap, --wrap: expected --repair with them");
   refused(in + " --max-triangles 3 -o " + folder.file("out.stl"), "max-triangles");
   refused(in + " --min-wall 1 --wall-samples 0", "wall-samples");
   const std::string pot = folder.file("p.pot.json");

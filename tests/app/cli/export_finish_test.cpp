@@ -167,6 +167,19 @@ TEST(ExportFallenPot, RefusesWhatNeedsAStandingPot) {
         << refused.err;
   }
   EXPECT_EQ(claystack("export -q " + pot + " " + svg).status, 0);
+  for (const std::string option :
+       {"--tolerance 0.1", "--smooth exact", "--pieces", "--measure-left-out"}) {
+    const Ran refused = claystack("export " + pot + " " + svg + " " + option);
+    EXPECT_EQ(refused.status, 2) << option << refused.err;
+    EXPECT_NE(refused.err.find(option.substr(0, option.find(' ')) +
+                               ": expected a mesh among the files to write"),
+              std::string::npos)
+        << refused.err;
+  }
+  // On a mesh they have an effect.
+  const Ran both = claystack("export -q " + pot + " " + folder.file("fallen.stl") +
+                             " --tolerance 1 --smooth none --measure-left-out");
+  EXPECT_EQ(both.status, 0) << both.err;
 }
 
 /// A closed box: solid foot of 10 mm, cavity of 10 mm, lid of 10 mm; R = 30 mm, r = 20 mm.

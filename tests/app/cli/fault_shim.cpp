@@ -9,6 +9,8 @@
 //   CLAYSTACK_FAULT_THREAD   the start of a thread that fails instead, counted from 1
 //   CLAYSTACK_FAULT_WITHOUT  what the system does not have: a list of
 //                            tmpfile (unnamed files), links (hard links), proc (/proc/self/fd)
+//   CLAYSTACK_FAULT_ORPHAN   a process that asks for a signal at the end of its parent loses that
+//                            before
 //
 // Counted are open, write, fsync, rename, link, linkat, close and ftruncate, on files of the folder
 // and on the folder itself; an open or a link that fails by itself is not.
@@ -16,6 +18,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -149,6 +152,19 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
   static std::atomic<long> threads = 0;
   if (++threads == number("CLAYSTACK_FAULT_THREAD")) return EAGAIN;
   return next<decltype(pthread_create)>("pthread_create")(thread, attributes, run, data);
+}
+
+int prctl(int option, ...) noexcept {
+  va_list arguments;
+  va_start(arguments, option);
+  const auto argument = va_arg(arguments, unsigned long);
+  va_end(arguments);
+  if (option == PR_SET_PDEATHSIG && std::getenv("CLAYSTACK_FAULT_ORPHAN") != nullptr) {
+    const pid_t parent = getppid();
+    (void)kill(parent, SIGKILL);
+    while (getppid() == parent) (void)usleep(1000);
+  }
+  return static_cast<int>(syscall(SYS_prctl, option, argument, 0ul, 0ul, 0ul));
 }
 
 int fsync(int file) {

@@ -232,6 +232,23 @@ TEST(Import, ReportsTheThinnestWallOfAHollowedOutline) {
   EXPECT_TRUE(solid.json().at("thinnest_wall_mm").is_null());
 }
 
+// A frustum with radii of 30 and 40 mm; both of its ends could be the axis.
+TEST(Import, TakesTheRightEndAsTheAxis) {
+  const ScratchFolder folder;
+  const std::string svg = folder.file("lump.svg"), pot = folder.file("lump.pot.json");
+  write_text(svg,
+             "<svg xmlns='http://www.w3.org/2000/svg' width='100mm' height='100mm' "
+             "viewBox='0 0 100 100'><path d='M20,10 H50 V60 H10 Z'/></svg>");
+  const std::string line = "import --axis right " + svg + " -o " + pot;
+  const Ran made = claystack(line + " --json");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(made.json().at("axis"), "right");
+  EXPECT_NEAR(made.json().at("axis_mm").get<double>(), 50.0, 1e-9);
+  EXPECT_NEAR(made.json().at("drawn_mm3").get<double>(),
+              std::numbers::pi * 50.0 / 3.0 * (1600.0 + 1200.0 + 900.0), 1e-3);
+  EXPECT_THAT(claystack(line).out, HasSubstr("axis at x = 50.000 mm of the drawing (its right"));
+}
+
 TEST(Import, ReportsErrorsAndLeavesNoFile) {
   const ScratchFolder folder;
   const std::string pot = folder.file("x.pot.json"), drawing = folder.file("x.csv");
@@ -241,7 +258,9 @@ TEST(Import, ReportsErrorsAndLeavesNoFile) {
   EXPECT_THAT(broken.err, HasSubstr("x.csv:2: expected a radius and a height in mm"));
   EXPECT_EQ(claystack("import " + folder.file("none.svg") + " -o " + pot).status, 3);
   write_text(drawing, "10,0\n10,20\n");
-  EXPECT_EQ(claystack("import " + drawing + " -o " + pot + " --axis up").status, 2);
+  const auto axis = claystack("import " + drawing + " -o " + pot + " --axis up");
+  EXPECT_EQ(axis.status, 2);
+  EXPECT_THAT(axis.err, HasSubstr("--axis: expected left, middle, right or a place in mm, found"));
   EXPECT_EQ(claystack("import " + drawing + " -o " + drawing).status, 2);
   const auto mesh = claystack("import " + drawing + " -o " + folder.file("x.stl"));
   EXPECT_EQ(mesh.status, 2);

@@ -193,6 +193,18 @@ TEST_F(Window, ImportAsksAboutAnUnsavedWork) {
   EXPECT_EQ(read_text(folder.file("jug.pot.json")), read_text(folder.file("cli.pot.json")));
 }
 
+TEST_F(Window, SeveralFilesAtOnceAreRefused) {
+  const std::string two =
+      "open " + test::sample("vase.scene.json") + " " + test::sample("bottle.scene.json");
+  Ran ran = run(std::string(kPress) + two +
+                " fails\nexpect overlay none\nexpect strokes 1\n"
+                "expect banner \"expected one file, found 2: drop one file at a time\"\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  ran = run(two + "\n");
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_NE(ran.err.find("s:1: expected one file, found 2"), std::string::npos) << ran.err;
+}
+
 TEST_F(Window, OpeningAsksAboutAnUnsavedWork) {
   const std::string vase = test::sample("vase.scene.json");
   const Ran ran = run(std::string(kPress) + "open " + vase +
