@@ -61,8 +61,8 @@ std::optional<XmlAttributeLimit::Fault> XmlAttributeLimit::take(std::string_view
 void XmlAttributeLimit::take_narrow(std::string_view piece) {
   while (!piece.empty() && !fault_) {
     if (declared_ && piece.front() == '<') {
-      // The next `<` begins anew, and a tag that ends within kMost bytes has fewer attributes: only
-      // the last `<` within that distance matters.
+      // Each `<` starts the count again, and a tag of at most kMost bytes has fewer attributes. So
+      // only the last `<` within that distance matters.
       const auto last = static_cast<std::ptrdiff_t>(piece.rfind('<', kMost));
       line_ += static_cast<std::size_t>(std::count(piece.begin(), piece.begin() + last, '\n'));
       piece.remove_prefix(static_cast<std::size_t>(last));

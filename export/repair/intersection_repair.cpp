@@ -143,7 +143,8 @@ class Resolution {
       const auto cut = cut_and_select(
           grid > 0 ? snapped(mesh_, at_fault, std::ldexp(unit_mm_, 3 * (grid + 1))) : mesh_,
           stage_);
-      if (!cut && pass > 0) return {};  // rounding opened the sheets: the next round cuts anew
+      if (!cut && pass > 0)
+        return {};  // rounding opened the sheets: the next round cuts them again
       if (!cut) return tl::make_unexpected(cut.error());
       if (first && pass == 0) {
         if (cut->reversed && reversed_ == Reversed::refused)
