@@ -232,8 +232,8 @@ WideQuanta cut_ledge(const StepPlan& plan, const Contact& contact, const ClaySta
   return writer.cut_above(tip);
 }
 
-/// Keeps the rings that one tool may have changed on their neighbours; two tools hold the wall.
-/// Returns whether some of them hardly overlapped.
+/// Keeps the rings that may have changed on their neighbours. Returns whether some of them hardly
+/// overlapped.
 bool keep_joined(const RulePress& press, std::span<const ToolRemoval> removals,
                  const RuleWork& work, const ClayStack& stack, StackWriter& writer) noexcept {
   const std::size_t top = stack.size() - 1, last = std::min(work.highest, top);
@@ -244,6 +244,9 @@ bool keep_joined(const RulePress& press, std::span<const ToolRemoval> removals,
   if (removals.size() == 1)
     join_rings(stack, work.lowest, last,
                {removals[0].contact.side == Side::expansive, least, min_wall}, writer);
+  else
+    thicken_joints(stack, work.lowest, last, least,
+                   {press.plan.tool, press.tool.hip_mm.y, removals}, writer);
   return true;
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 // Rings that one stretch may take from the top.
 constexpr std::size_t kMostTaken = 64;
+constexpr double kLeastBoreMm = 0.1;  // a bore stays open
 
 /// Clay that a ring can get: the crown, and the rings above it.
 WideQuanta spare_above(const ClayStack& stack, std::size_t ring) noexcept {
@@ -20,14 +21,14 @@ WideQuanta spare_above(const ClayStack& stack, std::size_t ring) noexcept {
   return spare;
 }
 
-double least_overlap(const Following& following, const Ring& a, const Ring& b) noexcept {
-  return std::min(following.least_mm, 0.5 * std::min(wall_mm(a), wall_mm(b)));
+double least_overlap(double least_mm, const Ring& a, const Ring& b) noexcept {
+  return std::min(least_mm, 0.5 * std::min(wall_mm(a), wall_mm(b)));
 }
 
 /// `ring` where it overlaps its neighbour by enough, after a motion outward.
 Ring outward_of(const Following& following, const Ring& neighbour, const Ring& ring) noexcept {
   if (ring.inner2 == 0) return ring;
-  const double outer = neighbour.inner_mm() + least_overlap(following, neighbour, ring);
+  const double outer = neighbour.inner_mm() + least_overlap(following.least_mm, neighbour, ring);
   if (!(outer < kMaxRadiusMm)) return ring;
   const Quanta by = quanta_from_radius(outer) - ring.outer2;
   if (by <= 0) return ring;
@@ -39,10 +40,43 @@ Ring outward_of(const Following& following, const Ring& neighbour, const Ring& r
 
 /// The same inward. The ring becomes thicker, and its bore stays open.
 Ring inward_of(const Following& following, const Ring& neighbour, const Ring& ring) noexcept {
-  const double inner = neighbour.outer_mm() - least_overlap(following, neighbour, ring);
+  const double inner = neighbour.outer_mm() - least_overlap(following.least_mm, neighbour, ring);
   const Quanta by = ring.inner2 - quanta_from_radius(inner);
   const Ring moved{ring.outer2 - by, ring.inner2 - by};
   return by > 0 && moved.inner2 > 0 && moved.outer2 >= kSmallestOuter2 ? moved : ring;
+}
+
+/// `ring`, as thick as it has to be to overlap its neighbour by enough.
+Ring thickened_to(double least_mm, const Ring& neighbour, const Ring& ring) noexcept {
+  if (ring.inner2 == 0) return ring;
+  const double least = least_overlap(least_mm, neighbour, ring);
+  const double outer = neighbour.inner_mm() + least, inner = neighbour.outer_mm() - least;
+  Ring thicker = ring;
+  if (outer < kMaxRadiusMm) thicker.outer2 = std::max(ring.outer2, quanta_from_radius(outer));
+  if (inner > kLeastBoreMm) thicker.inner2 = std::min(ring.inner2, quanta_from_radius(inner));
+  return thicker;
+}
+
+/// Gives a ring another shape, if there is clay for it.
+bool reshape(const ClayStack& stack, std::size_t i, const Ring& shape,
+             StackWriter& writer) noexcept {
+  const Ring& ring = stack.rings()[i];
+  const WideQuanta more = shape.volume() - ring.volume();
+  if (shape == ring || (more > 0 && more > spare_above(stack, i))) return false;
+  writer.reshape(i, shape);
+  return true;
+}
+
+/// Whether a tool is deeper in ring i once that has the shape.
+bool enters(const Hands& hands, double h, std::size_t i, const Ring& ring,
+            const Ring& shape) noexcept {
+  const double t = (static_cast<double>(i) + 0.5) * h - hands.hip_y;
+  if (!(t >= hands.tool.low() && t <= hands.tool.high())) return false;
+  const double f = hands.tool.radius(t);
+  return std::ranges::any_of(hands.removals, [&](const ToolRemoval& removal) {
+    const double before = depth_of(ring, f, removal.contact);
+    return depth_of(shape, f, removal.contact) > std::max(before, 0.0);
+  });
 }
 
 }  // namespace
@@ -83,13 +117,27 @@ void join_rings(const ClayStack& stack, std::size_t first, std::size_t last,
                 const Following& following, StackWriter& writer) noexcept {
   const auto rings = stack.rings();
   const auto follow = [&](std::size_t neighbour, std::size_t i) {
-    const Ring moved = following.outward ? outward_of(following, rings[neighbour], rings[i])
-                                         : inward_of(following, rings[neighbour], rings[i]);
-    const WideQuanta more = moved.volume() - rings[i].volume();
-    if (moved != rings[i] && (more <= 0 || more <= spare_above(stack, i))) writer.reshape(i, moved);
+    reshape(stack, i,
+            following.outward ? outward_of(following, rings[neighbour], rings[i])
+                              : inward_of(following, rings[neighbour], rings[i]),
+            writer);
   };
   for (std::size_t i = std::max<std::size_t>(first, 1); i <= last; ++i) follow(i - 1, i);
   for (std::size_t i = std::min(last + 1, rings.size() - 1); i-- > first;) follow(i + 1, i);
+}
+
+void thicken_joints(const ClayStack& stack, std::size_t first, std::size_t last, double least_mm,
+                    const Hands& hands, StackWriter& writer) noexcept {
+  const auto rings = stack.rings();
+  const auto thicken = [&](std::size_t i, std::size_t neighbour) {
+    if (i < first || i > last) return false;
+    const Ring shape = thickened_to(least_mm, rings[neighbour], rings[i]);
+    return !enters(hands, stack.ring_height_mm(), i, rings[i], shape) &&
+           reshape(stack, i, shape, writer);
+  };
+  const std::size_t end = std::min(last + 2, rings.size());
+  for (std::size_t i = std::max<std::size_t>(first, 1); i < end; ++i)
+    if (!thicken(i, i - 1)) thicken(i - 1, i);
 }
 
 }  // namespace clay

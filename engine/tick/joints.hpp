@@ -1,8 +1,9 @@
 #pragma once
-// Whether neighbouring rings touch, and how a press keeps them joined (docs/clay-rules.md, Joints).
+// Whether neighbouring rings touch, and how tools keep them joined (docs/clay-rules.md, Joints).
 
 #include "claystack/engine/clay.hpp"
 #include "engine/clay/stack_writer.hpp"
+#include "engine/tick/removal.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -33,5 +34,18 @@ struct Following {
 /// then be below 0; the rings above have enough clay for it.
 void join_rings(const ClayStack& stack, std::size_t first, std::size_t last,
                 const Following& following, StackWriter& writer) noexcept;
+
+/// Two tools that hold a wall.
+struct Hands {
+  const Tool& tool;
+  double hip_y = 0.0;  ///< [mm]
+  std::span<const ToolRemoval> removals;
+};
+
+/// Two tools press both ways, so no ring follows them. Those of the rings first..last that overlap
+/// a neighbour by too little become thicker towards it, unless they would go into a tool. The crown
+/// may then be below 0, as above.
+void thicken_joints(const ClayStack& stack, std::size_t first, std::size_t last, double least_mm,
+                    const Hands& hands, StackWriter& writer) noexcept;
 
 }  // namespace clay

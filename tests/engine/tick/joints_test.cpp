@@ -7,6 +7,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace clay {
@@ -90,6 +91,63 @@ TEST(Joints, RingsThatTouchInACircleAloneDoNotOverlap) {
   const std::vector<Ring> widening{rings[1], rings[0]};
   EXPECT_EQ(lowest_gap(widening, 0, 1), 0u);
   EXPECT_FALSE(has_weak_joint(std::span(rings).first(1), 1.0));
+}
+
+/// The third ring lies within the bore of the second one, 1 mm from it.
+const std::vector<Ring> kParted{ring_of(52.0, 46.0), ring_of(50.0, 45.0), ring_of(44.0, 40.0),
+                                ring_of(42.0, 38.0)};
+
+/// Two spheres of 5 mm radius between the second and the third ring, `gap_mm` apart.
+struct TwoSpheres {
+  Tool tool = Tool::build(SphereSpec{5.0}).value();
+  std::array<ToolRemoval, 2> removals;
+  TwoSpheres(double middle_mm, double gap_mm) {
+    removals[0].contact.side = Side::compressive;
+    removals[0].contact.axis_distance_mm = middle_mm + 0.5 * gap_mm + 5.0;
+    removals[1].contact.side = Side::expansive;
+    removals[1].contact.axis_distance_mm = middle_mm - 0.5 * gap_mm - 5.0;
+  }
+  [[nodiscard]] Hands hands() const { return {tool, 1.0, removals}; }
+};
+
+void thicken(ClayStack& stack, std::size_t first, std::size_t last, const TwoSpheres& spheres) {
+  StackWriter writer(stack);
+  thicken_joints(stack, first, last, 0.75, spheres.hands(), writer);
+}
+
+TEST(Joints, BetweenTwoToolsTheUpperRingBecomesThicker) {
+  ClayStack stack = stack_of(kParted, quanta_from_mm2(500.0));
+  const WideQuanta volume = stack.volume();
+  thicken(stack, 0, 3, TwoSpheres(45.0, 20.0));
+  EXPECT_NEAR(stack.rings()[2].outer_mm(), 45.75, 1e-6);
+  EXPECT_EQ(stack.rings()[2].inner2, kParted[2].inner2);
+  for (const std::size_t i : {0u, 1u, 3u}) EXPECT_EQ(stack.rings()[i], kParted[i]) << i;
+  EXPECT_EQ(stack.volume(), volume);
+  EXPECT_EQ(stack.recount(), volume);
+}
+
+TEST(Joints, TheLowerRingBecomesThickerWhereTheUpperOneWouldEnterATool) {
+  ClayStack stack = stack_of(kParted, quanta_from_mm2(500.0));
+  thicken(stack, 0, 3, TwoSpheres(39.0, 10.0));
+  EXPECT_EQ(stack.rings()[2], kParted[2]);
+  EXPECT_NEAR(stack.rings()[1].inner_mm(), 43.25, 1e-6);
+  EXPECT_EQ(stack.rings()[1].outer2, kParted[1].outer2);
+}
+
+/// The outer tool is in the way of the upper ring, the inner one in that of the lower ring.
+TEST(Joints, NoRingBecomesThickerIntoATool) {
+  ClayStack stack = stack_of(kParted, quanta_from_mm2(500.0));
+  thicken(stack, 0, 3, TwoSpheres(44.5, 0.5));
+  EXPECT_EQ(stack, stack_of(kParted, quanta_from_mm2(500.0)));
+}
+
+TEST(Joints, NoRingBeyondTheFlowBecomesThicker) {
+  ClayStack stack = stack_of(kParted, quanta_from_mm2(500.0));
+  thicken(stack, 3, 3, TwoSpheres(45.0, 20.0));
+  EXPECT_EQ(stack, stack_of(kParted, quanta_from_mm2(500.0)));
+  thicken(stack, 0, 1, TwoSpheres(45.0, 20.0));
+  EXPECT_NEAR(stack.rings()[1].inner_mm(), 43.25, 1e-6);
+  EXPECT_EQ(stack.rings()[2], kParted[2]);
 }
 
 TEST(Joints, RingsFollowOutwardAtConstantVolume) {

@@ -84,6 +84,34 @@ TEST(JoinedRings, APressTearsNoShoulder) {
     }
 }
 
+/// Two tools go up along the middle of the wall, over the edge and the shoulder to the neck.
+void pull_over_shoulder(Wheel& wheel, double lean_deg, double gap_mm) {
+  constexpr double kOpenMm = 40.0, kClosing = 600.0;
+  const double slope = std::tan(lean_deg * std::numbers::pi / 180.0);
+  const double top = kShoulderMm + height_of_shoulder(lean_deg);
+  const auto middle = [=](double up) {
+    return std::clamp(kWideMm - slope * (up - kShoulderMm), kNeckMm, kWideMm) - 0.5 * kThickMm;
+  };
+  Hand hand(wheel);
+  for (double k = 0.0; k < kClosing; ++k)
+    hand.place_at(middle(30.0), 30.0, gap_mm + (kOpenMm - gap_mm) * (1.0 - k / kClosing));
+  for (double up = 30.0; up < top + 10.0; up += 0.02) hand.place_at(middle(up), up, gap_mm);
+}
+
+TEST(JoinedRings, APinchTearsNoShoulder) {
+  for (const double lean_deg : {45.0, 60.0, 66.0, 70.0, 75.0})
+    for (const double gap_mm : {3.0, 6.0, 12.0}) {
+      Wheel wheel = pot_with_shoulder(shoulder_scene(), lean_deg);
+      ASSERT_TRUE(in_one_piece(wheel));
+      const ClayStack before = wheel.stack();
+      pull_over_shoulder(wheel, lean_deg, gap_mm);
+      EXPECT_TRUE(in_one_piece(wheel)) << lean_deg << ", gap " << gap_mm;
+      EXPECT_FALSE(wheel.collapsed()) << lean_deg << ", gap " << gap_mm;
+      EXPECT_NE(wheel.stack(), before);
+      expect_balanced(wheel);
+    }
+}
+
 /// The rings move away from the tool: a tick of the clay does not raise the overlap energy.
 TEST(JoinedRings, NoRingFollowsIntoTheTool) {
   constexpr double kPart = 0.4;  // of the height of the shoulder
