@@ -30,10 +30,26 @@ bool candidates(const Tool& tool, const ClayStack& stack, double hip_y, Contact&
   return true;
 }
 
-Side side_at(const ClayStack& stack, double hip_y, double axis_distance) noexcept {
-  const double last = static_cast<double>(stack.size() - 1);
-  const double level = std::clamp(std::floor(hip_y / stack.ring_height_mm()), 0.0, last);
-  const Ring& ring = stack.rings()[static_cast<std::size_t>(level)];
+/// The ring whose walls the tool stands between: the one at its centre. With `hand`, the way to the
+/// hand (+1 up), a centre in solid clay belongs to the bore through which the tool came: the first
+/// one on this way, at most the height of the tool away.
+const Ring& ring_about(const Tool& tool, const ClayStack& stack, double hip_y, int hand) noexcept {
+  const auto rings = stack.rings();
+  const double last = static_cast<double>(rings.size() - 1), h = stack.ring_height_mm();
+  const auto ring_at = [=](double up) {
+    return static_cast<std::size_t>(std::clamp(std::floor(up / h), 0.0, last));
+  };
+  const std::size_t at = ring_at(hip_y);
+  if (hand == 0 || rings[at].inner2 > 0) return rings[at];
+  const std::size_t end = ring_at(hip_y + static_cast<double>(hand) * (tool.high() - tool.low()));
+  for (std::size_t i = at; i != end;) {
+    i = hand > 0 ? i + 1 : i - 1;
+    if (rings[i].inner2 > 0) return rings[i];
+  }
+  return rings[at];
+}
+
+Side side_at(const Ring& ring, double axis_distance) noexcept {
   return axis_distance > 0.5 * (ring.outer_mm() + ring.inner_mm()) ? Side::compressive
                                                                    : Side::expansive;
 }
@@ -244,14 +260,14 @@ std::size_t most_contacts(const Tool& tool, double ring_height_mm, std::size_t m
 
 template <Model model>
 void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm,
-                  Contact& contact, const glm::dvec3& moved_mm) noexcept {
+                  Contact& contact, const glm::dvec3& moved_mm, int hand) noexcept {
   contact.rings.clear();
   if (!candidates<model>(tool, stack, hip_mm.y, contact)) return;
   const double d = std::sqrt(hip_mm.x * hip_mm.x + hip_mm.z * hip_mm.z);
   contact.axis_distance_mm = d;
   contact.radial_x = d > 0.0 ? hip_mm.x / d : 0.0;
   contact.radial_z = d > 0.0 ? hip_mm.z / d : 0.0;
-  contact.side = side_at(stack, hip_mm.y, d);
+  contact.side = side_at(ring_about(tool, stack, hip_mm.y, hand), d);
   const double x = hip_mm.x - moved_mm.x, z = hip_mm.z - moved_mm.z;
   const double way = std::sqrt(x * x + z * z) - d;
   contact.approach_mm = contact.side == Side::compressive ? way : -way;
@@ -291,9 +307,9 @@ void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_
 }
 
 template void find_contact<Model::paper>(const Tool&, const ClayStack&, const glm::dvec3&, Contact&,
-                                         const glm::dvec3&) noexcept;
+                                         const glm::dvec3&, int) noexcept;
 template void find_contact<Model::conserving>(const Tool&, const ClayStack&, const glm::dvec3&,
-                                              Contact&, const glm::dvec3&) noexcept;
+                                              Contact&, const glm::dvec3&, int) noexcept;
 template void find_pinch<Model::paper>(const Tool&, const ClayStack&, const glm::dvec3&, double,
                                        Contact&, Contact&, const glm::dvec3&) noexcept;
 template void find_pinch<Model::conserving>(const Tool&, const ClayStack&, const glm::dvec3&,

@@ -61,9 +61,12 @@ struct Contact {
 /// `moved_mm`: of the HIP since the last pose, for `conserving`.
 /// `paper` takes (2) as printed, which is a ring more than the tool reaches; `conserving` ends the
 /// range with the rings that the tool's ends lie in.
+/// `hand`, of the clay rules: the way from the tool to the hand, 1 up or -1 down. A centre in solid
+/// clay, such as the floor below a bore, is then on the side of the bore on this way.
 template <Model model = Model::conserving>
 void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm,
-                  Contact& contact, const glm::dvec3& moved_mm = glm::dvec3(0.0)) noexcept;
+                  Contact& contact, const glm::dvec3& moved_mm = glm::dvec3(0.0),
+                  int hand = 0) noexcept;
 
 /// Both tools of a pinch, at the HIP's height and along its radius: at their widest they reach
 /// d + gap/2 from outside and d - gap/2 from inside, so their centres are gap/2 + max f from the

@@ -25,13 +25,14 @@ double least_overlap(double least_mm, const Ring& a, const Ring& b) noexcept {
   return std::min(least_mm, 0.5 * std::min(wall_mm(a), wall_mm(b)));
 }
 
-/// `ring` where it overlaps its neighbour by enough, after a motion outward.
+/// `ring` where it overlaps its neighbour by enough, after a motion outward. A solid bottom becomes
+/// wider, with clay of the crown.
 Ring outward_of(const Following& following, const Ring& neighbour, const Ring& ring) noexcept {
-  if (ring.inner2 == 0) return ring;
   const double outer = neighbour.inner_mm() + least_overlap(following.least_mm, neighbour, ring);
   if (!(outer < kMaxRadiusMm)) return ring;
   const Quanta by = quanta_from_radius(outer) - ring.outer2;
   if (by <= 0) return ring;
+  if (ring.inner2 == 0) return {ring.outer2 + by, 0};
   Ring moved{ring.outer2 + by, ring.inner2 + by};
   const double thick = std::min(wall_mm(ring), following.min_wall_mm);
   if (wall_mm(moved) < thick) moved.inner2 = quanta_from_radius(moved.outer_mm() - thick);

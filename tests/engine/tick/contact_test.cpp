@@ -8,6 +8,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace clay {
 namespace {
@@ -71,6 +72,46 @@ TEST_F(ContactOnCylinder, DemarcatingCircleDecidesTheSide) {
   EXPECT_EQ(contact_of(sphere, cup, {45.001, 50, 0}).side, Side::compressive);
   EXPECT_EQ(contact_of(sphere, cup, {44.999, 50, 0}).side, Side::expansive);
   EXPECT_EQ(contact_of(sphere, cup, {0, 50, -45.001}).side, Side::compressive);
+}
+
+/// A floor of 8 mm below a bore of 37 mm radius: the wall's middle is at 41 mm, that of the solid
+/// floor at 22.5 mm.
+TEST(Contact, ACentreInTheFloorIsOnTheSideOfTheBoreAboveIt) {
+  std::vector<Ring> rings(8, {quanta_from_radius(45.0), 0});
+  rings.resize(50, {quanta_from_radius(45.0), quanta_from_radius(37.0)});
+  const ClayStack stack = ClayStack::from_rings(1.0, rings, 0).value();
+  const Tool tool = Tool::build(SphereSpec{10.0}).value();
+  Contact contact;
+  contact.rings.reserve(most_contacts(tool, 1.0, stack.size()));
+  const auto side = [&](double x, double y, int hand) {
+    find_contact(tool, stack, {x, y, 0.0}, contact, glm::dvec3(0.0), hand);
+    return contact.side;
+  };
+  for (const double y : {-9.0, 0.0, 5.0, 7.9, 8.1}) {
+    EXPECT_EQ(side(40.0, y, 1), Side::expansive) << y;
+    EXPECT_EQ(side(42.0, y, 1), Side::compressive) << y;
+  }
+  EXPECT_EQ(side(40.0, 5.0, 0), Side::compressive);
+  EXPECT_EQ(side(40.0, 5.0, -1), Side::compressive);
+  EXPECT_EQ(side(22.0, 5.0, -1), Side::expansive);
+}
+
+/// The hand is below: the centre is in the floor above a foot that is hollow.
+TEST(Contact, ACentreAboveAHollowFootIsOnItsSideForAHandBelow) {
+  std::vector<Ring> rings(4, {quanta_from_radius(45.0), quanta_from_radius(37.0)});
+  rings.resize(50, {quanta_from_radius(45.0), 0});
+  const ClayStack stack = ClayStack::from_rings(1.0, rings, 0).value();
+  const Tool tool = Tool::build(SphereSpec{10.0}).value();
+  Contact contact;
+  contact.rings.reserve(most_contacts(tool, 1.0, stack.size()));
+  const auto side = [&](double y, int hand) {
+    find_contact(tool, stack, {40.0, y, 0.0}, contact, glm::dvec3(0.0), hand);
+    return contact.side;
+  };
+  EXPECT_EQ(side(6.0, -1), Side::expansive);
+  EXPECT_EQ(side(6.0, 1), Side::compressive);
+  EXPECT_EQ(side(23.0, -1), Side::expansive);    // 20 mm above the foot: the tool's height
+  EXPECT_EQ(side(24.1, -1), Side::compressive);  // farther
 }
 
 TEST_F(ContactOnCylinder, CandidatesFollowEquationsOneAndTwo) {

@@ -207,12 +207,18 @@ TEST(Joints, ThinWallsKeepHalfOfTheirThickness) {
   EXPECT_NEAR(overlap_mm(stack.rings()[0], stack.rings()[1]), 0.5, 1e-6);
 }
 
-/// A bottom has no bore: it holds every ring that stands on it, and does not follow.
-TEST(Joints, ASolidRingDoesNotFollow) {
+/// A bottom has no bore that could move: it becomes wider, and nothing draws it inward.
+TEST(Joints, ASolidBottomBecomesWider) {
   const std::vector<Ring> rings{ring_of(40.0, 0.0), ring_of(43.0, 39.8)};
   ClayStack stack = stack_of(rings);
   join(stack, 0, 1, {.outward = true, .least_mm = 0.75, .min_wall_mm = 0.1});
-  EXPECT_EQ(stack, stack_of(rings));
+  EXPECT_NEAR(stack.rings()[0].outer_mm(), 40.55, 1e-6);
+  EXPECT_EQ(stack.rings()[0].inner2, 0);
+  EXPECT_EQ(stack.rings()[1], rings[1]);
+  EXPECT_EQ(stack.volume(), stack_of(rings).volume());
+  stack = stack_of(rings);
+  join(stack, 0, 1, {.outward = false, .least_mm = 0.75, .min_wall_mm = 0.1});
+  EXPECT_EQ(stack.rings()[0], rings[0]);
 }
 
 }  // namespace

@@ -84,6 +84,46 @@ TEST(JoinedRings, APressTearsNoShoulder) {
     }
 }
 
+/// A bowl on a foot of 30 mm radius, whose wall leans outward.
+Wheel bowl_on_foot() {
+  constexpr double kFloorMm = 8.0;
+  const auto outer = [](double up) { return 30.0 + 40.0 * std::sqrt(up / 60.0); };
+  SceneSpec scene = shoulder_scene();
+  scene.clay->floor_mm = 7.0;
+  return wheel_with(
+      scene, 60.0, outer, [=](double up) { return up < kFloorMm ? 0.0 : outer(up - 4.0) - 9.0; },
+      kRingMm);
+}
+
+TEST(JoinedRings, APressIntoTheCornerOfTheFloorKeepsTheFootOn) {
+  for (const double down_to : {12.0, 5.0, 1.0}) {
+    Wheel wheel = bowl_on_foot();
+    ASSERT_TRUE(in_one_piece(wheel));
+    const double foot_mm = wheel.stack().rings()[0].outer_mm();
+    Hand hand(wheel);
+    hand.place_at(20.0, 40.0);
+    hand.move_to(36.0, 40.0, 60.0);
+    hand.move_to(38.0, down_to, 20.0);
+    hand.move_to(20.0, down_to, 60.0);
+    EXPECT_TRUE(in_one_piece(wheel)) << down_to;
+    EXPECT_FALSE(wheel.collapsed()) << down_to;
+    EXPECT_GE(wheel.stack().rings()[0].outer_mm(), foot_mm) << down_to;
+    expect_balanced(wheel);
+  }
+}
+
+/// The wall goes out farther than the foot reaches.
+TEST(JoinedRings, APressOutOverTheFootKeepsTheFootOn) {
+  Wheel wheel = bowl_on_foot();
+  Hand hand(wheel);
+  hand.place_at(30.0, 43.0);
+  hand.move_to(49.0, 43.0, 18.0);
+  hand.move_to(49.0, 9.0, 18.0);
+  EXPECT_TRUE(in_one_piece(wheel));
+  EXPECT_FALSE(wheel.collapsed());
+  expect_balanced(wheel);
+}
+
 /// Two tools go up along the middle of the wall, over the edge and the shoulder to the neck.
 void pull_over_shoulder(Wheel& wheel, double lean_deg, double gap_mm) {
   constexpr double kOpenMm = 40.0, kClosing = 600.0;
