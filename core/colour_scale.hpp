@@ -10,11 +10,12 @@
 
 namespace clay {
 
-/// sRGB 0xRRGGBB, from the bottom of a scale to its top: cividis, which looks the same with any
-/// kind of colour vision (Nunez, Anderton and Renslow, PLoS ONE 13(7) 2018).
+/// sRGB 0xRRGGBB, from the bottom of a scale to its top: viridis of Matplotlib (van der Walt and
+/// Smith). Its lightness rises evenly, so it is readable with any kind of colour vision, and it has
+/// neither the grey of a background, the brown of clay, nor the red of a wall that is too thin.
 inline constexpr std::array<std::uint32_t, 17> kScaleColours{
-    0x00224E, 0x002C64, 0x14366D, 0x2C406C, 0x3C4B6C, 0x4A556C, 0x575F6D, 0x646A70, 0x707473,
-    0x7E7F78, 0x8C8B79, 0x9C9776, 0xADA371, 0xBDB069, 0xCFBE5E, 0xE4CF4C, 0xFEE838};
+    0x440154, 0x48186A, 0x472D7B, 0x424086, 0x3B528B, 0x33638D, 0x2C728E, 0x26828E, 0x21918C,
+    0x1FA088, 0x28AE80, 0x3FBC73, 0x5EC962, 0x84D44B, 0xADDC30, 0xD8E219, 0xFDE725};
 
 /// Linear light of an sRGB byte, 0 to 1.
 [[nodiscard]] inline float linear_channel(unsigned byte) noexcept {

@@ -13,8 +13,9 @@ constexpr double kHeight = 340.0;  // of the frame
 constexpr std::size_t kColours = 7;
 constexpr std::size_t kMostMarks = 60;  // above this number of points only the line is drawn
 constexpr std::size_t kUnthinned = 2000;
-constexpr double kPxPerLetter = 7.3;  // at 13 px; an upper estimate
-constexpr double kRow = 21.0;         // of the legend
+// Upper estimates, of texts of 13 and of 10 px.
+constexpr double kPxPerLetter = 7.3, kPxPerSmallLetter = 5.8;
+constexpr double kRow = 21.0;  // of the legend
 
 /// Marks of about equal area, around (0, 0).
 constexpr const char* kMarks[] = {"M-3.6 0a3.6 3.6 0 1 0 7.2 0a3.6 3.6 0 1 0 -7.2 0Z",
@@ -62,7 +63,8 @@ Chart::Chart(std::string_view title, const Axis& x_axis, const Axis& y_axis, Axi
       title_(title),
       place_(place),
       top_(place == Place::alone ? 44.0 : 12.0),
-      bottom_(top_ + kHeight) {
+      bottom_(top_ + kHeight),
+      placer_({left_, top_, right_, bottom_}) {
   x_.place(left_, right_);
   y_.place(bottom_, top_);
 }
@@ -140,22 +142,35 @@ void Chart::spread(const Curve& curve, std::size_t number) {
     body_.element("path", {{"class", fmt::format("bar s{}", number % kColours)}, {"d", bars}});
 }
 
-void Chart::labels(const Curve& curve, const std::vector<Point>& points, std::size_t number) {
+void Chart::keep_labels(const Curve& curve, const std::vector<Point>& points, std::size_t number) {
   for (std::size_t k = 0; k < std::min(points.size(), curve.labels.size()); ++k)
     if (std::isfinite(points[k].x))
-      body_.element("text",
-                    {{"class", fmt::format("label f{}", number % kColours)},
-                     {"x", px(points[k].x + 6.0)},
-                     {"y", px(points[k].y - 5.0)}},
-                    curve.labels[k]);
+      labels_.push_back({{points[k].x, points[k].y}, curve.labels[k], number});
+}
+
+void Chart::draw_labels() {
+  for (const Label& label : labels_) placer_.avoid_mark(label.at);
+  for (const Label& label : labels_) {
+    const double width = kPxPerSmallLetter * static_cast<double>(letters(label.words));
+    const auto [at, anchor] = placer_.place(label.at, width);
+    body_.element("text",
+                  {{"class", fmt::format("label f{}", label.number % kColours)},
+                   {"x", px(at.x)},
+                   {"y", px(at.y)},
+                   {"text-anchor", anchor}},
+                  label.words);
+  }
 }
 
 void Chart::line(const std::vector<Point>& points, const std::string& classes, bool dashed) {
   std::string path;
   bool down = false;
+  Spot last;
   for (const Point& p : points) {
     const bool drawn = std::isfinite(p.x) && !p.zero;
     if (drawn) path += fmt::format("{}{:.1f} {:.2f}", down ? "L" : "M", p.x, p.y);
+    if (drawn && down) placer_.avoid_line(last, {p.x, p.y});
+    last = {p.x, p.y};
     down = drawn;
   }
   if (!path.empty())
@@ -192,7 +207,7 @@ void Chart::curve(const Curve& curve, std::size_t number, bool on_map) {
   body_.close("svg");
   const bool marked = !curve.line || (!on_map && !curve.dashed && points.size() <= kMostMarks);
   if (marked) marks(points, number, on_map);
-  labels(curve, points, number);
+  keep_labels(curve, points, number);
   if (curve.name.empty()) return;
   // On a map, black is drawn on a pale background here as well.
   SvgWriter symbol;
@@ -213,6 +228,7 @@ void Chart::legend_entry(const std::string& symbol, const std::string& words) {
 }
 
 std::string Chart::finish() {
+  draw_labels();
   if (zeros_) {
     SvgWriter symbol;
     mark(symbol, kZeroMark, 0, 3, "zero s5");

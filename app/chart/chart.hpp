@@ -2,6 +2,7 @@
 // Shared by plots and maps: frame, axes, curves, legend.
 
 #include "app/chart/axis_scale.hpp"
+#include "app/chart/label_placer.hpp"
 #include "app/chart/plot.hpp"
 #include "core/svg_writer.hpp"
 
@@ -40,7 +41,9 @@ class Chart {
                                              const std::vector<double>& y) const;
   [[nodiscard]] std::string page(double height);
   void spread(const Curve& curve, std::size_t number);
-  void labels(const Curve& curve, const std::vector<Point>& points, std::size_t number);
+  void keep_labels(const Curve& curve, const std::vector<Point>& points, std::size_t number);
+  /// When all curves are known, which labels avoid.
+  void draw_labels();
   void line(const std::vector<Point>& points, const std::string& classes, bool dashed);
   void marks(const std::vector<Point>& points, std::size_t number, bool on_map);
 
@@ -50,6 +53,13 @@ class Chart {
   std::vector<std::pair<std::string, std::string>> legend_;
   Place place_;
   double top_, left_ = 78.0, right_ = 738.0, bottom_;
+  struct Label {
+    Spot at;  ///< of its point
+    std::string words;
+    std::size_t number;  ///< of its curve
+  };
+  std::vector<Label> labels_;
+  LabelPlacer placer_;
   bool zeros_ = false;
 };
 

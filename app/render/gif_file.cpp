@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,12 +22,13 @@ using Palette = std::array<GifColorType, kColours>;
 
 Result<Palette> palette_of(std::size_t frames, const FrameSource& frame_at) {
   std::vector<GifByteType> red, green, blue;
+  const std::size_t chosen = palette_frames(frames);
   std::size_t stride = 1, at = 0;
-  for (std::size_t frame = 0; frame < frames; ++frame) {
-    const auto image = frame_at(frame);
+  for (std::size_t k = 0; k < chosen; ++k) {
+    const auto image = frame_at(k * frames / chosen);
     if (!image) return tl::make_unexpected(image.error());
     const std::size_t pixels = image->rgba.size() / 4;
-    if (frame == 0) stride = frames * pixels / kSampled + 1;
+    if (k == 0) stride = chosen * pixels / kSampled + 1;
     for (std::size_t pixel = 0; pixel < pixels; ++pixel)
       if (at++ % stride == 0) {
         red.push_back(image->rgba[4 * pixel]);
@@ -44,19 +46,21 @@ Result<Palette> palette_of(std::size_t frames, const FrameSource& frame_at) {
   return palette;
 }
 
-/// The nearest colour of a palette for each cell of the colour cube.
+/// The nearest colour of a palette for each cell of the colour cube, found at the cell's first use:
+/// pictures of pots use few cells.
 class Nearest {
  public:
-  explicit Nearest(const Palette& palette) : index_(std::size_t{1} << (3 * kCell)) {
-    for (std::size_t cell = 0; cell < index_.size(); ++cell)
-      index_[cell] =
-          nearest(palette, middle(cell >> (2 * kCell)), middle(cell >> kCell), middle(cell));
-  }
-  [[nodiscard]] GifByteType operator()(int red, int green, int blue) const {
-    return index_[part(red) << (2 * kCell) | part(green) << kCell | part(blue)];
+  explicit Nearest(const Palette& palette)
+      : palette_(palette), index_(std::size_t{1} << (3 * kCell), kUnknown) {}
+  [[nodiscard]] GifByteType operator()(int red, int green, int blue) {
+    const std::size_t cell = part(red) << (2 * kCell) | part(green) << kCell | part(blue);
+    if (index_[cell] == kUnknown)
+      index_[cell] = nearest(middle(cell >> (2 * kCell)), middle(cell >> kCell), middle(cell));
+    return static_cast<GifByteType>(index_[cell]);
   }
 
  private:
+  static constexpr std::int16_t kUnknown = -1;
   static constexpr std::size_t kMask = (std::size_t{1} << kCell) - 1;
   static int middle(std::size_t cell) {
     return static_cast<int>((cell & kMask) << (8 - kCell) | 2u);
@@ -64,16 +68,17 @@ class Nearest {
   static std::size_t part(int value) {
     return static_cast<std::size_t>(std::clamp(value, 0, 255)) >> (8 - kCell);
   }
-  static GifByteType nearest(const Palette& palette, int red, int green, int blue) {
+  [[nodiscard]] std::int16_t nearest(int red, int green, int blue) const {
     const auto far = [&](const GifColorType& c) {
       const int r = c.Red - red, g = c.Green - green, b = c.Blue - blue;
       return 3 * r * r + 6 * g * g + b * b;  // approximate sensitivity of the eye
     };
     const auto least = std::ranges::min_element(
-        palette, [&](const auto& a, const auto& b) { return far(a) < far(b); });
-    return static_cast<GifByteType>(least - palette.begin());
+        palette_, [&](const auto& a, const auto& b) { return far(a) < far(b); });
+    return static_cast<std::int16_t>(least - palette_.begin());
   }
-  std::vector<GifByteType> index_;
+  const Palette& palette_;
+  std::vector<std::int16_t> index_;
 };
 
 /// Ordered dither: a fine pattern that does not move between frames.
@@ -125,7 +130,7 @@ bool put_loop(GifFileType* gif) {
          EGifPutExtensionTrailer(gif) == GIF_OK;
 }
 
-bool put_frame(GifFileType* gif, const Image& image, const Nearest& nearest, int delay_ms) {
+bool put_frame(GifFileType* gif, const Image& image, Nearest& nearest, int delay_ms) {
   const GraphicsControlBlock control{DISPOSE_DO_NOT, false, (delay_ms + 5) / 10,
                                      NO_TRANSPARENT_COLOR};
   std::array<GifByteType, 4> bytes{};
@@ -147,6 +152,11 @@ bool put_frame(GifFileType* gif, const Image& image, const Nearest& nearest, int
 
 }  // namespace
 
+std::size_t palette_frames(std::size_t frames) noexcept {
+  constexpr std::size_t kMost = 8;  // a pot looks much the same from all sides
+  return std::min(frames, kMost);
+}
+
 Result<std::uint64_t> write_gif(std::size_t frames, int delay_ms, const FrameSource& frame_at,
                                 const ByteSink& sink) {
   assert(frames > 0);
@@ -164,7 +174,7 @@ Result<std::uint64_t> write_gif(std::size_t frames, int delay_ms, const FrameSou
   };
   if (!gif || !colours) return failed();
   EGifSetGifVersion(gif.get(), true);
-  const Nearest nearest(*palette);
+  Nearest nearest(*palette);
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const auto image = frame_at(frame);
     if (!image) return tl::make_unexpected(image.error());

@@ -23,11 +23,15 @@ glm::vec2 outward(const Joint& from, const Joint& to) {
   return glm::normalize(glm::vec2{way.y, -way.x});
 }
 
-void add_stretch(const Joint& from, const Joint& to, std::vector<Stretch>& meridian) {
+/// `half_row`: the outermost half of the lowest or of the highest row. It is upright only because
+/// nothing lies beyond it, so it takes the inclination of the wall at any angle: on a rounded lip,
+/// an edge there would be a dark line.
+void add_stretch(const Joint& from, const Joint& to, std::vector<Stretch>& meridian,
+                 bool half_row = false) {
   if (from.at == to.at) return;
   const glm::vec2 face = outward(from, to);
   const auto normal_at = [&](const Joint& joint) {
-    return glm::dot(joint.normal, face) > kCreaseCosine ? joint.normal : face;
+    return half_row || glm::dot(joint.normal, face) > kCreaseCosine ? joint.normal : face;
   };
   meridian.push_back({from.at,
                       to.at,
@@ -68,8 +72,10 @@ std::vector<Stretch> meridian_of(const std::vector<Level>& levels, bool round_li
   const Level& top = levels.back();
   add_stretch({{foot.inner, foot.y}, {}, foot.wall.outer_mm, 0.0f, {}}, outer_joint(foot, sky),
               meridian);
+  const auto half_row = [&](std::size_t i) { return i == 1 || i + 1 == levels.size(); };
   for (std::size_t i = 1; i < levels.size(); ++i)
-    add_stretch(outer_joint(levels[i - 1], sky), outer_joint(levels[i], sky), meridian);
+    add_stretch(outer_joint(levels[i - 1], sky), outer_joint(levels[i], sky), meridian,
+                half_row(i));
   const std::size_t rim = meridian.size();
   add_stretch(outer_joint(top, sky), {{top.inner, top.y}, {}, top.wall.outer_mm, 1.0f, {}},
               meridian);
@@ -77,7 +83,7 @@ std::vector<Stretch> meridian_of(const std::vector<Level>& levels, bool round_li
     const Level& above = levels[i];
     const Level& below = levels[i - 1];
     if (above.inner > 0.0f || below.inner > 0.0f)
-      add_stretch(inner_joint(above, sky), inner_joint(below, sky), meridian);
+      add_stretch(inner_joint(above, sky), inner_joint(below, sky), meridian, half_row(i));
   }
   const bool lip = round_lip && top.inner > 0.0f && top.outer - top.inner < kLip * top.outer;
   for (std::size_t i = 1; i < meridian.size(); ++i)

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <functional>
 #include <mutex>
 #include <optional>
 
@@ -99,18 +100,26 @@ Result<EglContext> EglContext::create() {
   return made;
 }
 
-Image read_pixels(int width, int height) {
-  Image image{width, height, {}};
-  const std::size_t row = 4 * static_cast<std::size_t>(width);
-  image.rgba.resize(row * static_cast<std::size_t>(height));
+/// Rows of a picture that are drawn at a time: all of them, or equal parts of a picture that is
+/// larger than a full HD screen. Four samples of a pixel take 40 bytes of the driver's memory.
+int strip_rows(Viewport viewport) {
+  constexpr int kMostPixels = 1 << 21;
+  const int height = viewport.height_px, most = std::max(1, kMostPixels / viewport.width_px);
+  const int strips = (height + most - 1) / most;
+  return (height + strips - 1) / strips;
+}
+
+/// Reads the rows that the bound framebuffer holds.
+void read_rows(PixelRows rows, Image& image) {
+  const int width = image.width_px, last = image.height_px - 1;
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-  for (int y = 0; y < height / 2; ++y) {  // OpenGL's rows start at the bottom
-    const auto upper = image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * y;
-    const auto lower = image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * (height - 1 - y);
-    std::swap_ranges(upper, upper + static_cast<std::ptrdiff_t>(row), lower);
+  glReadPixels(0, 0, width, rows.count, GL_RGBA, GL_UNSIGNED_BYTE,
+               image.at(0, image.height_px - rows.first - rows.count));
+  for (int k = 0; k < rows.count / 2; ++k) {  // OpenGL's rows start at the bottom
+    std::uint8_t* const lower = image.at(0, last - rows.first - k);
+    std::uint8_t* const upper = image.at(0, last - rows.first - (rows.count - 1 - k));
+    std::swap_ranges(lower, lower + 4 * static_cast<std::ptrdiff_t>(width), upper);
   }
-  return image;
 }
 
 /// From colours weighted by their coverage, as anti-aliasing leaves them, to plain ones.
@@ -134,16 +143,24 @@ struct Offscreen::State {
 
   ~State() { context.make_current(); }  // for the names that are deleted now
 
-  Result<void> paint(const Picture& picture, Viewport viewport, int samples) {
-    if (!context.make_current()) return no_context("the context to be there still");
-    if (!(target && target->is(viewport.width_px, viewport.height_px, 0))) {
+  /// Calls `painted` after each strip of the picture, which the bound framebuffer holds.
+  Result<void> paint(const Picture& picture, Viewport viewport, int samples,
+                     const std::function<void(PixelRows)>& painted) {
+    if (!context.make_current()) return no_context("the OpenGL context of this program");
+    const int height = viewport.height_px, count = strip_rows(viewport);
+    if (!(target && target->is(viewport.width_px, count, 0))) {
       target.reset();
-      auto made = Canvas::create(viewport.width_px, viewport.height_px, 0);
+      auto made = Canvas::create(viewport.width_px, count, 0);
       if (!made) return tl::make_unexpected(made.error());
       target.emplace(std::move(*made));
     }
-    glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer());
-    painter->paint(picture, viewport.width_px, viewport.height_px, samples);
+    for (int first = 0; first < height; first += count) {
+      // The last strip may overlap the one below it, so that all have the same size.
+      const PixelRows strip{std::min(first, height - count), count};
+      glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer());
+      painter->paint_strip(picture, viewport.width_px, height, samples, strip);
+      painted(strip);
+    }
     return {};
   }
 };
@@ -165,18 +182,20 @@ Result<Offscreen> Offscreen::create() {
 }
 
 Result<Image> Offscreen::draw(const Picture& picture, Viewport viewport) {
-  return state_->paint(picture, viewport, kSamples).map([&] {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->target->framebuffer());
-    Image image = read_pixels(viewport.width_px, viewport.height_px);
-    if (picture.alone) undo_coverage(image);
-    return image;
-  });
+  Image image{viewport.width_px, viewport.height_px, {}};
+  image.rgba.resize(4 * static_cast<std::size_t>(viewport.width_px) *
+                    static_cast<std::size_t>(viewport.height_px));
+  return state_
+      ->paint(picture, viewport, kSamples, [&](PixelRows strip) { read_rows(strip, image); })
+      .map([&] {
+        if (picture.alone) undo_coverage(image);
+        return std::move(image);
+      });
 }
 
 Result<double> Offscreen::time_ms(const Picture& picture, Viewport viewport, int samples) {
   const auto begin = std::chrono::steady_clock::now();
-  return state_->paint(picture, viewport, samples).map([&] {
-    glFinish();
+  return state_->paint(picture, viewport, samples, [](PixelRows) { glFinish(); }).map([&] {
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     return took.count();
   });

@@ -42,6 +42,10 @@ struct Painter::State {
   ScenePainter scene;
   std::optional<Canvas> canvas;  ///< multisampled, of the last requested size
   std::size_t warm = 0;          ///< how many pictures warm_up has drawn
+
+  /// `buffer`: the rows of the picture that the bound framebuffer holds, among them `rows`.
+  void paint(const Picture& picture, Viewport viewport, int samples, PixelRows buffer,
+             PixelRows rows);
 };
 
 Painter::Painter(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -65,26 +69,34 @@ void Painter::paint(const Picture& picture, int width_px, int height_px, int sam
 
 void Painter::paint_rows(const Picture& picture, int width_px, int height_px, int samples,
                          PixelRows rows) noexcept {
-  if (width_px < 1 || height_px < 1 || rows.count < 1) return;
-  const Viewport viewport{width_px, height_px};
-  auto& canvas = state_->canvas;
-  if (samples > 1 && !(canvas && canvas->is(width_px, height_px, samples))) {
+  state_->paint(picture, {width_px, height_px}, samples, {0, height_px}, rows);
+}
+
+void Painter::paint_strip(const Picture& picture, int width_px, int height_px, int samples,
+                          PixelRows strip) noexcept {
+  state_->paint(picture, {width_px, height_px}, samples, strip, strip);
+}
+
+void Painter::State::paint(const Picture& picture, Viewport viewport, int samples, PixelRows buffer,
+                           PixelRows rows) {
+  const int width = viewport.width_px;
+  if (width < 1 || buffer.count < 1 || rows.count < 1) return;
+  if (samples > 1 && !(canvas && canvas->is(width, buffer.count, samples))) {
     canvas.reset();
     // If a driver lacks memory for samples, draw without antialiasing.
-    if (auto made = Canvas::create(width_px, height_px, samples)) canvas.emplace(std::move(*made));
+    if (auto made = Canvas::create(width, buffer.count, samples)) canvas.emplace(std::move(*made));
   }
   if (samples <= 1 || !canvas) {
-    state_->scene.paint(picture, viewport, rows);
+    scene.paint(picture, viewport, rows, buffer.first);
     return;
   }
   const GLuint target = bound_framebuffer();
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas->framebuffer());
-  state_->scene.paint(picture, viewport, rows);
+  scene.paint(picture, viewport, rows, buffer.first);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, canvas->framebuffer());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
-  const int end = rows.first + rows.count;
-  glBlitFramebuffer(0, rows.first, width_px, end, 0, rows.first, width_px, end, GL_COLOR_BUFFER_BIT,
-                    GL_NEAREST);
+  const int low = rows.first - buffer.first, high = low + rows.count;
+  glBlitFramebuffer(0, low, width, high, 0, low, width, high, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, target);
 }
 
@@ -98,7 +110,7 @@ bool Painter::warm_up() noexcept {
   // With samples and without, as the window draws.
   if (const auto canvas = Canvas::create(kSidePx, kSidePx, kSamples[next / pictures.size()])) {
     glBindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer());
-    state_->scene.paint(pictures[next % pictures.size()], {kSidePx, kSidePx}, {0, kSidePx});
+    state_->scene.paint(pictures[next % pictures.size()], {kSidePx, kSidePx}, {0, kSidePx}, 0);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, target);
   return state_->warm < count;

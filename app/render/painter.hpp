@@ -1,5 +1,10 @@
 #pragma once
 // Draws pictures with OpenGL 3.3 core.
+//
+// The way of a pot: `view_of` makes rows of its rings, `levels_of` a section of the rows, and
+// `meridian_of` a line of the section, which a vertex shader revolves. ScenePainter draws a frame
+// in stages, Painter adds samples, Offscreen has a context without a screen, and pot_picture.hpp
+// makes the pictures of files.
 
 #include "app/render/picture.hpp"
 #include "claystack/core/result.hpp"
@@ -27,6 +32,10 @@ class Painter {
   /// Draws these rows of the whole picture only. All rows in turn make the same picture.
   void paint_rows(const Picture& picture, int width_px, int height_px, int samples,
                   PixelRows rows) noexcept;
+  /// The same for a framebuffer that holds these rows only: a large picture needs little memory of
+  /// the driver, strip by strip.
+  void paint_strip(const Picture& picture, int width_px, int height_px, int samples,
+                   PixelRows strip) noexcept;
 
   /// Draws a small hidden picture, because drivers compile a part of each program at its first use.
   /// Returns whether another one is left. Changes the same as `paint`.

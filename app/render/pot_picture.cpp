@@ -1,7 +1,9 @@
 #include "app/render/pot_picture.hpp"
 
-#include "app/render/legend.hpp"
 #include "app/render/pot_view.hpp"
+#ifdef CLAYSTACK_EXPORT
+#include "app/render/legend.hpp"
+#endif
 
 #include <algorithm>
 #include <glm/trigonometric.hpp>
@@ -32,25 +34,33 @@ Picture picture_of(const Pot& pot, const PictureChoices& choices) {
 
 Result<Image> drawn(Offscreen& screen, const Picture& picture, Viewport size) {
   return screen.draw(picture, size).map([&](Image image) {
+#ifdef CLAYSTACK_EXPORT
     if (picture.wall_map) draw_legend(*picture.wall_map, picture.theme, image);
+#endif
     return image;
   });
+}
+
+std::size_t drawings_of_turn(int frames) noexcept {
+  const auto count = static_cast<std::size_t>(frames);
+  return count + palette_frames(count);
 }
 
 Result<std::uint64_t> write_turntable(Offscreen& screen, Picture picture,
                                       const PictureChoices& choices, const TurnProgress& progress,
                                       const ByteSink& sink) {
-  const auto frames = static_cast<std::size_t>(choices.frames);
   picture.cut_azimuth_rad = picture.camera.azimuth_rad;  // rotates with the pot
   const double step = 2.0 * std::numbers::pi / choices.frames;
   const double first = picture.camera.azimuth_rad;
   std::size_t done = 0;
   const auto frame_at = [&](std::size_t k) {
     picture.camera.azimuth_rad = first - step * static_cast<double>(k);
-    return progress(done++, 2 * frames)  // each frame is drawn twice
-        .and_then([&] { return drawn(screen, picture, choices.size); });
+    return progress(done++, drawings_of_turn(choices.frames)).and_then([&] {
+      return drawn(screen, picture, choices.size);
+    });
   };
-  return write_gif(frames, std::max(kShortestFrameMs, kTurnMs / choices.frames), frame_at, sink);
+  return write_gif(static_cast<std::size_t>(choices.frames),
+                   std::max(kShortestFrameMs, kTurnMs / choices.frames), frame_at, sink);
 }
 
 }  // namespace clay::render

@@ -34,6 +34,8 @@ struct PictureChoices {
 /// With the legend of the wall map, if there is one. Errors as for Offscreen::draw.
 Result<Image> drawn(Offscreen& screen, const Picture& picture, Viewport size);
 
+/// The number of pictures that a turntable of this many frames draws: some twice, for its colours.
+[[nodiscard]] std::size_t drawings_of_turn(int frames) noexcept;
 /// Called before each of `of` drawings; an error ends the turntable.
 using TurnProgress = std::function<Result<void>(std::size_t done, std::size_t of)>;
 /// One turn of the pot as a GIF: in about three seconds, or 20 ms a frame if that is longer.

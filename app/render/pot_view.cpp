@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <type_traits>
 
 namespace clay::render {
@@ -41,7 +42,7 @@ void add_arc(const Tool& tool, double from, double to, int steps, std::vector<gl
 std::vector<glm::vec2> ellipse_arc(const EllipseProfile& ellipse) {
   std::vector<glm::vec2> profile;
   for (int k = 0; k <= kArcs; ++k) {
-    const double angle = 3.14159265358979323846 * k / kArcs;
+    const double angle = std::numbers::pi * k / kArcs;
     const double radius = k == 0 || k == kArcs ? 0.0 : ellipse.b * std::sin(angle);
     profile.emplace_back(static_cast<float>(radius),
                          static_cast<float>(-ellipse.a * std::cos(angle)));

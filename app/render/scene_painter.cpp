@@ -1,6 +1,7 @@
 #include "app/render/scene_painter.hpp"
 
 #include "app/render/scene_frame.hpp"
+#include "app/render/wall_swatch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +24,8 @@ Result<Program> frame_program(std::string_view name, const std::string& vertex,
     glUseProgram(program.get());
     glUniform4fv(location(program, "map_colours"), kMapColours,
                  glm::value_ptr(map_colours().front()));
+    set(program, "thin_wall", linear_of(kThinWall));
+    set(program, "thin_wall_stripe", linear_of(kThinWallStripe));
     return program;
   });
 }
@@ -57,19 +60,21 @@ Result<ScenePainter> ScenePainter::create() {
   return made;
 }
 
-void ScenePainter::paint(const Picture& picture, Viewport viewport, PixelRows rows) {
+void ScenePainter::paint(const Picture& picture, Viewport viewport, PixelRows rows,
+                         int lowest_row) {
   const SceneFrame frame(picture, viewport);
   FrameBlock block = frame.block;
+  block.viewport.w = static_cast<float>(lowest_row);
   if (!picture.alone && frame.from_above()) {
     const ShadowMap shadow = shadow_of(frame.bodies, glm::vec3(frame.block.to_lamp), frame.sweep);
     block.viewport.z = shadow.half_side_mm;
     send(shadow);
   }
   send(block);
-  glViewport(0, 0, viewport.width_px, viewport.height_px);
+  glViewport(0, -lowest_row, viewport.width_px, viewport.height_px);
   glDisable(GL_BLEND);
   glEnable(GL_SCISSOR_TEST);
-  glScissor(0, rows.first, viewport.width_px, rows.count);
+  glScissor(0, rows.first - lowest_row, viewport.width_px, rows.count);
   glDisable(GL_STENCIL_TEST);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);

@@ -17,8 +17,8 @@ struct SceneFrame;
 class ScenePainter {
  public:
   static Result<ScenePainter> create();
-  /// Draws these rows into the bound framebuffer.
-  void paint(const Picture& picture, Viewport viewport, PixelRows rows);
+  /// Draws these rows into the bound framebuffer, whose lowest row is `lowest_row` of the picture.
+  void paint(const Picture& picture, Viewport viewport, PixelRows rows, int lowest_row);
 
  private:
   void paint_background();

@@ -15,8 +15,8 @@ namespace clay::render {
 struct Level {
   float y = 0.0f;
   float outer = 0.0f, inner = 0.0f;
-  float outer_lean = 0.0f,
-        inner_lean = 0.0f;  ///< inclination of the walls, outward from vertical [rad]
+  /// Inclination of the walls, outward from vertical [rad].
+  float outer_lean = 0.0f, inner_lean = 0.0f;
   RowWall wall;
 };
 
@@ -32,8 +32,8 @@ struct Stretch {
   glm::vec2 from_normal{0.0f}, to_normal{0.0f};  ///< outward, unit
   glm::vec2 open{1.0f};                          ///< visible fraction of the sky
   glm::vec2 wall{0.0f};                          ///< thickness [mm]
-  glm::vec2 neck{
-      0.0f};  ///< radius and height of the ring that limits the light [mm]; radius 0: none
+  /// Radius and height of the ring that limits the light [mm]; radius 0: none.
+  glm::vec2 neck{0.0f};
 };
 
 /// The closed surface of the body between the levels.

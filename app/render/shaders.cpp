@@ -15,6 +15,9 @@ layout(std140) uniform Frame {
 )";
 
 constexpr const char* kColour = R"(
+// Place in the whole picture, of which the framebuffer may be a strip.
+vec2 pixel() { return gl_FragCoord.xy + vec2(0.0, frame.viewport.w); }
+
 // sRGB by three square roots instead of a power (least squares; error below 0.3/255 above 0.0031),
 // plus half a step of noise, so that smooth gradients show no bands.
 vec4 shown(vec3 linear) {
@@ -22,12 +25,12 @@ vec4 shown(vec3 linear) {
   vec3 s1 = sqrt(c), s2 = sqrt(s1), s3 = sqrt(s2);
   vec3 srgb = 0.662002687 * s1 + 0.684122060 * s2 - 0.323583601 * s3 - 0.0225411470 * c;
   srgb = mix(12.92 * c, srgb, step(0.0031308, c));
-  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  float noise = fract(52.9829189 * fract(dot(pixel(), vec2(0.06711056, 0.00583715))));
   return vec4(srgb + (noise - 0.5) / 255.0, 1.0);
 }
 
 vec3 background() {
-  vec2 uv = gl_FragCoord.xy / frame.viewport.xy;
+  vec2 uv = pixel() / frame.viewport.xy;
   vec2 off = (uv - vec2(0.5, 0.46)) * vec2(1.0, 0.9);
   return mix(frame.high.rgb, frame.low.rgb, smoothstep(0.0, 0.75, length(off)));
 }
@@ -97,16 +100,18 @@ vec3 exposed(vec3 c) { return c * (1.0 + c * 0.12) / (1.0 + c * 0.42); }
 
 constexpr const char* kWallColour = R"(
 uniform vec4 map_colours[17];
+uniform vec3 thin_wall, thin_wall_stripe;
 
-vec3 wall_colour(float wall) {
+// `slope`: of the stripes on walls that are too thin, 1 or -1.
+vec3 wall_colour(float wall, float slope) {
   float at = clamp(wall / frame.wall_map.y, 0.0, 1.0) * 16.0;
   int below = min(int(at), 15);
   vec3 colour = mix(map_colours[below].rgb, map_colours[below + 1].rgb, at - float(below));
   if (wall >= frame.wall_map.x) return colour;
-  float stripe = fract((gl_FragCoord.x + gl_FragCoord.y) / 10.0);
-  vec3 thin = vec3(0.80, 0.02, 0.03);
-  return mix(thin, vec3(1.0, 0.80, 0.74), smoothstep(0.62, 0.72, stripe) *
-                                              (1.0 - smoothstep(0.88, 0.98, stripe)));
+  vec2 at_stripe = pixel() / max(10.0, frame.viewport.y / 72.0);
+  float stripe = fract(at_stripe.x + slope * at_stripe.y);
+  return mix(thin_wall, thin_wall_stripe,
+             smoothstep(0.62, 0.72, stripe) * (1.0 - smoothstep(0.88, 0.98, stripe)));
 }
 )";
 
@@ -196,7 +201,7 @@ void main() {
   lit = mix(lit, 1.0, 0.6 * cut * step(1e-6, neck.x));
   float open = mix(shade.x, 1.0, 0.35 * cut * step(1e-6, neck.x));
   if (frame.wall_map.z > 0.5) {
-    vec3 base = wall_colour(shade.y);
+    vec3 base = wall_colour(shade.y, 1.0);
     float facing = 0.5 + 0.5 * dot(n, frame.to_lamp.xyz);
     colour = shown(base * mix(0.50, 1.0, facing * mix(0.5, 1.0, open)));
     return;
@@ -305,27 +310,23 @@ layout(location = 1) in vec4 radii;   // low: bore, outside; high: bore, outside
 layout(location = 2) in vec4 rest;    // y low, high; wall low, high
 uniform mat4 place;
 uniform float azimuth;
-out vec3 face;
 centroid out float wall;
-out float rho;
 void main() {
   vec2 ends = mix(radii.xy, radii.zw, corner.y);
-  rho = mix(ends.x, ends.y, corner.x);
+  float rho = mix(ends.x, ends.y, corner.x), y = mix(rest.x, rest.y, corner.y);
   wall = mix(rest.z, rest.w, corner.y);
-  vec4 at = place * vec4(rho * sin(azimuth), mix(rest.x, rest.y, corner.y), rho * cos(azimuth), 1.0);
-  face = at.xyz;
-  gl_Position = frame.view_projection * at;
+  gl_Position =
+      frame.view_projection * place * vec4(rho * sin(azimuth), y, rho * cos(azimuth), 1.0);
 }
 )";
 
 constexpr const char* kSliceFragment = R"(
-in vec3 face;
 centroid in float wall;
-in float rho;
 uniform vec4 section;  // colour
 out vec4 colour;
 void main() {
-  colour = shown(frame.wall_map.z > 0.5 ? wall_colour(wall) : section.rgb);
+  // Stripes against those of the bore behind it set off the cut.
+  colour = shown(frame.wall_map.z > 0.5 ? wall_colour(wall, -1.0) : section.rgb);
 }
 )";
 

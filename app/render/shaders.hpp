@@ -16,7 +16,9 @@ struct FrameBlock {
   glm::vec4 to_rim_lamp{0.0f};                               ///< unit; sine of the wheel's turn
   glm::vec4 lamp{0.0f}, sky{0.0f}, bounce{0.0f}, rim{0.0f};  ///< linear colours
   glm::vec4 low{0.0f}, high{0.0f};                           ///< of the background, at its edges
-  glm::vec4 viewport{0.0f};  ///< width, height [px]; half side of the shadow map [mm]
+  /// Width, height [px]; half side of the shadow map [mm]; rows of the picture below the
+  /// framebuffer.
+  glm::vec4 viewport{0.0f};
   glm::vec4 wall_map{0.0f};  ///< limit, top [mm]; above 0: drawn
   glm::vec4 wheel{0.0f};     ///< turn [rad], radius, thickness; size of the clay [mm]
   /// The sides of the lamp's window and of the rim lamp's strip, unit.

@@ -125,9 +125,9 @@ struct Corner {
 
 /// Samples with depth; triangles that turn clockwise, as seen, are faces from behind: others hide
 /// them.
-class Canvas {
+class Samples {
  public:
-  explicit Canvas(int side)
+  explicit Samples(int side)
       : side_(side),
         depth_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side),
                std::numeric_limits<float>::infinity()),
@@ -188,7 +188,7 @@ class Drawing {
       : view_(view_matrix(camera)),
         whole_(projection_matrix(camera, 1.0)),
         side_(side),
-        canvas_(side) {
+        samples_(side) {
     for (const glm::dvec2& d : directions_around(kSectors)) directions_.emplace_back(d.y, d.x);
     directions_.push_back(directions_.front());
   }
@@ -202,14 +202,14 @@ class Drawing {
                                        corner(band.to, d, band.normals[1], band.open[1], place)};
       if (k > 0) {
         const bool left = band.side > 0.0;
-        canvas_.draw(last[0], left ? last[1] : next[1], left ? next[1] : last[1]);
-        canvas_.draw(last[0], left ? next[1] : next[0], left ? next[0] : next[1]);
+        samples_.draw(last[0], left ? last[1] : next[1], left ? next[1] : last[1]);
+        samples_.draw(last[0], left ? next[1] : next[0], left ? next[0] : next[1]);
       }
       last = next;
     }
   }
 
-  [[nodiscard]] const Canvas& canvas() const { return canvas_; }
+  [[nodiscard]] const Samples& samples() const { return samples_; }
 
  private:
   [[nodiscard]] Corner corner(const glm::dvec2& point, const glm::dvec2& direction,
@@ -227,10 +227,10 @@ class Drawing {
   glm::dmat4 view_, whole_;
   int side_;
   std::vector<glm::dvec2> directions_;
-  Canvas canvas_;
+  Samples samples_;
 };
 
-Image pixels_of(const Canvas& canvas, int side_px) {
+Image pixels_of(const Samples& samples, int side_px) {
   constexpr float kSteps = 4095.0F;
   std::vector<std::uint8_t> bytes;
   for (float step = 0.0F; step <= kSteps; ++step) bytes.push_back(srgb_byte(step / kSteps));
@@ -240,7 +240,7 @@ Image pixels_of(const Canvas& canvas, int side_px) {
     for (int x = 0; x < side_px; ++x) {
       glm::vec3 sum(0.0F);
       for (int i = 0; i < kPerSide * kPerSide; ++i) {
-        const float light = canvas.light(kPerSide * x + i % kPerSide, kPerSide * y + i / kPerSide);
+        const float light = samples.light(kPerSide * x + i % kPerSide, kPerSide * y + i / kPerSide);
         sum += light < 0.0F ? kGround : glm::min(kClay * light, glm::vec3(1.0F));
       }
       sum /= static_cast<float>(kPerSide * kPerSide);
@@ -266,7 +266,7 @@ Image thumbnail(const PotView& pot, int side_px) {
     add(0, split, glm::dmat4(1.0));
     if (pot.fallen) add(split, pot.rows.size(), pot.fallen->place);
   }
-  return pixels_of(drawing.canvas(), side_px);
+  return pixels_of(drawing.samples(), side_px);
 }
 
 }  // namespace clay::render

@@ -2,6 +2,7 @@
 
 #include "app/chart/plot.hpp"
 #include "app/chart/axis_scale.hpp"
+#include "app/chart/label_placer.hpp"
 #include "core/svg_writer.hpp"
 
 #include <gtest/gtest.h>
@@ -132,6 +133,55 @@ TEST(Plot, DrawsLabelsAndSpreadsOfBothAxesAtTheirPoints) {
   EXPECT_NEAR(std::stod(match[1]), 78.0 + 660.0 * 0.05 / 1.1, 0.1);
   EXPECT_NEAR(std::stod(match[2]), 78.0 + 660.0 * 0.55 / 1.1, 0.1);
   EXPECT_EQ(count(svg, "v6m0 -3H"), 2u);  // one low end is missing
+}
+
+/// The boxes of the labels in a drawing, by the width of a digit of DejaVu Sans at 10 px (6.36).
+std::vector<Box> label_boxes(const std::string& svg) {
+  std::vector<Box> boxes;
+  const std::regex label(
+      "class=\"label f[0-9]\" x=\"([0-9.]+)\" y=\"([0-9.]+)\"( "
+      "text-anchor=\"(start|end)\")?>([^<]*)<");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), label), end; it != end; ++it) {
+    const double x = std::stod((*it)[1]), y = std::stod((*it)[2]);
+    const double width = 5.5 * static_cast<double>((*it)[5].length());
+    const bool left = (*it)[4] == "end";
+    boxes.push_back({left ? x - width : x, y - 8.0, left ? x : x + width, y});
+  }
+  return boxes;
+}
+
+TEST(Plot, LabelsStayWithinTheFrameAndApart) {
+  Plot plot{"p", "", {"x", true}, {"y", true}, {}, ""};
+  // Two curves that meet at the right and upper edges.
+  for (const double factor : {1.0, 1.03}) {
+    Curve curve{"c", {1.0, 10.0, 100.0}, {1.0, 30.0 * factor, 100.0 * factor}, {}, {}};
+    curve.labels = {"N 50", "N 800", "N 3200"};
+    plot.curves.push_back(curve);
+  }
+  const auto boxes = label_boxes(svg_of(plot, Place::page));
+  ASSERT_EQ(boxes.size(), 6u);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    EXPECT_GT(boxes[i].left, 78.0) << i;
+    EXPECT_LT(boxes[i].right, 738.0) << i;
+    EXPECT_GT(boxes[i].top, 12.0) << i;
+    EXPECT_LT(boxes[i].bottom, 352.0) << i;
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_TRUE(boxes[i].right <= boxes[k].left || boxes[k].right <= boxes[i].left ||
+                  boxes[i].bottom <= boxes[k].top || boxes[k].bottom <= boxes[i].top)
+          << i << " over " << k;
+  }
+}
+
+TEST(LabelPlacer, TakesTheFreeSide) {
+  LabelPlacer placer({0.0, 0.0, 300.0, 300.0});
+  const auto free = placer.place({100.0, 100.0}, 30.0);
+  EXPECT_STREQ(free.anchor, "start");
+  EXPECT_LT(free.at.y, 100.0);
+  // A line up to the right, and one down to the right: the labels go to the other side.
+  LabelPlacer crossed({0.0, 0.0, 300.0, 300.0});
+  crossed.avoid_line({100.0, 100.0}, {150.0, 80.0});
+  crossed.avoid_line({100.0, 100.0}, {150.0, 120.0});
+  EXPECT_STREQ(crossed.place({100.0, 100.0}, 30.0).anchor, "end");
 }
 
 TEST(Plot, ThinningKeepsSinglePointSpikes) {

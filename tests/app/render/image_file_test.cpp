@@ -4,6 +4,11 @@
 #include "tests/support/run_program.hpp"
 
 #include <cstdlib>
+#include <fstream>
+#include <new>
+#ifdef __linux__
+#include <sys/resource.h>
+#endif
 
 namespace clay::test {
 namespace {
@@ -67,6 +72,47 @@ TEST(ImageFile, GifLoopsItsFrames) {
     EXPECT_GT(other, 1.5 * off) << k;
   }
 }
+
+TEST(ImageFile, GifDrawsFewFramesTwice) {
+  const render::Image image{2, 2, std::vector<std::uint8_t>(16, 90)};
+  for (const std::size_t frames : {std::size_t{1}, std::size_t{5}, std::size_t{100}}) {
+    std::vector<std::size_t> requested;
+    std::string bytes;
+    const auto frame_at = [&](std::size_t index) -> Result<render::Image> {
+      requested.push_back(index);
+      return image;
+    };
+    ASSERT_TRUE(render::write_gif(frames, 80, frame_at, into(bytes)));
+    const std::size_t first = std::min(frames, std::size_t{8});
+    ASSERT_EQ(requested.size(), frames + first);
+    EXPECT_EQ(first, render::palette_frames(frames));
+    EXPECT_GE(requested[first - 1], frames - frames / 8 - 1) << "the palette spans the turn";
+    for (std::size_t k = 0; k < frames; ++k) EXPECT_EQ(requested[first + k], k);
+  }
+}
+
+#ifdef __linux__
+/// Whether the picture is lost when the process may allocate only this much more.
+bool png_is_lost(const render::Image& image, std::uint64_t room) {
+  std::uint64_t used_kb = 0;
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (word == "VmData:") status >> used_kb;
+  const rlimit limit{1024 * used_kb + room, RLIM_INFINITY};
+  ::setrlimit(RLIMIT_DATA, &limit);
+  try {
+    return render::png_of(image).empty();
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+}
+
+TEST(ImageFile, PngWithoutMemoryIsAnError) {
+  // Room for the filtered rows, of 16 MB, but not for the compressed ones too.
+  const render::Image image{2000, 2000, std::vector<std::uint8_t>(16'000'000, 90)};
+  EXPECT_EXIT(std::_Exit(png_is_lost(image, 20'000'000) ? 1 : 0), ::testing::ExitedWithCode(0), "");
+}
+#endif
 
 TEST(ImageFile, GifStopsAtTheFirstError) {
   const std::vector<render::Image> frames{turned(0.7)};

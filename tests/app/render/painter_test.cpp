@@ -291,6 +291,26 @@ TEST(Painter, RowsInTurnMakeTheWholePicture) {
   EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
 }
 
+TEST(Painter, StripsMakeTheWholePicture) {
+  render::Picture picture = with_tool({45.0, 20.0, 0.0});
+  picture.cut = render::Cut::quarter;
+  picture.wall_map = render::WallMap{6.0, 10.0};
+  picture.pot.wall_mm.assign(picture.pot.rows.size(), {5.0f, 5.0f});
+  const render::Viewport large{2000, 1500};  // three million pixels: in two strips
+  const render::Image image = drawn(picture, large);
+  auto painter = render::Painter::create().value();
+  const auto whole = render::Canvas::create(large.width_px, large.height_px, 0).value();
+  glBindFramebuffer(GL_FRAMEBUFFER, whole.framebuffer());
+  painter.paint(picture, large.width_px, large.height_px, render::kSamples);
+  const auto expected = pixels_of(whole);  // lowest row first
+  const std::size_t row = 4u * 2000u;
+  int different = 0;
+  for (std::size_t y = 0; y < 1500; ++y)
+    for (std::size_t x = 0; x < row; ++x)
+      different += std::abs(image.rgba[y * row + x] - expected[(1499 - y) * row + x]) > 2;
+  EXPECT_LT(different, 1000);  // of 12 million: outlines, rounded differently
+}
+
 TEST(Painter, WarmsUpWithoutErrors) {
   (void)drawn(with_tool({45.0, 20.0, 0.0}));
   auto painter = render::Painter::create().value();

@@ -2,6 +2,7 @@
 #include "app/render/wall_rows.hpp"
 #include "tests/app/render/drawn.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -83,6 +84,29 @@ TEST(WallMap, HatchesThinWallsInASeparateColour) {
   EXPECT_EQ(red_part(55.0, 95.0), 0.0);
 }
 
+TEST(WallMap, StripesOfTheCutCrossThoseOfTheBore) {
+  render::Picture picture = banded({2.0f}, 3.0);
+  picture.cut = render::Cut::half;
+  const render::Image image = drawn(picture);
+  // Pale pixels that repeat one pixel up and to the right, less those up and to the left.
+  const auto slope_at = [&](double rho, double y) {
+    const auto px =
+        render::pixel_of(picture.camera, kView,
+                         rho * render::profile_direction(picture.camera) + glm::dvec3{0, y, 0})
+            .value();
+    const auto pale = [&](int x, int row) {
+      return int{image.at(static_cast<int>(px.x) + x, static_cast<int>(px.y) + row)[2]} > 120;
+    };
+    int rising = 0;
+    for (int row = -12; row < 12; ++row)
+      for (int x = -12; x < 12; ++x)
+        if (pale(x, row)) rising += pale(x + 2, row - 2) - pale(x - 2, row - 2);
+    return rising;
+  };
+  EXPECT_GT(slope_at(37.5, 50.0), 50);  // on the cut: up to the right
+  EXPECT_LT(slope_at(0.0, 50.0), -50);  // on the bore behind it: up to the left
+}
+
 TEST(WallMap, ShowsUnboundedWallsAsThick) {
   constexpr float kInfinite = std::numeric_limits<float>::infinity();
   render::Picture picture = banded({5.0f, kInfinite, 5.0f}, 3.0);
@@ -119,22 +143,91 @@ TEST(WallMap, RowsUseTheWallsOfTheSection) {
   for (std::size_t row = 0; row < 8; ++row) EXPECT_NEAR(walls[row].inner_mm, 8.0, 0.02) << row;
 }
 
+/// An image of one colour.
+render::Image plain(int width, int height, std::uint8_t grey, std::uint8_t alpha = 255) {
+  render::Image image{width, height, {}};
+  for (int i = 0; i < width * height; ++i)
+    image.rgba.insert(image.rgba.end(), {grey, grey, grey, alpha});
+  return image;
+}
+
+bool is_colour(const std::uint8_t* px, render::Swatch s) {
+  return is_near(px, s.red, s.green, s.blue, 0);
+}
+
 TEST(WallMap, LegendMatchesTheColourScale) {
   const render::WallMap map{2.0, 10.0};
-  render::Image image{400, 360, std::vector<std::uint8_t>(4 * 400 * 360, 255)};
+  render::Image image = plain(640, 480, 255);
   render::draw_legend(map, render::Theme::light, image);
-  // From the top of the bar down: yellow, then dark blue, then red below the limit.
-  std::vector<const std::uint8_t*> bar;
-  for (int y = 0; y < 360; ++y)
-    if (!is_near(image.at(20, y), 255, 255, 255, 0)) bar.push_back(image.at(20, y));
-  ASSERT_GT(bar.size(), 150u);
-  int red = 0;
-  for (const auto* px : bar) red += px[0] > 200 && px[1] < 80;
-  EXPECT_NEAR(red, 40, 2);  // two tenths of the 200 px of the bar
-  render::Image small{100, 100, std::vector<std::uint8_t>(40000, 7)};
-  const render::Image before = small;
-  render::draw_legend(map, render::Theme::dark, small);
-  EXPECT_EQ(small, before);
+  // The column with the most colours is in the bar. From its top down: the scale, then red with
+  // stripes for a fifth.
+  const auto rows_in = [&](int x, const auto& matches) {
+    std::vector<int> rows;
+    for (int y = 0; y < image.height_px; ++y)
+      if (matches(image.at(x, y))) rows.push_back(y);
+    return rows;
+  };
+  const auto coloured = [](const std::uint8_t* px) { return std::abs(px[0] - px[2]) > 20; };
+  int bar = 0;
+  for (int x = 1; x < image.width_px; ++x)
+    if (rows_in(x, coloured).size() > rows_in(bar, coloured).size()) bar = x;
+  const auto rows = rows_in(bar, coloured);
+  ASSERT_GT(rows.size(), 150u);
+  const int top = rows.front(), height = rows.back() - top + 1;
+  for (const double mm : {2.1, 4.0, 6.0, 8.0, 9.9}) {
+    const int y = top + static_cast<int>(std::lround((1.0 - mm / map.top_mm) * height - 0.5));
+    const auto *px = image.at(bar, y), *above = image.at(bar, y - 1);
+    const render::Swatch wanted = render::wall_swatch(map, mm);
+    EXPECT_TRUE(is_near(px, wanted.red, wanted.green, wanted.blue, 4) ||
+                is_near(above, wanted.red, wanted.green, wanted.blue, 4))
+        << mm << " mm at " << y;
+  }
+  const render::Swatch thin = render::wall_swatch(map, 1.0);
+  const auto red = rows_in(bar, [&](const auto* px) { return is_colour(px, thin); });
+  EXPECT_GT(red.size(), height / 10u);  // the stripes take the rest
+  EXPECT_NEAR(red.front(), top + 0.8 * height, 8.0);
+  EXPECT_LE(red.back(), rows.back());
+}
+
+TEST(WallMap, LegendHasSmoothLettersAndStaysAtTheLeft) {
+  for (const render::Viewport size : {render::Viewport{240, 240}, {1280, 720}, {2000, 300}}) {
+    render::Image image = plain(size.width_px, size.height_px, 255);
+    render::draw_legend({4.995, 10.0}, render::Theme::light, image);
+    std::vector<bool> greys(256, false);
+    int right = 0, bottom = 0, top = size.height_px;
+    for (int y = 0; y < size.height_px; ++y)
+      for (int x = 0; x < size.width_px; ++x) {
+        const auto* px = image.at(x, y);
+        if (px[0] == 255 && px[1] == 255 && px[2] == 255) continue;
+        right = std::max(right, x);
+        bottom = std::max(bottom, y);
+        top = std::min(top, y);
+        if (std::abs(px[0] - px[2]) < 8) greys[px[0]] = true;
+      }
+    EXPECT_GT(std::count(greys.begin(), greys.end(), true), 40) << "letters of two colours only";
+    EXPECT_LT(right, 0.5 * std::min(size.width_px, size.height_px));
+    EXPECT_GT(top, 0);
+    EXPECT_LT(bottom, size.height_px - 1);
+    EXPECT_NEAR(top, size.height_px - 1 - bottom, 2.0) << "in the middle of the height";
+  }
+}
+
+TEST(WallMap, LegendOfATransparentPictureKeepsItsColours) {
+  render::Image opaque = plain(640, 480, 255), clear = plain(640, 480, 0, 0);
+  const render::WallMap map{0.0, 10.0};
+  render::draw_legend(map, render::Theme::dark, opaque);
+  render::draw_legend(map, render::Theme::dark, clear);
+  for (std::size_t i = 0; i < clear.rgba.size(); i += 4) {
+    const double alpha = clear.rgba[i + 3] / 255.0;  // laid over white afterwards
+    for (std::size_t k = i; k < i + 3; ++k)
+      ASSERT_NEAR(clear.rgba[k] * alpha + 255.0 * (1.0 - alpha), opaque.rgba[k], 1.6) << i;
+  }
+}
+
+TEST(WallMap, SmallPicturesHaveNoLegend) {
+  render::Image small = plain(100, 100, 7);
+  render::draw_legend({2.0, 10.0}, render::Theme::dark, small);
+  EXPECT_EQ(small, plain(100, 100, 7));
 }
 
 }  // namespace

@@ -157,9 +157,9 @@ TEST(ThreeMf, WritesTheWallMapAsColoursOfCorners) {
   const std::vector<float> walls{0.0F, 5.0F, 10.0F, 40.0F};
   const std::string xml =
       encode_3mf_model(tetrahedron(), {.wall_mm = walls, .wall_top_mm = 10.0}).xml;
-  // 65 colours from one end of cividis to the other, ids after those of the objects.
-  EXPECT_NE(xml.find("<m:colorgroup id=\"3\">\n<m:color color=\"#00224EFF\"/>"), xml.npos);
-  EXPECT_NE(xml.find("<m:color color=\"#FEE838FF\"/>\n</m:colorgroup>"), xml.npos);
+  // 65 colours from one end of viridis to the other, ids after those of the objects.
+  EXPECT_NE(xml.find("<m:colorgroup id=\"3\">\n<m:color color=\"#440154FF\"/>"), xml.npos);
+  EXPECT_NE(xml.find("<m:color color=\"#FDE725FF\"/>\n</m:colorgroup>"), xml.npos);
   std::size_t colours = 0;
   for (std::size_t at = 0; (at = xml.find("<m:color ", at)) != xml.npos; ++at) ++colours;
   EXPECT_EQ(colours, 65u);
