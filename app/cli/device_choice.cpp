@@ -35,9 +35,8 @@ std::string check_device_name(const std::string& which) {
 }
 
 void add_falcon_options(CLI::App& command, falcon::FalconSettings& settings) {
-  command
-      .add_option("--firmware", settings.firmware_path,
-                  "File with the Falcon's firmware, from its driver")
+  add_file(command, "--firmware", settings.firmware_path,
+           "File with the Falcon's firmware, from its driver")
       ->envname("CLAYSTACK_FALCON_FIRMWARE");
   command
       .add_option_function<std::string>(

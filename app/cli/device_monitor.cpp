@@ -45,7 +45,7 @@ struct View {
   falcon::DeviceSample sample;
   double rate_hz = 0.0;
   falcon::DeviceCounters counters;
-  glm::dvec3 tool_mm{0.0};  // on the wheel, with the default mapping of `throw`
+  glm::dvec3 tool_mm{0.0};  // on the wheel
 };
 
 Json view_json(const View& view) {

@@ -49,7 +49,7 @@ Result<void> fit_stiffness(SceneSpec& scene, const LiveOptions& options, const C
     console.warn(fmt::format(
         "force.stiffness_n_per_mm2 is lowered to {:.3g} for this throw, {:.0f}% of the scene's: "
         "the arm cannot render more at {:g} Hz (--no-soften refuses such a scene)",
-        scene.force->stiffness_n_per_mm2, 100.0 * *part, options.settings.rate_hz));
+        scene.force->stiffness_n_per_mm2, 100.0 * *part, servo::loop_of(options.settings).rate_hz));
   return {};
 }
 

@@ -14,22 +14,15 @@ namespace {
 constexpr double kLowestRateHz = 400.0, kHighestRateHz = 4000.0;
 constexpr double kLowestClayRateHz = 20.0;
 
-falcon::SampledLoop arm_of(const LiveSettings& settings) {
-  falcon::SampledLoop arm = settings.arm;
-  arm.rate_hz = settings.rate_hz;
-  return arm;
-}
-
-using ContactOf = Result<ServoContact>(const SceneSpec&, const StepPlan&,
-                                       const falcon::SampledLoop&, double stiffness_gain);
-
+/// `contact_of(plan, stiffness_gain)`.
+template <class ContactOf>
 Result<ServoContact> with_plan(const SceneSpec& scene, const LiveSettings& settings,
-                               ContactOf& contact_of) {
+                               ContactOf contact_of) {
   const auto mapping = Mapping::build(settings.mapping);
   if (!mapping) return tl::make_unexpected(mapping.error());
   const auto plan = StepPlan::build(scene);
   if (!plan) return tl::make_unexpected(plan.error());
-  return contact_of(scene, *plan, arm_of(settings), mapping->stiffness_gain());
+  return contact_of(*plan, mapping->stiffness_gain());
 }
 
 /// Null if nothing is to be recorded.
@@ -52,18 +45,24 @@ Result<void> check(const LiveSettings& settings) {
       .and_then([&] { return check_range("patience_s", settings.patience_s, 0.0, 1e6); })
       .and_then([&] { return check_range("gap_mm", settings.gap_mm, 0.0, kWidestGapMm); })
       .and_then([&]() -> Result<void> {
-        if (const auto arm = falcon::check(arm_of(settings)); !arm)
+        if (const auto arm = falcon::check(loop_of(settings)); !arm)
           return tl::make_unexpected(falcon::error_of(arm.error()));
         return {};
       });
 }
 
 Result<void> check_stiffness(const SceneSpec& scene, const LiveSettings& settings) {
-  return with_plan(scene, settings, check_servo).map([](const ServoContact&) {});
+  const auto checked = [&](const StepPlan& plan, double stiffness_gain) {
+    return check_servo(scene, plan, loop_of(settings), stiffness_gain, settings.arm.rate_hz);
+  };
+  return with_plan(scene, settings, checked).map([](const ServoContact&) {});
 }
 
 Result<double> soften(SceneSpec& scene, const LiveSettings& settings) {
-  return with_plan(scene, settings, servo_contact).map([&](const ServoContact& contact) {
+  const auto found = [&](const StepPlan& plan, double stiffness_gain) {
+    return servo_contact(scene, plan, loop_of(settings), stiffness_gain);
+  };
+  return with_plan(scene, settings, found).map([&](const ServoContact& contact) {
     return soften(scene, contact);
   });
 }
@@ -76,7 +75,9 @@ struct LiveThrow::State {
         device(parts.device),
         clock(parts.clock != nullptr ? *parts.clock : machine_clock),
         trace(ticks) {}
-  [[nodiscard]] Bench bench() noexcept { return {wheel, device, clock, recorder.get(), trace}; }
+  [[nodiscard]] LoopParts loop_parts() noexcept {
+    return {wheel, device, clock, recorder.get(), trace};
+  }
 
   Wheel& wheel;
   falcon::HapticDevice& device;
@@ -103,7 +104,7 @@ Result<LiveThrow> LiveMeasures::build(const ThrowParts& parts, const LiveSetting
     state->recorder = std::move(*recorder);
   else
     return tl::make_unexpected(recorder.error());
-  auto loop = ServoLoop::build(state->bench(), settings);
+  auto loop = ServoLoop::build(state->loop_parts(), settings);
   if (!loop) return tl::make_unexpected(loop.error());
   state->loop.emplace(std::move(*loop));
   return LiveThrow(std::move(state));
@@ -116,7 +117,7 @@ LiveThrow::~LiveThrow() = default;
 
 Result<void> LiveThrow::start(Pace pace) {
   state_->servo.reset();
-  return state_->servo.emplace(state_->bench(), *state_->loop, pace).start();
+  return state_->servo.emplace(state_->loop_parts(), *state_->loop, pace).start();
 }
 
 void LiveThrow::advance(std::int64_t until_ns) noexcept {

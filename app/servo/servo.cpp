@@ -33,7 +33,7 @@ Result<void> Servo::start() {
   first.ending = Ending::none;
   view_.status.write(first);
   running_.store(true);
-  emergency_stop().arm(gate_, &stop_device, &bench_.device);
+  emergency_stop().arm(gate_, &stop_device, &parts_.device);
   if (pace_ == Pace::stepped) {
     loop_.start();
     return {};
@@ -50,7 +50,7 @@ Result<void> Servo::start() {
 }
 
 void Servo::advance(std::int64_t until_ns) noexcept {
-  while (pace_ == Pace::stepped && running() && bench_.clock.now_ns() < until_ns) tick();
+  while (pace_ == Pace::stepped && running() && parts_.clock.now_ns() < until_ns) tick();
 }
 
 Ending Servo::join() {
@@ -77,8 +77,8 @@ void Servo::tick() noexcept {
 void Servo::end() noexcept {
   // From here on signal handlers do not use the device: it has received its last force.
   gate_.shut_for_good();
-  bench_.device.stop();
-  emergency_stop().arm(gate_, nullptr, &bench_.device);
+  parts_.device.stop();
+  emergency_stop().arm(gate_, nullptr, &parts_.device);
   running_.store(false, std::memory_order_release);
 }
 
@@ -89,19 +89,19 @@ void Servo::watch() noexcept {
   std::int64_t ended_us = -1;  // heartbeat at which the force was ended
   while (running()) {
     const std::int64_t beat_us = heartbeat_us_.load(std::memory_order_acquire);
-    const std::int64_t now_us = bench_.clock.now_us();
+    const std::int64_t now_us = parts_.clock.now_us();
     const bool ticks =
         beat_us != 0;  // before the first tick, the servo may still be requesting real time
     if (ticks && beat_us != ended_us && falcon::Watchdog::must_zero(beat_us, now_us) && running()) {
       gate_.shut();
-      bench_.device.zero();
+      parts_.device.zero();
       watchdog_ends_.fetch_add(1, std::memory_order_relaxed);
       ended_us = beat_us;
     }
     const std::int64_t next_us = !ticks || beat_us == ended_us
                                      ? now_us + falcon::Watchdog::kPatienceUs
                                      : falcon::Watchdog::next_look_us(beat_us);
-    bench_.clock.sleep_until_ns(1000 * next_us);
+    parts_.clock.sleep_until_ns(1000 * next_us);
   }
 }
 

@@ -26,9 +26,9 @@ void unlock_memory() noexcept;
 
 class Servo {
  public:
-  /// `bench` and `loop` must outlive it.
-  Servo(const Bench& bench, ServoLoop& loop, Pace pace) noexcept
-      : bench_(bench), loop_(loop), pace_(pace) {}
+  /// `parts` and `loop` must outlive it.
+  Servo(const LoopParts& parts, ServoLoop& loop, Pace pace) noexcept
+      : parts_(parts), loop_(loop), pace_(pace) {}
   ~Servo();
   Servo(const Servo&) = delete;
   Servo& operator=(const Servo&) = delete;
@@ -61,7 +61,7 @@ class Servo {
   void end() noexcept;
   void watch() noexcept;
 
-  Bench bench_;
+  LoopParts parts_;
   ServoLoop& loop_;
   Pace pace_;
   Commands commands_;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 namespace clay::servo {
 namespace {
@@ -21,7 +23,7 @@ std::string rounded_down(double value) {
 }
 
 Error refusal(const SceneSpec& scene, const ServoContact& contact, const falcon::SampledLoop& loop,
-              const falcon::StiffnessTooHigh& why) {
+              const falcon::StiffnessTooHigh& why, double highest_rate_hz) {
   const bool per_ring = scene.model == Model::paper && scene.force->paper_stiffness_n_per_mm;
   const double found =
       per_ring ? *scene.force->paper_stiffness_n_per_mm : scene.force->stiffness_n_per_mm2;
@@ -31,15 +33,25 @@ Error refusal(const SceneSpec& scene, const ServoContact& contact, const falcon:
     return {
         ErrorKind::bad_input,
         fmt::format("{}: an arm without damping renders no contact, found {:.6g}", setting, found)};
-  return {
-      ErrorKind::bad_input,
-      fmt::format("{}: expected at most {} for a contact of {:.4g} mm and an arm of {:.4g} N s/mm "
-                  "at {:.6g} Hz, found {:.6g}; or a rate of at least {:.0f} Hz",
-                  setting, rounded_down(highest), contact.height_mm, loop.damping_ns_per_mm,
-                  loop.rate_hz, found, std::ceil(why.lowest_rate_hz * (1.0 - 1e-12)))};
+  std::string message = fmt::format(
+      "{}: expected at most {} for a contact of {:.4g} mm and an arm of {:.4g} N s/mm at {:.6g} "
+      "Hz, "
+      "found {:.6g}",
+      setting, rounded_down(highest), contact.height_mm, loop.damping_ns_per_mm, loop.rate_hz,
+      found);
+  const double lowest_rate_hz = std::ceil(why.lowest_rate_hz * (1.0 - 1e-12));
+  if (lowest_rate_hz <= highest_rate_hz)
+    message += fmt::format("; or a rate of at least {:.0f} Hz", lowest_rate_hz);
+  return {ErrorKind::bad_input, std::move(message)};
 }
 
 }  // namespace
+
+falcon::SampledLoop loop_of(const LiveSettings& settings) noexcept {
+  falcon::SampledLoop loop = settings.arm;
+  loop.rate_hz = std::min(loop.rate_hz, settings.rate_hz);
+  return loop;
+}
 
 Result<ServoContact> servo_contact(const SceneSpec& scene, const StepPlan& plan,
                                    const falcon::SampledLoop& loop, double stiffness_gain) {
@@ -56,11 +68,12 @@ Result<ServoContact> servo_contact(const SceneSpec& scene, const StepPlan& plan,
 }
 
 Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
-                                 const falcon::SampledLoop& loop, double stiffness_gain) {
+                                 const falcon::SampledLoop& loop, double stiffness_gain,
+                                 double highest_rate_hz) {
   const auto contact = servo_contact(scene, plan, loop, stiffness_gain);
   if (!contact || !scene.force) return contact;
   if (const auto soft = check_stiffness(loop, contact->stiffness_n_per_mm); !soft)
-    return tl::make_unexpected(refusal(scene, *contact, loop, soft.error()));
+    return tl::make_unexpected(refusal(scene, *contact, loop, soft.error(), highest_rate_hz));
   return contact;
 }
 

@@ -4,10 +4,15 @@
 #include "claystack/engine/plan.hpp"
 #include "claystack/engine/scene.hpp"
 #include "claystack/falcon/passivity.hpp"
+#include "claystack/servo/servo.hpp"
 
+#include <limits>
 #include <optional>
 
 namespace clay::servo {
+
+/// Arm and servo together: sampled at the rate of the slower one.
+[[nodiscard]] falcon::SampledLoop loop_of(const LiveSettings& settings) noexcept;
 
 /// Stiffness of a scene's contact as seen by an arm.
 struct ServoContact {
@@ -24,9 +29,10 @@ Result<ServoContact> servo_contact(const SceneSpec& scene, const StepPlan& plan,
 
 /// Checks that this arm can render the scene. The error for a contact that is too stiff names the
 /// setting and both values that would be accepted: the stiffness at this rate, and the rate at this
-/// stiffness.
+/// stiffness, unless it is above `highest_rate_hz`.
 Result<ServoContact> check_servo(const SceneSpec& scene, const StepPlan& plan,
-                                 const falcon::SampledLoop& loop, double stiffness_gain = 1.0);
+                                 const falcon::SampledLoop& loop, double stiffness_gain = 1.0,
+                                 double highest_rate_hz = std::numeric_limits<double>::infinity());
 
 /// Lowers the scene's stiffness to the accepted value. Returns the remaining fraction, 1 if it was
 /// low enough. The clay does not depend on it: a softened scene replays to the same pot.

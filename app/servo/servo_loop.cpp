@@ -1,5 +1,6 @@
 #include "app/servo/servo_loop.hpp"
 
+#include "app/servo/servo_check.hpp"
 #include "claystack/engine/files.hpp"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ StepReport LiveClay::meet(const Pose& measured) noexcept {
   return report;
 }
 
-Result<ServoLoop> ServoLoop::build(const Bench& bench, const LiveSettings& settings) {
+Result<ServoLoop> ServoLoop::build(const LoopParts& parts, const LiveSettings& settings) {
   if (auto checked = check(settings); !checked) return tl::make_unexpected(checked.error());
   const auto mapping = Mapping::build(settings.mapping);
   if (!mapping) return tl::make_unexpected(mapping.error());
@@ -46,27 +47,26 @@ Result<ServoLoop> ServoLoop::build(const Bench& bench, const LiveSettings& setti
   guard_settings.period_s = 1.0 / settings.rate_hz;
   auto guard = falcon::ForceGuard::build(guard_settings);
   if (!guard) return tl::make_unexpected(falcon::error_of(guard.error()));
-  falcon::PassivitySettings passivity{.loop = settings.arm, .step_mm = settings.encoder_step_mm};
-  passivity.loop.rate_hz = settings.rate_hz;
-  auto controller = falcon::PassivityController::build(passivity);
+  auto controller = falcon::PassivityController::build(
+      {.loop = loop_of(settings), .step_mm = settings.encoder_step_mm});
   if (!controller) return tl::make_unexpected(falcon::error_of(controller.error()));
-  return ServoLoop(bench, settings, *mapping, std::move(*guard), std::move(*controller));
+  return ServoLoop(parts, settings, *mapping, std::move(*guard), std::move(*controller));
 }
 
-ServoLoop::ServoLoop(const Bench& bench, const LiveSettings& settings, const Mapping& mapping,
+ServoLoop::ServoLoop(const LoopParts& parts, const LiveSettings& settings, const Mapping& mapping,
                      falcon::ForceGuard guard, falcon::PassivityController controller)
-    : bench_(bench),
+    : parts_(parts),
       seconds_(settings.seconds),
       patience_s_(std::max(settings.patience_s, settings.seconds)),
       mapping_(mapping),
-      controls_(settings.buttons, (bench.wheel.plan().stages & kPinch) != 0, settings.gap_mm),
+      controls_(settings.buttons, (parts.wheel.plan().stages & kPinch) != 0, settings.gap_mm),
       guard_(std::move(guard)),
       hand_(std::move(controller)),
-      clay_(bench.wheel, bench.recorder, clay_period_us(settings)),
+      clay_(parts.wheel, parts.recorder, clay_period_us(settings)),
       pacer_(period_ns(settings.rate_hz)) {}
 
 void ServoLoop::start() noexcept {
-  started_ns_ = last_begun_ns_ = bench_.clock.now_ns();
+  started_ns_ = last_begun_ns_ = parts_.clock.now_ns();
   pacer_.start(last_begun_ns_);
   // Only the user ends a pause or the safe state of an unstable force, not a reopened device.
   if (!falcon::needs_rearm(guarded_.cause)) guard_.rearm();
@@ -77,9 +77,9 @@ void ServoLoop::start() noexcept {
 
 Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& view,
                        std::atomic<std::int64_t>& heartbeat_us) noexcept {
-  const std::int64_t late_ns = pacer_.wait(bench_.clock);
-  const falcon::DeviceSample sample = bench_.device.read(pacer_.patience_us(bench_.clock.now_ns()));
-  const std::int64_t begun_ns = bench_.clock.now_ns(), now_us = begun_ns / kNsPerUs;
+  const std::int64_t late_ns = pacer_.wait(parts_.clock);
+  const falcon::DeviceSample sample = parts_.device.read(pacer_.patience_us(parts_.clock.now_ns()));
+  const std::int64_t begun_ns = parts_.clock.now_ns(), now_us = begun_ns / kNsPerUs;
   pacer_.sampled(begun_ns);
   heartbeat_us.store(now_us, std::memory_order_release);
 
@@ -91,7 +91,7 @@ Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& vi
   hand_.displayed(guarded_.force_n);
 
   keep_time(late_ns, begun_ns, sample);
-  heartbeat_us.store(bench_.clock.now_us(), std::memory_order_release);
+  heartbeat_us.store(parts_.clock.now_us(), std::memory_order_release);
   status_.device = sample.state;
   status_.ending = ending(gate);
   publish(view, late_ns);
@@ -142,7 +142,7 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
   status_.contact = (report.flags & kContact) != 0;
   status_.clay_n = report.force_n();
   status_.ring_limit = status_.ring_limit || (report.flags & kRingLimit) != 0;
-  if (!bench_.device.info().can_push) return;
+  if (!parts_.device.info().can_push) return;
   const HandForce::Wanted hand = hand_.answer(now_us, sample.position_mm, mapping_, report);
   wanted_.force_n = hand.force_n;
   wanted_.passive = hand.passive;
@@ -153,7 +153,7 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
 /// the watchdog's zero.
 void ServoLoop::send(falcon::ForceGate& gate) noexcept {
   if (gate.is_shut() && gate.open()) guard_.was_zeroed();
-  const std::int64_t now_us = bench_.clock.now_us();
+  const std::int64_t now_us = parts_.clock.now_us();
   guarded_ = guard_.force(now_us, wanted_);
   count_events();
   if (!gate.enter()) {
@@ -161,9 +161,9 @@ void ServoLoop::send(falcon::ForceGate& gate) noexcept {
     guarded_.force_n = {};
     return;
   }
-  bench_.device.write(guarded_.force_n);
+  parts_.device.write(guarded_.force_n);
   if (gate.leave()) return;
-  bench_.device.zero();
+  parts_.device.zero();
   guard_.was_zeroed();
   guarded_.force_n = {};
 }
@@ -180,7 +180,7 @@ void ServoLoop::count_events() noexcept {
 
 void ServoLoop::keep_time(std::int64_t late_ns, std::int64_t begun_ns,
                           const falcon::DeviceSample& sample) noexcept {
-  const std::int64_t sent_ns = bench_.clock.now_ns();
+  const std::int64_t sent_ns = parts_.clock.now_ns();
   timing_.lateness.add(late_ns);
   timing_.oversleep.add(pacer_.overslept_ns());
   if (timing_.ticks > 0) timing_.period.add(begun_ns - last_begun_ns_);
@@ -190,17 +190,16 @@ void ServoLoop::keep_time(std::int64_t late_ns, std::int64_t begun_ns,
   timing_.missed += late_ns >= pacer_.period_ns() ? 1u : 0u;
   ++timing_.ticks;
   last_begun_ns_ = begun_ns;
-  if (bench_.trace == nullptr) return;
+  if (parts_.trace == nullptr) return;
   const auto us = [](std::int64_t ns) { return 1e-3f * static_cast<float>(ns); };
-  bench_.trace->add({begun_ns, static_cast<float>(glm::length(status_.clay_n)),
+  parts_.trace->add({begun_ns, static_cast<float>(glm::length(status_.clay_n)),
                      static_cast<float>(glm::length(guarded_.force_n)), us(late_ns),
                      us(sent_ns - begun_ns), late_ns >= pacer_.period_ns()});
 }
 
 Ending ServoLoop::ending(const falcon::ForceGate& gate) const noexcept {
   if (controls_.stopped() || gate.is_shut_for_good()) return Ending::stopped;
-  if (status_.device == DeviceState::fault || status_.device == DeviceState::closed)
-    return Ending::device_lost;
+  if (!falcon::is_open(status_.device)) return Ending::device_lost;
   if (clay_.wheel().collapsed()) return Ending::collapsed;
   if (time_is_up()) return Ending::time_up;
   return Ending::none;

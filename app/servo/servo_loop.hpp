@@ -47,7 +47,7 @@ class LiveClay {
 };
 
 /// The parts used by the loop. All must outlive it.
-struct Bench {
+struct LoopParts {
   Wheel& wheel;
   falcon::HapticDevice& device;
   Clock& clock;
@@ -58,7 +58,7 @@ struct Bench {
 class ServoLoop {
  public:
   /// Errors name the setting.
-  static Result<ServoLoop> build(const Bench& bench, const LiveSettings& settings);
+  static Result<ServoLoop> build(const LoopParts& parts, const LiveSettings& settings);
 
   /// Before the first tick, and after the device was reopened: the force ramps up again from zero,
   /// and the session continues. A pause, and a force that a command set to zero, remain.
@@ -76,7 +76,7 @@ class ServoLoop {
   void count_watchdog(std::uint64_t times) noexcept { events_.watchdog += times; }
 
  private:
-  ServoLoop(const Bench& bench, const LiveSettings& settings, const Mapping& mapping,
+  ServoLoop(const LoopParts& parts, const LiveSettings& settings, const Mapping& mapping,
             falcon::ForceGuard guard, falcon::PassivityController controller);
 
   void apply(const falcon::DeviceSample& sample, std::int64_t now_us, Commands& commands) noexcept;
@@ -89,7 +89,7 @@ class ServoLoop {
   [[nodiscard]] bool time_is_up() const noexcept;
   void publish(LiveView& view, std::int64_t late_ns) noexcept;
 
-  Bench bench_;
+  LoopParts parts_;
   double seconds_, patience_s_;
   Mapping mapping_;
   Controls controls_;

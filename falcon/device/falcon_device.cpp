@@ -157,8 +157,7 @@ void FalconDevice::accept(const StateFrame& frame, std::int64_t time_us) noexcep
 
 DeviceSample FalconDevice::read(std::int64_t wait_us) noexcept {
   sample_.fresh = false;
-  if (sample_.state < DeviceState::needs_homing || sample_.state == DeviceState::fault)
-    return sample_;
+  if (!is_open(sample_.state)) return sample_;
   const std::int64_t end_us = line_->now_us() + wait_us;
   std::int64_t left_us = wait_us;
   std::array<std::uint8_t, 512> bytes{};
@@ -180,15 +179,14 @@ DeviceSample FalconDevice::read(std::int64_t wait_us) noexcept {
 }
 
 LegCounts FalconDevice::motors_for(const glm::dvec3& force_n) const noexcept {
-  if (sample_.state != DeviceState::ready) return {};
+  if (sample_.state != DeviceState::ready || force_n == glm::dvec3(0.0)) return {};
   const auto torques =
       kinematics_.torques(position_mm_, limit_norm(force_n, settings_.force_limit_n));
   return torques ? motor_counts(*torques, settings_.motor_counts_per_nmm) : LegCounts{};
 }
 
 void FalconDevice::write(const glm::dvec3& force_n) noexcept {
-  if (sample_.state < DeviceState::needs_homing || sample_.state == DeviceState::fault) return;
-  if (stopped_.load()) return;
+  if (!is_open(sample_.state) || stopped_.load()) return;
   const bool homing = sample_.state == DeviceState::needs_homing;
   const WireStatus sent = line_->write(
       encode({.motors = motors_for(force_n), .homing = homing, .green = !homing, .red = homing}));

@@ -30,6 +30,7 @@ enum GuardRule : std::uint32_t {
   kRuleHeat = 1u << 15,
   kRuleLatch = 1u << 16,
   kRuleStop = 1u << 17,
+  kRuleRecovery = 1u << 18,
 };
 
 [[nodiscard]] constexpr bool clears_itself(SafeCause cause) noexcept {
@@ -56,7 +57,7 @@ class BasicForceGuard {
     return (rules & rule) != 0;
   }
   void latch(SafeCause cause) noexcept;
-  [[nodiscard]] bool is_new_frame(const GuardSample& sample) noexcept;
+  [[nodiscard]] bool is_new_frame(std::int64_t now_us, const GuardSample& sample) noexcept;
   [[nodiscard]] bool take_frame(std::int64_t now_us, const GuardSample& sample,
                                 Admission& admission) noexcept;
   void watch_force(const WantedForce& wanted) noexcept;
@@ -67,7 +68,7 @@ class BasicForceGuard {
   [[nodiscard]] double let_go(const TickTime& time, std::int64_t now_us) noexcept;
   void earn(const glm::dvec3& limited_n, double growing_s) noexcept;
   [[nodiscard]] glm::dvec3 rise(const glm::dvec3& force_n, double growing_s) noexcept;
-  [[nodiscard]] GuardState state(double held) const noexcept;
+  [[nodiscard]] GuardState state(double gain) const noexcept;
 
   GuardSettings settings_;
   SafeCause cause_ = SafeCause::none;
@@ -75,6 +76,7 @@ class BasicForceGuard {
   Age frame_age_, clay_age_;
   JumpFilter jumps_;
   Engagement engagement_;
+  Recovery recovery_;
   HeatLimit heat_;
   double rested_s_ = 0.0;
   std::int64_t seen_us_ = 0;  // stamp of the newest frame, plausible or not
@@ -93,7 +95,7 @@ Admission BasicForceGuard<rules>::admit(std::int64_t now_us, const GuardSample& 
   flags_ = 0;
   admitted_ = false;
   ready_ = sample.ready || !on(kRuleReady);
-  const bool is_new = is_new_frame(sample);
+  const bool is_new = is_new_frame(now_us, sample);
   if (!ready_) {
     flags_ |= kGuardNotReady;
     jumps_.forget();
@@ -110,8 +112,12 @@ Admission BasicForceGuard<rules>::admit(std::int64_t now_us, const GuardSample& 
 }
 
 template <std::uint32_t rules>
-bool BasicForceGuard<rules>::is_new_frame(const GuardSample& sample) noexcept {
+bool BasicForceGuard<rules>::is_new_frame(std::int64_t now_us, const GuardSample& sample) noexcept {
   if (!sample.fresh || (seen_ && sample.time_us == seen_us_)) return false;
+  if (elapsed_s(now_us, sample.time_us) >= kLongestToZeroS) {  // from the future
+    flags_ |= kGuardClock;
+    return false;
+  }
   seen_us_ = sample.time_us;
   seen_ = true;
   return true;
@@ -149,12 +155,13 @@ GuardedForce BasicForceGuard<rules>::force(std::int64_t now_us,
   const glm::dvec3 limited = limit(wanted.force_n);
   const double held = let_go(time, now_us);
   earn(limited, time.growing_s);
+  const double gain = held * engagement_.gain();
   const bool zero = cause_ != SafeCause::none || !ready_ || !frame_age_.any() ||
                     (on(kRuleFinite) && (flags_ & kGuardNotFinite) != 0) ||
-                    (on(kRuleLate) && (flags_ & kGuardLate) != 0) || engagement_.gain() == 0.0;
-  sent_n_ = zero ? glm::dvec3(0.0) : rise(held * engagement_.gain() * limited, time.growing_s);
+                    (on(kRuleLate) && (flags_ & kGuardLate) != 0) || gain == 0.0;
+  sent_n_ = zero ? glm::dvec3(0.0) : rise(gain * limited, time.growing_s);
 
-  const GuardedForce out{sent_n_, engagement_.gain(), state(held), cause_, flags_};
+  const GuardedForce out{sent_n_, gain, state(gain), cause_, flags_};
   flags_ = 0;
   admitted_ = false;
   return out;
@@ -206,7 +213,8 @@ glm::dvec3 BasicForceGuard<rules>::limit(const glm::dvec3& wanted_n) noexcept {
   return on(kRuleLimit) ? limit_norm(wanted_n, settings_.force_limit_n) : wanted_n;
 }
 
-/// Remaining fraction of the force while it fades because of frames, clay or motors, 0 to 1.
+/// Remaining fraction of the force, 0 to 1, while it fades because of frames, clay or motors, and
+/// until it has recovered.
 template <std::uint32_t rules>
 double BasicForceGuard<rules>::let_go(const TickTime& time, std::int64_t now_us) noexcept {
   const double frame_s = frame_age_.at(now_us), clay_s = clay_age_.at(now_us);
@@ -215,8 +223,10 @@ double BasicForceGuard<rules>::let_go(const TickTime& time, std::int64_t now_us)
   if (clay_s > settings_.clay_fade_s) flags_ |= kGuardOldClay;
   // The force of this tick stands until the next one, which must not find it too old.
   const double last_s = settings_.stale_zero_s - kHeldPeriods * settings_.period_s;
-  if (on(kRuleStaleFrames)) held *= fade(frame_s, settings_.stale_fade_s, last_s);
+  if (on(kRuleStaleFrames) && frame_age_.any())
+    held *= fade(frame_s, settings_.stale_fade_s, last_s);
   if (on(kRuleOldClay)) held *= fade(clay_s, settings_.clay_fade_s, settings_.clay_zero_s);
+  if (on(kRuleRecovery)) held = recovery_.after(held, time.growing_s);
   if (heat_.fading()) flags_ |= kGuardHot;
   if (heat_.fade_out(time.fading_s, settings_.hot_fade_s)) engagement_.restart();
   return held * heat_.gain();
@@ -245,13 +255,12 @@ glm::dvec3 BasicForceGuard<rules>::rise(const glm::dvec3& force_n, double growin
 }
 
 template <std::uint32_t rules>
-GuardState BasicForceGuard<rules>::state(double held) const noexcept {
+GuardState BasicForceGuard<rules>::state(double gain) const noexcept {
   if (cause_ != SafeCause::none) return GuardState::safe;
   if (!ready_ || !frame_age_.any()) return GuardState::idle;
   if (engagement_.phase() == Engagement::Phase::waiting) return GuardState::waiting;
-  if (held < 1.0) return GuardState::fading;
-  return engagement_.phase() == Engagement::Phase::ramping ? GuardState::ramping
-                                                           : GuardState::engaged;
+  if ((flags_ & (kGuardStale | kGuardOldClay | kGuardHot)) != 0) return GuardState::fading;
+  return gain < 1.0 ? GuardState::ramping : GuardState::engaged;
 }
 
 template <std::uint32_t rules>

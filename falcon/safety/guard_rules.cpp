@@ -80,6 +80,12 @@ void Engagement::grow(double growing_s, double ramp_s) noexcept {
   if (gain_ == 1.0) phase_ = Phase::engaged;
 }
 
+double Recovery::after(double held, double growing_s) noexcept {
+  constexpr double kRecoveryS = 0.5;  // from 0 to 1; our judgement
+  part_ = std::min(held, part_ + growing_s / kRecoveryS);
+  return part_;
+}
+
 void HeatLimit::hold(double force_n, double hot_n, const TickTime& time, double most_s) noexcept {
   hot_s_ += force_n > hot_n ? time.fading_s : -time.growing_s;
   hot_s_ = std::clamp(hot_s_, 0.0, most_s);

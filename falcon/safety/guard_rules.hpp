@@ -95,6 +95,17 @@ class Engagement {
   double gain_ = 0.0;
 };
 
+/// The part of the force that fades have left. It falls with them and recovers slowly: otherwise a
+/// device whose frames keep coming late would shake the hand.
+class Recovery {
+ public:
+  /// `held`: the part that the fades leave in this tick.
+  [[nodiscard]] double after(double held, double growing_s) noexcept;
+
+ private:
+  double part_ = 1.0;
+};
+
 /// Limits long, large forces. Cooling counts at the same rate as heating.
 class HeatLimit {
  public:

@@ -49,9 +49,11 @@ class GrippedFalcon final : public HapticDevice {
  public:
   GrippedFalcon(std::unique_ptr<Transport> line, const FalconSettings& settings,
                 std::shared_ptr<const HeldArm> held)
-      : falcon_(std::move(line), settings), held_(std::move(held)) {}
+      : falcon_(std::move(line), settings), info_(falcon_.info()), held_(std::move(held)) {
+    info_.name = "Simulated Falcon";
+  }
 
-  [[nodiscard]] const DeviceInfo& info() const noexcept override { return falcon_.info(); }
+  [[nodiscard]] const DeviceInfo& info() const noexcept override { return info_; }
   DeviceResult<void> open() override { return falcon_.open(); }
   DeviceSample read(std::int64_t wait_us) noexcept override {
     DeviceSample sample = falcon_.read(wait_us);
@@ -66,6 +68,7 @@ class GrippedFalcon final : public HapticDevice {
 
  private:
   FalconDevice falcon_;
+  DeviceInfo info_;
   std::shared_ptr<const HeldArm> held_;
 };
 

@@ -118,10 +118,19 @@ TEST_F(DevicesRig, ReportsABoundDriverAndAnotherProgram) {
   FalconModelSettings model;
   model.loaded = model.homed = true;
   plug_falcon(model);
-  plug_->manners.busy = true;
-  EXPECT_EQ(only_one().at("problem").at("fault"), "busy");
-  EXPECT_FALSE(only_one().at("usable"));
-  plug_->manners = {};
+  const auto reported_as_busy = [&](const std::string& lines) {
+    if (!lines.ends_with("}\n")) return false;
+    const auto falcon = only_one();
+    EXPECT_EQ(falcon.at("problem").at("fault"), "busy");
+    EXPECT_FALSE(falcon.at("usable"));
+    const auto second = claystack("devices falcon");
+    EXPECT_EQ(second.status, 4);
+    EXPECT_NE(second.err.find("another program uses it"), std::string::npos) << second.err;
+    return true;
+  };
+  const std::string first = monitored("", reported_as_busy, "a position");
+  EXPECT_EQ(first.find("fault"), std::string::npos) << "the first program is not disturbed";
+  EXPECT_TRUE(only_one().at("usable")) << "after the end of the first program";
   plug_->manners.kernel_driver = true;
   const auto bound = only_one();
   EXPECT_TRUE(bound.at("usable"));

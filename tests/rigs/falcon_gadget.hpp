@@ -30,7 +30,7 @@ class HandledModel {
   std::vector<FrameLog> log;
 };
 
-class FalconGadget final : public UsbGadget {
+class FalconGadget : public UsbGadget {
  public:
   FalconGadget(const falcon::FalconModelSettings& settings, Trajectory hand);
 

@@ -124,6 +124,47 @@ TEST_F(FalconRig, LastPacketIsZeroForce) {
   EXPECT_EQ(locked([](auto& d) { return d.model.motors(); }), LegCounts{});
 }
 
+TEST_F(FalconRig, StalledLineGetsZeroForceWhenItRecovers) {
+  plug_ready();
+  for (const int writes : {1, 2, 10, 30}) {
+    auto opened = open_device("auto", settings_);
+    ASSERT_TRUE(opened) << opened.error().message;
+    for (int i = 0; i < 20; ++i) tick(**opened, {4, 0, 0});
+    const std::size_t before = locked([&](auto& d) {
+      plug_->manners.stalled_writes = writes;
+      return d.log.size();
+    });
+    for (int i = 0; i < 3; ++i) (*opened)->write({4, 0, 0});
+    (*opened)->stop();
+    opened->reset();  // closes: while it does, the line recovers
+    locked([&](auto& d) {
+      EXPECT_EQ(plug_->manners.stalled_writes, 0);
+      ASSERT_GT(d.log.size(), before) << writes;
+      EXPECT_EQ(d.log.back().motors, LegCounts{}) << "the last command";
+    });
+  }
+}
+
+TEST_F(FalconRig, LineThatStallsForGoodGetsNoOldForce) {
+  plug_ready();
+  auto opened = open_device("auto", settings_);
+  ASSERT_TRUE(opened) << opened.error().message;
+  for (int i = 0; i < 20; ++i) tick(**opened, {4, 0, 0});
+  const std::size_t before = locked([&](auto& d) {
+    plug_->manners.stalled_writes = kStalledForGood;
+    return d.log.size();
+  });
+  for (int i = 0; i < 3; ++i) (*opened)->write({4, 0, 0});
+  (*opened)->stop();
+  opened->reset();
+  locked([&](auto&) { plug_->manners.stalled_writes = 0; });
+  EXPECT_TRUE(open_device("auto", settings_));
+  locked([&](auto& d) {
+    for (std::size_t frame = before; frame < d.log.size(); ++frame)
+      EXPECT_EQ(d.log[frame].motors, LegCounts{}) << frame - before;
+  });
+}
+
 TEST_F(FalconRig, LosesAtMostTwoFramesPerWireFault) {
   plug_ready();
   auto opened = open_device("falcon", settings_);
@@ -199,6 +240,53 @@ TEST_F(FalconRig, ReportsUnpluggingAndReconnects) {
   }
 }
 
+/// Unplugged at the nth look at it, whatever the host does then.
+class VanishingFalcon final : public FalconGadget {
+ public:
+  VanishingFalcon(const FalconModelSettings& model, int looks)
+      : FalconGadget(model, on_circle), looks_(looks) {}
+  bool unplugged() const override { return looks_ == 0 || --looks_ == 0; }
+
+ private:
+  mutable int looks_;
+};
+
+// In each phase of the start, the firmware included, of operation and of the end.
+TEST_F(FalconRig, ReportsALossAtAnyTime) {
+  FalconModelSettings running;
+  running.loaded = running.homed = true;
+  struct Start {
+    FalconModelSettings model;
+    int stride;
+  };
+  for (const auto& [model, stride] : {Start{running, 5}, Start{{}, 61}}) {
+    bool lost = true;
+    for (int looks = 1; lost; looks += stride) {
+      VanishingFalcon gadget(model, looks);
+      UsbPlug plug(testbed_.get(), gadget);
+      DeviceError error{DeviceFault::unplugged, ""};
+      if (auto opened = open_device("falcon", settings_)) {
+        for (int i = 0; i < 50 && tick(**opened, {1, 0, 0}).state != DeviceState::fault; ++i) {
+        }
+        error = (*opened)->problem();
+        (*opened)->stop();
+      } else {
+        error = opened.error();
+      }
+      {
+        const std::scoped_lock held(gadget.lock);
+        lost = gadget.unplugged();
+      }
+      if (lost) {
+        EXPECT_TRUE(error.fault == DeviceFault::unplugged ||
+                    error.fault == DeviceFault::transfer_failed)
+            << looks << ": " << error.message;
+      }
+      plug.pull();
+    }
+  }
+}
+
 TEST_F(FalconRig, RetriesAWrongEchoThenReportsIt) {
   FalconModelSettings model;
   model.faults = {{WireFault::echo_error, 500}};
@@ -236,7 +324,7 @@ TEST_F(FalconRig, DistinguishesMissingPowerFromMissingFirmware) {
   EXPECT_TRUE(open_device("falcon", settings_));
 }
 
-TEST_F(FalconRig, DetachesAKernelDriverButRefusesABusyDevice) {
+TEST_F(FalconRig, DetachesAKernelDriverButRefusesADeviceInUse) {
   plug_ready();
   plug_->manners.kernel_driver = true;
   auto listed = list_devices();
@@ -245,17 +333,17 @@ TEST_F(FalconRig, DetachesAKernelDriverButRefusesABusyDevice) {
   EXPECT_TRUE((*listed)[0].usable);
   ASSERT_TRUE((*listed)[0].problem);
   EXPECT_EQ((*listed)[0].problem->fault, DeviceFault::driver_bound);
-  EXPECT_TRUE(open_device("falcon", settings_));
+  const auto first = open_device("falcon", settings_);
+  ASSERT_TRUE(first);
   EXPECT_FALSE(plug_->manners.kernel_driver);
 
-  plug_->manners.busy = true;
   listed = list_devices();
   ASSERT_TRUE(listed);
   EXPECT_FALSE((*listed)[0].usable);
   EXPECT_EQ((*listed)[0].problem->fault, DeviceFault::busy);
-  const auto opened = open_device("auto", settings_);
-  ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().fault, DeviceFault::busy);
+  const auto second = open_device("auto", settings_);
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().fault, DeviceFault::busy);
 }
 
 TEST_F(FalconRig, ListsWithoutSendingAByte) {

@@ -111,6 +111,27 @@ TEST_F(ThrowRig, UnpluggedFalconKeepsPotAndSession) {
   EXPECT_EQ(thrown(), replayed());
 }
 
+TEST_F(ThrowRig, StalledFalconKeepsPotAndSession) {
+  FalconGadget gadget(ready(), bowl_stroke());
+  UsbPlug plug(testbed_.get(), gadget);
+  Program program = begin("falcon", "");
+  wait_for_frames(program, gadget, 1300);
+  const std::size_t before = [&] {
+    const std::scoped_lock held(gadget.lock);
+    plug.manners.stalled_writes = 5;  // it recovers while the program ends
+    return gadget.device.log.size();
+  }();
+  const auto run = program.wait();
+  EXPECT_EQ(run.status, 4);
+  EXPECT_NE(run.err.find("usb:1-1: no frame for 500 ms"), std::string::npos) << run.err;
+  EXPECT_EQ(run.json().at("ended"), "device_lost");
+  EXPECT_EQ(thrown(), replayed());
+  const std::scoped_lock held(gadget.lock);
+  ASSERT_GT(gadget.device.log.size(), before);
+  for (std::size_t frame = before; frame < gadget.device.log.size(); ++frame)
+    EXPECT_EQ(gadget.device.log[frame].motors, LegCounts{}) << frame - before;
+}
+
 TEST_F(ThrowRig, WaitsForReconnectionIfRequested) {
   FalconModelSettings model = ready();
   model.faults = {{WireFault::unplugged, 500}};

@@ -86,6 +86,7 @@ UsbPlug::UsbPlug(UMockdevTestbed* testbed, UsbGadget& gadget) : testbed_(testbed
       hexadecimal(descriptors_of(id)) + "\n\n";
   base_ = umockdev_ioctl_base_new();
   g_signal_connect(base_, "handle-ioctl", G_CALLBACK(&UsbPlug::on_ioctl), this);
+  g_signal_connect(base_, "client-vanished", G_CALLBACK(&UsbPlug::on_vanished), this);
   GError* error = nullptr;
   if (!umockdev_testbed_add_from_string(testbed, text.c_str(), &error) ||
       !umockdev_testbed_attach_ioctl(testbed, node_.c_str(), base_, &error)) {
@@ -107,6 +108,20 @@ void UsbPlug::pull() {
 gboolean UsbPlug::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
   static_cast<UsbPlug*>(self)->handle(client);
   return TRUE;
+}
+
+void UsbPlug::on_vanished(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
+  auto& plug = *static_cast<UsbPlug*>(self);
+  const std::scoped_lock held(plug.gadget_.lock);
+  if (plug.claimed_by_ == client) plug.claimed_by_ = nullptr;
+}
+
+/// 0, or the error.
+int UsbPlug::claim(const UMockdevIoctlClient* client) {
+  if (gadget_.unplugged()) return ENODEV;
+  if (manners.kernel_driver || (claimed_by_ != nullptr && claimed_by_ != client)) return EBUSY;
+  claimed_by_ = client;
+  return 0;
 }
 
 void UsbPlug::handle(UMockdevIoctlClient* client) {
@@ -137,9 +152,11 @@ void UsbPlug::handle(UMockdevIoctlClient* client) {
       break;
     }
     case USBDEVFS_CLAIMINTERFACE:
-      answer(0, gadget_.unplugged() ? ENODEV : manners.busy || manners.kernel_driver ? EBUSY : 0);
+      answer(0, claim(client));
       break;
     case USBDEVFS_RELEASEINTERFACE:
+      if (claimed_by_ == client) claimed_by_ = nullptr;
+      [[fallthrough]];
     case USBDEVFS_SETCONFIGURATION:
     case USBDEVFS_CLEAR_HALT:
     case USBDEVFS_RESET:
@@ -218,10 +235,19 @@ void UsbPlug::submit(UMockdevIoctlClient* client, UMockdevIoctlData* data) {
   } else if ((urb.endpoint & 0x80) != 0) {
     reads_.push_back(taken);
   } else {
-    gadget_.out({taken.buffer->data, size});
-    finish(taken, 0, size);
+    writes_.push_back(taken);
+    deliver_writes();
   }
   umockdev_ioctl_client_complete(client, 0, 0);
+}
+
+void UsbPlug::deliver_writes() {
+  for (; manners.stalled_writes == 0 && !writes_.empty(); writes_.pop_front()) {
+    const Urb& urb = writes_.front();
+    const auto size = static_cast<std::size_t>(urb.buffer->data_len);
+    gadget_.out({urb.buffer->data, size});
+    finish(urb, 0, size);
+  }
 }
 
 void UsbPlug::refuse(UMockdevIoctlData* bytes, std::size_t size) {
@@ -238,6 +264,8 @@ void UsbPlug::fill_reads() {
     const auto room = static_cast<std::size_t>(urb.buffer->data_len);
     if (gadget_.unplugged()) {
       finish(urb, -ESHUTDOWN, 0);
+    } else if (manners.stalled_writes > 0) {
+      return;
     } else if (const auto bytes = gadget_.in(room, waited)) {
       std::copy(bytes->begin(), bytes->end(), urb.buffer->data);
       finish(urb, 0, bytes->size());
@@ -264,12 +292,15 @@ void UsbPlug::reap(UMockdevIoctlClient* client, UMockdevIoctlData* data) {
 void UsbPlug::discard(UMockdevIoctlClient* client) {
   gulong address = 0;
   std::memcpy(&address, umockdev_ioctl_client_get_arg(client)->data, sizeof address);
-  const auto urb = std::find_if(reads_.begin(), reads_.end(),
-                                [address](const Urb& u) { return u.data->client_addr == address; });
-  if (urb == reads_.end()) return umockdev_ioctl_client_complete(client, -1, EINVAL);
-  finish(*urb, -ENOENT, 0);
-  reads_.erase(urb);
-  umockdev_ioctl_client_complete(client, 0, 0);
+  for (auto* queue : {&reads_, &writes_}) {
+    const auto urb =
+        std::ranges::find(*queue, address, [](const Urb& u) { return u.data->client_addr; });
+    if (urb == queue->end()) continue;
+    finish(*urb, -ENOENT, 0);
+    queue->erase(urb);
+    return umockdev_ioctl_client_complete(client, 0, 0);
+  }
+  umockdev_ioctl_client_complete(client, -1, EINVAL);
 }
 
 /// The synchronous call, which libraries use for writing only.
@@ -280,8 +311,12 @@ void UsbPlug::bulk(UMockdevIoctlClient* client, UMockdevIoctlData* data) {
     refuse(bytes, transfer.len);
     return umockdev_ioctl_client_complete(client, -1, ENODEV);
   }
-  gadget_.out({bytes->data, transfer.len});
-  umockdev_ioctl_client_complete(client, static_cast<long>(transfer.len), 0);
+  const bool stalled = manners.stalled_writes > 0;
+  if (stalled) --manners.stalled_writes;
+  deliver_writes();
+  if (!stalled) gadget_.out({bytes->data, transfer.len});
+  umockdev_ioctl_client_complete(client, stalled ? -1 : static_cast<long>(transfer.len),
+                                 stalled ? ETIMEDOUT : 0);
   g_object_unref(bytes);
 }
 

@@ -52,11 +52,14 @@ class UsbGadget {
   std::vector<Bytes> refused;  ///< writes of the host to a removed device
 };
 
-/// How the system handles the device.
+/// How the system handles the device. Change it under the gadget's lock while a program runs.
 struct UsbManners {
   bool kernel_driver = false;  ///< bound until it is detached
-  bool busy = false;           ///< claimed by another program
+  /// A stalled line takes writes and does not deliver them, and answers no read. It recovers after
+  /// this number of synchronous writes, each of which times out.
+  int stalled_writes = 0;
 };
+inline constexpr int kStalledForGood = 1'000'000;
 
 class UsbPlug {
  public:
@@ -70,7 +73,7 @@ class UsbPlug {
   [[nodiscard]] const std::string& node() const { return node_; }
   /// Removes the device from the system.
   void pull();
-  UsbManners manners;  ///< set between calls of the code under test
+  UsbManners manners;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -81,7 +84,9 @@ class UsbPlug {
   };
 
   static gboolean on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
+  static void on_vanished(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
   void handle(UMockdevIoctlClient* client);
+  [[nodiscard]] int claim(const UMockdevIoctlClient* client);
   void submit(UMockdevIoctlClient* client, UMockdevIoctlData* data);
   void reap(UMockdevIoctlClient* client, UMockdevIoctlData* data);
   void discard(UMockdevIoctlClient* client);
@@ -89,6 +94,7 @@ class UsbPlug {
   void bulk(UMockdevIoctlClient* client, UMockdevIoctlData* data);
   std::optional<Bytes> describe(const Setup& setup) const;
   void run_control(Urb& urb);
+  void deliver_writes();
   void fill_reads();
   void finish(const Urb& urb, int status, std::size_t length);
 
@@ -97,7 +103,8 @@ class UsbPlug {
   std::string path_;  // its folder in /sys
   UMockdevIoctlBase* base_ = nullptr;
   std::string node_;
-  std::deque<Urb> reads_, done_;
+  const UMockdevIoctlClient* claimed_by_ = nullptr;  // one open file, of any program
+  std::deque<Urb> writes_, reads_, done_;
 };
 
 }  // namespace clay::rig

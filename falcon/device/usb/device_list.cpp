@@ -1,8 +1,8 @@
 #include "claystack/falcon/usb.hpp"
 #include "falcon/device/usb/held_signals.hpp"
-#include "falcon/device/usb/hid_node.hpp"
 #include "falcon/device/usb/usb_error.hpp"
 
+#include <hidapi.h>
 #include <libusb.h>
 #include <unistd.h>
 
@@ -83,20 +83,6 @@ void list_hid(std::vector<ListedDevice>& found) {
   }
 }
 
-class NodePort final : public ReportPort {
- public:
-  DeviceResult<void> open(const std::string& place) override {
-    return node_.open(place, HidNode::Use::shared);
-  }
-  int read(std::span<std::uint8_t> report) noexcept override { return node_.read(report, 0); }
-  void write(std::span<const std::uint8_t> report) noexcept override {
-    if (node_.is_open()) node_.write(report);
-  }
-
- private:
-  HidNode node_;
-};
-
 std::unique_ptr<HapticDevice> make_device(const ListedDevice& listed,
                                           const DeviceSettings& settings) {
   switch (listed.kind) {
@@ -111,12 +97,6 @@ std::unique_ptr<HapticDevice> make_device(const ListedDevice& listed,
 }
 
 }  // namespace
-
-std::unique_ptr<HapticDevice> make_space_mouse(std::string name, std::string place,
-                                               const SpaceMouseSettings& settings) {
-  return make_space_mouse(std::move(name), std::move(place), settings,
-                          std::make_unique<NodePort>());
-}
 
 std::string_view name_of(DeviceKind kind) noexcept {
   switch (kind) {

@@ -259,6 +259,52 @@ TEST(LiveThrow, RefusesAContactTooStiffForTheArm) {
   EXPECT_EQ(soften(scene, settings).value(), 1.0);
 }
 
+// A Falcon answers 1000 times a second, however often the servo asks.
+TEST(LiveThrow, ARateAboveThatOfTheDeviceAcceptsNoStifferContact) {
+  const auto accepted = [](double rate_hz, double device_hz = 1000.0) {
+    SceneSpec scene = rib_scene();
+    scene.force->stiffness_n_per_mm2 = 10.0;
+    LiveSettings settings = one_to_one();
+    settings.rate_hz = rate_hz;
+    settings.arm.rate_hz = device_hz;
+    EXPECT_LT(soften(scene, settings).value(), 1.0);
+    return scene.force->stiffness_n_per_mm2;
+  };
+  EXPECT_EQ(accepted(4000.0), accepted(1000.0));
+  EXPECT_NEAR(accepted(500.0), accepted(1000.0) / 2.0, 1e-9);
+  EXPECT_NEAR(accepted(4000.0, 4000.0), accepted(1000.0) * 4.0, 1e-9);
+  SceneSpec scene = rib_scene();
+  scene.force->stiffness_n_per_mm2 = 0.05;  // 1 N/mm, half more than an arm at 1 kHz renders
+  LiveSettings settings = one_to_one();
+  settings.rate_hz = 4000.0;
+  const auto refused = check_stiffness(scene, settings);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message.find("or a rate"), std::string::npos)
+      << "a higher rate does not help: " << refused.error().message;
+  settings.arm.rate_hz = 4000.0;
+  EXPECT_TRUE(check_stiffness(scene, settings));
+}
+
+TEST(LiveThrow, EndsAtOnceWithADeviceThatIsNotOpen) {
+  falcon::FalconModelSettings unloaded;  // it has power and no firmware
+  auto model = std::make_shared<falcon::FalconModel>(
+      unloaded, [](const glm::dvec3&, double) { return falcon::kFalconCentreMm; });
+  const auto arm = falcon::make_falcon(
+      std::make_unique<falcon::LoopbackTransport>(model, falcon::SimClock::stepped), {});
+  ASSERT_FALSE(arm->open());
+  const SceneSpec scene = rib_scene();
+  Wheel wheel = Wheel::build(scene).value();
+  SteppedClock clock;
+  auto live = LiveThrow::build({.wheel = wheel, .device = *arm, .scene = scene, .clock = &clock},
+                               one_to_one())
+                  .value();
+  ASSERT_TRUE(live.start(Pace::stepped));
+  live.advance(clock.now_ns() + 100'000'000);
+  EXPECT_FALSE(live.running());
+  EXPECT_EQ(live.status().ending, Ending::device_lost);
+  EXPECT_EQ(arm->problem().fault, falcon::DeviceFault::no_firmware);
+}
+
 TEST(LiveThrow, ErrorsNameTheSettingOrSession) {
   WireLog log;
   ScriptedDevice device(log);

@@ -40,7 +40,7 @@ LiveSettings quick() {
 /// A servo that runs on a scripted device.
 struct Threads {
   explicit Threads(WireLog& wire)
-      : log(wire), device(wire), loop(ServoLoop::build(bench(), quick()).value()) {
+      : log(wire), device(wire), loop(ServoLoop::build(loop_parts(), quick()).value()) {
     servo.start();
   }
   /// A hanging servo would not end.
@@ -48,7 +48,7 @@ struct Threads {
   Threads(const Threads&) = delete;
   Threads& operator=(const Threads&) = delete;
 
-  Bench bench() { return {wheel, device, clock, nullptr}; }
+  LoopParts loop_parts() { return {wheel, device, clock, nullptr}; }
   void wait_for_force() {
     wait_until([&] { return log.last_force_n > 0.0; }, "a force");
   }
@@ -66,7 +66,7 @@ struct Threads {
   Wheel wheel = Wheel::build(rib_scene()).value();
   MonotonicClock clock;
   ServoLoop loop;
-  Servo servo{bench(), loop, Pace::thread};
+  Servo servo{loop_parts(), loop, Pace::thread};
 };
 
 TEST(Servo, EndsByCommandWithAFinalStop) {
@@ -125,9 +125,9 @@ TEST(Servo, WatchdogLeavesATickingServoAlone) {
   ScriptedDevice device(log);
   Wheel wheel = Wheel::build(rib_scene()).value();
   StoppedClock clock;
-  const Bench bench{wheel, device, clock, nullptr};
-  ServoLoop loop = ServoLoop::build(bench, quick()).value();
-  Servo servo{bench, loop, Pace::thread};
+  const LoopParts parts{wheel, device, clock, nullptr};
+  ServoLoop loop = ServoLoop::build(parts, quick()).value();
+  Servo servo{parts, loop, Pace::thread};
   servo.start();
   wait_until([&] { return log.writes > 50; }, "forces to be written");
   wait_until([&, end = clock.looks + 50] { return clock.looks > end; }, "the watchdog to look");
@@ -171,7 +171,7 @@ TEST(Servo, UnpluggingEndsTheServo) {
   // After a reconnection: another servo with the same loop and wheel.
   log.gone = false;
   const std::uint64_t poses = threads.loop.status().poses;
-  Servo again(threads.bench(), threads.loop, Pace::thread);
+  Servo again(threads.loop_parts(), threads.loop, Pace::thread);
   again.start();
   wait_until([&] { return again.view().status.newest().poses > poses + 20; }, "poses");
   ASSERT_TRUE(again.command({CommandKind::stop, 0.0}));
@@ -238,10 +238,10 @@ TEST(Servo, RefusesToStartBesideAnother) {
   ScriptedDevice device(other_log);
   Wheel wheel = Wheel::build(rib_scene()).value();
   MonotonicClock clock;
-  const Bench bench{wheel, device, clock, nullptr};
-  ServoLoop loop = ServoLoop::build(bench, quick()).value();
+  const LoopParts parts{wheel, device, clock, nullptr};
+  ServoLoop loop = ServoLoop::build(parts, quick()).value();
   {
-    Servo second(bench, loop, Pace::thread);
+    Servo second(parts, loop, Pace::thread);
     const auto started = second.start();
     ASSERT_FALSE(started);
     EXPECT_NE(started.error().message.find("another one is running"), std::string::npos);
@@ -251,7 +251,7 @@ TEST(Servo, RefusesToStartBesideAnother) {
   emergency_stop().fire();
   EXPECT_GE(log.stops, 1u);
   EXPECT_EQ(threads.end(), Ending::stopped);
-  Servo second(bench, loop, Pace::thread);
+  Servo second(parts, loop, Pace::thread);
   EXPECT_TRUE(second.start());
   EXPECT_EQ(other_log.max_force_n, 0.0);
 }

@@ -246,6 +246,27 @@ TEST(ForceGuard, MinorCauseDoesNotUnlatchAMajorOne) {
   EXPECT_EQ(trial.log().back().out.cause, SafeCause::stopped);
 }
 
+/// Accepted, it would move the clay's time ahead, and every later frame would be too old.
+TEST(ForceGuard, DropsAFrameFromTheFuture) {
+  ForceGuard guard = ForceGuard::build({}).value();
+  std::int64_t now = 0;
+  const auto deforms = [&](std::int64_t ahead_us) {
+    now += 1000;
+    const bool may = guard.admit(now, {now + ahead_us, glm::dvec3(0.0), true, true}).may_deform;
+    const bool clock = (guard.force(now, {glm::dvec3(0.0), now, true}).flags & kGuardClock) != 0;
+    EXPECT_NE(may, clock) << ahead_us;
+    return may;
+  };
+  EXPECT_FALSE(deforms(3'600'000'000)) << "the first frame (its tick has no time either)";
+  EXPECT_TRUE(deforms(0));
+  for (const std::int64_t ahead_us : {std::int64_t{10'000}, std::int64_t{3'600'000'000}}) {
+    EXPECT_FALSE(deforms(ahead_us)) << ahead_us;
+    EXPECT_TRUE(deforms(0)) << "the next frame after one " << ahead_us << " us ahead";
+  }
+  EXPECT_FALSE(deforms(INT64_MAX - now - 2000));
+  EXPECT_TRUE(deforms(9'999)) << "a clock of the device that is slightly ahead";
+}
+
 /// Without admit() the hand position is unknown, so an engaged force fades.
 TEST(ForceGuard, FadesWithoutAdmittedSamples) {
   ForceGuard guard = ForceGuard::build({}).value();

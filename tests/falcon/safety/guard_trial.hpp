@@ -44,6 +44,7 @@ inline constexpr NamedGuardRule kGuardRules[] = {
     {kRuleRamp, "ramp"},
     {kRuleReady, "ready or zero"},
     {kRuleStaleFrames, "stale frames fade"},
+    {kRuleRecovery, "slow recovery"},
     {kRulePause, "re-engagement after a pause"},
     {kRuleJump, "jumps"},
     {kRuleStep, "step within bounds"},
@@ -94,6 +95,7 @@ class Allowance {
   bool accepts_position(const Tick& tick, const GuardSample& sample);
   void follow_ages(const Tick& tick, double clock_s, bool good);
   void follow_ramp(const Tick& tick, double growing_s);
+  void follow_fade(double growing_s);
   void reset_ramp() { small_ticks_ = 0, ramp_s_ = 0.0, ramping_ = false; }
 
   bool latched_ = false, stopped_ = false, zero_ = false;
@@ -106,6 +108,7 @@ class Allowance {
   int small_ticks_ = 0;
   bool ramping_ = false;
   double ramp_s_ = 0.0;
+  double kept_ = 1.0;  ///< part of the force that the fades have left
 };
 
 class Trial {

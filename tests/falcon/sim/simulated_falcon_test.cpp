@@ -43,6 +43,7 @@ TEST(SimulatedFalcon, IsHomedAndFollowsTheHand) {
   auto simulated = make_simulated_falcon(in_virtual_time());
   ASSERT_TRUE(simulated);
   HapticDevice& device = *simulated->device;
+  EXPECT_EQ(device.info().name, "Simulated Falcon");
   ASSERT_TRUE(device.open());
   EXPECT_EQ(homed(device).state, DeviceState::ready);
   for (int i = 0; i < 4000; ++i) {

@@ -155,6 +155,11 @@ enum class DeviceState : std::uint8_t {
   fault,  ///< `HapticDevice::problem` explains; `open` tries again
 };
 
+/// Whether the device answers, so that `read` may bring samples.
+[[nodiscard]] constexpr bool is_open(DeviceState state) noexcept {
+  return state == DeviceState::needs_homing || state == DeviceState::ready;
+}
+
 /// For scripts, for example "needs_homing".
 [[nodiscard]] std::string_view name_of(DeviceState state) noexcept;
 

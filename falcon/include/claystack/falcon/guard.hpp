@@ -74,8 +74,9 @@ struct GuardSettings {
 struct GuardSample {
   std::int64_t time_us = 0;     ///< arrival of the frame, on the clock of `now_us`
   glm::dvec3 position_mm{0.0};  ///< in the device's frame
-  bool fresh = false;           ///< a new frame, unless it has the stamp of the last one
-  bool ready = false;           ///< homed, powered, plugged in, no fault
+  /// A new frame, unless it has the stamp of the last one or one that is 10 ms ahead.
+  bool fresh = false;
+  bool ready = false;  ///< homed, powered, plugged in, no fault
 };
 
 /// The requested force.
@@ -88,7 +89,7 @@ struct WantedForce {
 enum class GuardState {
   idle,     ///< the device is not ready, or has sent no frame yet
   waiting,  ///< for a small force
-  ramping,
+  ramping,  ///< increasing the part of the force: after waiting, or after fading
   engaged,
   fading,  ///< reducing the force: stale frames, old clay, hot motors
   safe,    ///< force 0 until rearm(), or for a while if the cause clears itself
@@ -122,7 +123,8 @@ enum GuardFlag : std::uint32_t {
   kGuardLate = 1u << 6,       ///< the tick came late_zero_s late or more; force 0 in this tick
   kGuardOldClay = 1u << 7,    ///< clay older than clay_fade_s
   kGuardHot = 1u << 8,        ///< motors hot: fading
-  kGuardClock = 1u << 9,      ///< the clock went back or stopped
+  /// The clock went back or stopped, or a frame was dropped whose stamp is 10 ms ahead of it.
+  kGuardClock = 1u << 9,
 };
 
 struct Admission {
@@ -133,7 +135,7 @@ struct Admission {
 
 struct GuardedForce {
   glm::dvec3 force_n{0.0};  ///< to be sent: finite, at most force_limit_n
-  double gain = 0.0;        ///< gain of the ramp, 0 to 1
+  double gain = 0.0;        ///< part of the force that ramp and fades leave, 0 to 1
   GuardState state = GuardState::idle;
   SafeCause cause = SafeCause::none;
   std::uint32_t flags = 0;  ///< of GuardFlag

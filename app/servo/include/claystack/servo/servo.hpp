@@ -65,7 +65,8 @@ struct LiveSettings {
   MappingSettings mapping;
   ButtonMap buttons = kFalconButtons;
   falcon::GuardSettings guard;  ///< its period is set from rate_hz
-  /// Model of the arm for the passivity controller; its rate is set from rate_hz.
+  /// Model of the arm; it limits the stiffness of the contact. Its rate is the highest at which the
+  /// device measures: a servo with a higher rate_hz gets no newer samples.
   falcon::SampledLoop arm{1000.0, 0.1, 0.002, 1};
   double encoder_step_mm = 0.05;  ///< of the Falcon in the middle of its workspace
 };
@@ -124,7 +125,7 @@ struct LiveStatus {
   double gap_mm = 0.0;        ///< gap of a pinch; 0: one tool, or the gap of the scene
   glm::dvec3 clay_n{0.0};     ///< force of the clay on the tool, before mapping and guard
   glm::dvec3 force_n{0.0};    ///< force sent, in the device's frame
-  double force_gain = 0.0;    ///< fraction of the force that the guard's ramp allows
+  double force_gain = 0.0;    ///< GuardedForce::gain
   double volume_error = 0.0;  ///< Ledger::volume_error [quanta]; exact below 2^53
   double imbalance = 0.0;     ///< Ledger::imbalance, clay unaccounted for [quanta]
   double stack_mm3 = 0.0, trimmed_mm3 = 0.0, outside_mm3 = 0.0;  ///< as in Ledger
