@@ -68,8 +68,7 @@ void add_finish_options(CLI::App& command, solid::ExportOptions& options, double
                   "Thickness of the glaze, fired: every face but the foot is set back by it, so "
                   "that the fired and glazed pot has the size of the pot; at least a tenth of "
                   "--tolerance [mm] (default: 0)",
-                  // Of the fired glaze: on the written solid it is thicker by the shrinkage.
-                  solid::kGlazeRange.highest * (1.0 - solid::kMostShrinkage));
+                  solid::kGlazeRange.highest);
 }
 
 }  // namespace clay::cli

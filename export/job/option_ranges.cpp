@@ -22,10 +22,12 @@ std::optional<double> count_of(const std::optional<std::size_t>& count) {
   return count ? std::optional(static_cast<double>(*count)) : std::nullopt;
 }
 
-/// The set-back for the glaze is made within the tolerance.
-OptionRange glaze_range(double tolerance_mm) {
+/// On the written solid, which is enlarged for its shrinkage.
+OptionRange glaze_range(const ExportOptions& options) {
   OptionRange range = kGlazeRange;
-  range.lowest = std::max(range.lowest, kGlazeOfTolerance * tolerance_mm);
+  range.lowest = std::max(range.lowest, kGlazeOfTolerance * options.tolerance_mm);
+  range.highest *= enlargement(options.shrinkage);
+  if (options.shrinkage > 0.0) range.name = "glaze allowance, enlarged for the shrinkage";
   return range;
 }
 
@@ -38,16 +40,16 @@ void add_foot(std::vector<RangedOption>& list, const std::optional<FootRing>& fo
 
 std::vector<RangedOption> ranged_options(const ExportOptions& options) {
   std::vector<RangedOption> list{{kToleranceRange, options.tolerance_mm},
+                                 {kShrinkageRange, options.shrinkage},
                                  {kSmoothLengthRange, options.smooth_length_mm},
                                  {kMinWallRange, options.walls.min_wall_mm},
                                  {kLipFilletRange, options.lip_fillet_mm},
                                  {kFloorFilletRange, options.finish.floor_fillet_mm},
-                                 {glaze_range(options.tolerance_mm), options.finish.glaze_mm},
+                                 {glaze_range(options), options.finish.glaze_mm},
                                  {kSegmentsRange, count_of(options.segments)},
                                  {kMaxTrianglesRange, count_of(options.max_triangles)},
                                  {kDrainRange, options.drain_mm},
                                  {kWallSpacingRange, options.wall_spacing_mm},
-                                 {kShrinkageRange, options.shrinkage},
                                  {kFillLineRange, options.fill_line_mm}};
   add_foot(list, options.finish.foot);
   return list;

@@ -106,17 +106,19 @@ class VertexFinder {
     sort(stretch.subspan(middle + 1));
   }
 
+  /// The nearer side first, so that most other vertices are too far away to be placed.
   void seek(Search& search, std::span<const Parallel> stretch) const {
     if (stretch.empty()) return;
     const std::size_t middle = stretch.size() / 2;
     const Parallel& parallel = stretch[middle];
-    const double away =
-        glm::distance(search.p, held_point(vertex(parallel, search.sector), format_));
-    if (away < search.away) search.nearest = &parallel, search.away = away;
     const double beyond = search.at[parallel.split] - parallel.at[parallel.split];
     const auto below = stretch.first(middle), above = stretch.subspan(middle + 1);
     seek(search, beyond < 0.0 ? below : above);
-    if (std::abs(beyond) - rounding_ < search.away) seek(search, beyond < 0.0 ? above : below);
+    if (std::abs(beyond) - rounding_ >= search.away) return;
+    const double away =
+        glm::distance(search.p, held_point(vertex(parallel, search.sector), format_));
+    if (away < search.away) search.nearest = &parallel, search.away = away;
+    seek(search, beyond < 0.0 ? above : below);
   }
 
   const RevolveLayout& rule_;

@@ -10,7 +10,7 @@ namespace clay::solid::inline walls {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kAngleRounding = 1e-7;  // of an inverse sine near 1 [rad]
+constexpr double kAngleRounding = 1e-12;  // [rad]
 
 Vec2 across(const Vec2& along) { return {-along.y, along.x}; }
 
@@ -68,21 +68,23 @@ class Rectangle {
   Vec2 low_{0.0}, high_{0.0};  ///< contains the origin
 };
 
+/// Tight: normals on one side of a staircase are exactly 90 degrees apart, and so not opposite.
 void bound_normals(EdgeNode& node, std::span<const Vec2> normals) {
   if (normals.empty()) return;
-  const Vec2& middle = normals[normals.size() / 2];
-  double low = 0.0, high = 0.0;  // sines relative to the middle one
+  Vec2 middle{0.0};
+  for (const Vec2& normal : normals) middle += normal;
+  double low = 0.0, high = 0.0;  // angles relative to the middle
   for (const Vec2& normal : normals) {
-    if (glm::dot(middle, normal) <= 0.0) {
-      node.normal_spread = kPi;
-      return;
-    }
-    low = std::min(low, cross(middle, normal));
-    high = std::max(high, cross(middle, normal));
+    const double angle = std::atan2(cross(middle, normal), glm::dot(middle, normal));
+    low = std::min(low, angle);
+    high = std::max(high, angle);
   }
-  const double from = std::asin(std::max(low, -1.0)), to = std::asin(std::min(high, 1.0));
-  node.normal_angle = wrapped(std::atan2(middle.y, middle.x) + 0.5 * (from + to));
-  node.normal_spread = 0.5 * (to - from) + kAngleRounding;
+  if (high > 0.5 * kPi + kAngleRounding || low < -0.5 * kPi - kAngleRounding) {
+    node.normal_spread = kPi;
+    return;
+  }
+  node.normal_angle = wrapped(std::atan2(middle.y, middle.x) + 0.5 * (low + high));
+  node.normal_spread = 0.5 * (high - low) + kAngleRounding;
 }
 
 void join_normals(EdgeNode& node, const EdgeNode& a, const EdgeNode& b) {

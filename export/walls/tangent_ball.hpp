@@ -71,6 +71,18 @@ inline constexpr double kOpposite = std::numbers::pi / 2.0 + kTurnSlack;  ///< [
   return glm::dot(normal, other) < -kTurnSlack;
 }
 
+/// False if no ball can touch both faces: then all normals of one lie within 90 degrees of all of
+/// the other, as on one side of a staircase.
+[[nodiscard]] inline bool may_face(const Face& a, const Face& b) {
+  const auto against = [](const Face& face, const Vec2& way) {
+    return glm::dot(face.edge.inward, way) < 0.0 ||
+           (face.begins_reentrant && glm::dot(face.before, way) < 0.0) ||
+           (face.ends_reentrant && glm::dot(mirrored(face.edge.inward), way) < 0.0);
+  };
+  return against(a, b.edge.inward) || (b.begins_reentrant && against(a, b.before)) ||
+         (b.ends_reentrant && against(a, mirrored(b.edge.inward)));
+}
+
 /// A ball spans a wall if the boundary between its points of contact is at least this many
 /// diameters long, either way round. Less is an edge, a ridge or a rounded end.
 inline constexpr double kSpan = 3.0;

@@ -37,7 +37,7 @@ double WallSearch::bound(const EdgeNode& a, const EdgeNode& b) const {
 }
 
 void WallSearch::compare(const Face& a, const Face& b) {
-  if (!opposite(a.edge.inward, b.edge.inward) && !a.has_corners() && !b.has_corners()) return;
+  if (!may_face(a, b)) return;
   if (least_distance(a.edge, b.edge) >= best()) return;
   const Ball ball = least_ball(a, b, tree_.perimeter(a.piece), best());
   if (ball.diameter < best()) least_ = ball;

@@ -137,7 +137,7 @@ TEST_F(ExportFinish, RefusesPartsThatAreTooSmall) {
   }
   const Ran coarse = run("--glaze-allowance 0.01 --tolerance 0.2");
   EXPECT_EQ(coarse.status, 2);
-  EXPECT_NE(coarse.err.find("glaze allowance: expected 0, or 0.02 to 20 mm, found 0.01 mm"),
+  EXPECT_NE(coarse.err.find("glaze allowance: expected 0, or 0.02 to 10 mm, found 0.01 mm"),
             std::string::npos)
       << coarse.err;
 }

@@ -58,7 +58,7 @@ TEST(Parts, AreAbsentOrLargeEnoughForTheirFile) {
   EXPECT_EQ(refusal(options), "lip fillet: expected 0, or 0.001 to 1000 mm, found 0.0001 mm");
   options = {};
   options.finish.glaze_mm = 0.0019;
-  EXPECT_EQ(refusal(options), "glaze allowance: expected 0, or 0.002 to 20 mm, found 0.0019 mm");
+  EXPECT_EQ(refusal(options), "glaze allowance: expected 0, or 0.002 to 10 mm, found 0.0019 mm");
   options.finish.glaze_mm = 0.002;
   EXPECT_EQ(refusal(options), "");
 }

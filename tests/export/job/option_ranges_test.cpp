@@ -49,7 +49,7 @@ std::vector<NumberCase> lengths_of_files() {
       {"minimum wall: ", 1e-6, 1e4, 10001, [](Options& o, double v) { o.walls.min_wall_mm = v; }},
       {"lip fillet: ", 0, 1000, 1001, [](Options& o, double v) { o.lip_fillet_mm = v; }},
       {"floor fillet: ", 0, 1000, 1001, [](Options& o, double v) { o.finish.floor_fillet_mm = v; }},
-      {"glaze allowance: ", 0, 20, 20.1, [](Options& o, double v) { o.finish.glaze_mm = v; }},
+      {"glaze allowance: ", 0, 10, 10.1, [](Options& o, double v) { o.finish.glaze_mm = v; }},
       {"foot ring width: ", 1e-3, 1e4, 10001,
        [](Options& o, double v) { foot_of(o).width_mm = v; }},
       {"foot ring depth: ", 1e-3, 1e4, 10001,
@@ -127,10 +127,22 @@ TEST(OptionRanges, StateRangeUnitAndFoundValue) {
   options = {};
   options.finish.glaze_mm = std::nan("");
   EXPECT_EQ(check_ranges(options).error().message,
-            "glaze allowance: expected 0, or 0.002 to 20 mm, found nan mm");
+            "glaze allowance: expected 0, or 0.002 to 10 mm, found nan mm");
   options = {};
   options.shrinkage = 0.75;
   EXPECT_EQ(check_ranges(options).error().message, "shrinkage: expected 0 to 0.5, found 0.75");
+}
+
+/// 10 mm of fired glaze are 12.5 mm on a solid that loses a fifth of its lengths.
+TEST(OptionRanges, TakeTenMillimetresOfFiredGlaze) {
+  ExportOptions options;
+  options.shrinkage = 0.2;
+  options.finish.glaze_mm = 10.0 * enlargement(options.shrinkage);
+  EXPECT_TRUE(check_ranges(options));
+  options.finish.glaze_mm = 12.6;
+  EXPECT_EQ(check_ranges(options).error().message,
+            "glaze allowance, enlarged for the shrinkage: expected 0, or 0.002 to 12.5 mm, found "
+            "12.6 mm");
 }
 
 /// The options alone are at fault, not the pot whose name they carry.

@@ -8,6 +8,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -54,6 +55,38 @@ TEST(WallField, ContinuesAWallToItsLip) {
     ++samples;
   }
   EXPECT_GT(samples, 180u);
+}
+
+/// Rings of 0.2 mm height and 4 mm width, each 0.12 mm farther out than the one below, on a tube. A
+/// disc that touches the middle of a riser or of a tread passes through a corner some rings farther
+/// on.
+TEST(WallField, MeasuresEachStepOfALeaningWall) {
+  constexpr int kRings = 300;
+  constexpr double kHigh = 0.2, kOut = 0.12, kWidth = 4.0;
+  Polygon wall{{30.0, -20.0}};
+  for (int i = 0; i < kRings; ++i)
+    for (const int y : {i, i + 1}) wall.push_back({30.0 + kOut * i, kHigh * y});
+  for (int i = kRings - 1; i >= 0; --i)
+    for (const int y : {i + 1, i}) wall.push_back({30.0 + kOut * i - kWidth, kHigh * y});
+  wall.push_back({30.0 - kWidth, -20.0});
+  double of_riser = kWidth, of_tread = 100.0;
+  for (int k = 1; k < 30; ++k) {
+    const double across = kWidth - kOut * k, up = kHigh * (k - 0.5);
+    of_riser = std::min(of_riser, across + up * up / across);
+    const double aside = across - 0.5 * kOut, high = kHigh * k;
+    of_tread = std::min(of_tread, high + aside * aside / high);
+  }
+  std::size_t risers = 0, treads = 0;
+  for (const WallSample& sample : wall_field({{wall}}, 1e3)) {
+    if (sample.at.y < 15.0 || sample.at.y > 45.0) continue;
+    const double rings = sample.at.y / kHigh;
+    const bool riser = std::abs(rings - std::round(rings)) > 0.25;
+    EXPECT_NEAR(sample.thickness_mm, riser ? of_riser : of_tread, 1e-9)
+        << sample.at.rho << ", " << sample.at.y;
+    ++(riser ? risers : treads);
+  }
+  EXPECT_EQ(risers, 2u * 150);
+  EXPECT_NEAR(static_cast<double>(treads), 2.0 * 150, 2.0);
 }
 
 TEST(WallParts, ACylindricalCupHasAWallAndALipOfOneThickness) {

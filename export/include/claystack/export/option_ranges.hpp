@@ -31,10 +31,9 @@ inline constexpr OptionRange kSmoothLengthRange{"smooth length", "mm", 0.0, kLon
 inline constexpr OptionRange kMinWallRange{"minimum wall", "mm", 1e-6, kLongestMm};
 inline constexpr OptionRange kLipFilletRange{"lip fillet", "mm", kSmallestPartMm, 1e3, true};
 inline constexpr OptionRange kFloorFilletRange{"floor fillet", "mm", kSmallestPartMm, 1e3, true};
-/// On the written solid: 10 mm of fired glaze at the largest shrinkage. The set-back is made within
-/// the tolerance, so that an allowance is also at least kGlazeOfTolerance times that.
-inline constexpr OptionRange kGlazeRange{"glaze allowance", "mm", kSmallestPartMm,
-                                         10.0 / (1.0 - kMostShrinkage), true};
+/// Of the fired glaze. On the written solid it is thicker by the shrinkage. The set-back is made
+/// within the tolerance, so that there it is also at least kGlazeOfTolerance times that.
+inline constexpr OptionRange kGlazeRange{"glaze allowance", "mm", kSmallestPartMm, 10.0, true};
 inline constexpr double kGlazeOfTolerance = 0.1;
 inline constexpr OptionRange kFootWidthRange{"foot ring width", "mm", kSmallestPartMm, kLongestMm};
 inline constexpr OptionRange kFootDepthRange{"foot ring depth", "mm", kSmallestPartMm, kLongestMm};
