@@ -51,7 +51,11 @@ install(DIRECTORY samples/ DESTINATION ${claystack_data}/samples COMPONENT progr
   FILES_MATCHING
   PATTERN "*.json" PATTERN "*.jsonl" PATTERN "*.session" PATTERN "*.work" PATTERN "*.svg" PATTERN "*.dxf"
   PATTERN "*.csv" PATTERN "*.script" PATTERN "sha256sums"
-  PATTERN "consumer" EXCLUDE PATTERN "replay" EXCLUDE)
+  PATTERN "consumer" EXCLUDE PATTERN "python" EXCLUDE PATTERN "replay" EXCLUDE)
+if(CLAYSTACK_PYTHON)
+  install(DIRECTORY samples/python/ COMPONENT python
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-claystack/examples)
+endif()
 install(DIRECTORY samples/consumer/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libclaystack-dev/examples COMPONENT dev)
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/claystack COMPONENT program)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/claystack/docs COMPONENT program

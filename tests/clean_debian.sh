@@ -11,6 +11,7 @@ clean_debian() {
   debootstrap --variant=minbase "$1" "$2.part" "$mirror" >"$3"
   cp /etc/apt/apt.conf.d/* "$2.part/etc/apt/apt.conf.d/" 2>/dev/null || true
   cp /etc/resolv.conf "$2.part/etc/" 2>/dev/null || true
+  echo 'DPkg::Use-Pty "false";' >"$2.part/etc/apt/apt.conf.d/no_terminal"  # /dev/pts is not mounted
   mv "$2.part" "$2"
 }
 

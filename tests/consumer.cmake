@@ -6,15 +6,23 @@ function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
+# A file that is no longer installed must not remain from an earlier run.
+file(REMOVE_RECURSE ${WORK}/full ${WORK}/engine)
+
 # All components, from the build under test.
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/full)
 run(${CMAKE_COMMAND} -S ${SOURCE}/samples/consumer -B ${WORK}/consumer -G Ninja
   -DCMAKE_PREFIX_PATH=${WORK}/full -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${WORK}/consumer)
+set(bowl ${SOURCE}/samples/bowl.scene.json ${SOURCE}/samples/bowl.session)
 run(${WORK}/consumer/press_once)
-run(${WORK}/consumer/throw_and_export ${WORK}/cmake.stl)
+run(${WORK}/consumer/press_and_export)
+run(${WORK}/consumer/throw_and_export ${bowl} ${WORK}/cmake.stl)
 run(${WORK}/consumer/check_mesh ${WORK}/cmake.stl)
 run(${WORK}/consumer/run_servo)
+if(EXISTS ${WORK}/consumer/list_devices)
+  run(${WORK}/consumer/list_devices)
+endif()
 
 # The same programs without CMake.
 if(NOT CXX)
@@ -25,19 +33,19 @@ list(GET pc_files 0 pc_file)
 cmake_path(GET pc_file PARENT_PATH pc_folder)
 set(ENV{PKG_CONFIG_PATH} ${pc_folder})
 file(MAKE_DIRECTORY ${WORK}/pkgconfig)
-foreach(use press_once=claystack-engine throw_and_export=claystack-export
-        check_mesh=claystack-export run_servo=claystack-servo)
-  string(REPLACE = ";" use ${use})
-  list(GET use 0 program)
-  list(GET use 1 package)
-  execute_process(COMMAND pkg-config --static --cflags --libs ${package}
+set(packages_of_press_once claystack-engine)
+set(packages_of_throw_and_export claystack-files claystack-export)
+set(packages_of_check_mesh claystack-export)
+set(packages_of_run_servo claystack-servo)
+foreach(program press_once throw_and_export check_mesh run_servo)
+  execute_process(COMMAND pkg-config --static --cflags --libs ${packages_of_${program}}
     OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   separate_arguments(flags UNIX_COMMAND "${flags}")
   run(${CXX} -std=c++20 ${SOURCE}/samples/consumer/${program}.cpp -o ${WORK}/pkgconfig/${program}
     ${flags})
 endforeach()
 run(${WORK}/pkgconfig/press_once)
-run(${WORK}/pkgconfig/throw_and_export ${WORK}/pkgconfig.stl)
+run(${WORK}/pkgconfig/throw_and_export ${bowl} ${WORK}/pkgconfig.stl)
 run(${WORK}/pkgconfig/check_mesh ${WORK}/pkgconfig.stl)
 run(${WORK}/pkgconfig/run_servo)
 file(SHA256 ${WORK}/cmake.stl by_cmake)
@@ -56,6 +64,10 @@ run(${CMAKE_COMMAND} -S ${SOURCE}/samples/consumer -B ${WORK}/engine-consumer -G
   -DCMAKE_PREFIX_PATH=${WORK}/engine -DCMAKE_BUILD_TYPE=Release -DCONSUMER_ENGINE_ONLY=ON)
 run(${CMAKE_COMMAND} --build ${WORK}/engine-consumer)
 run(${WORK}/engine-consumer/press_once)
+file(GLOB docs RELATIVE ${WORK}/engine/share/doc ${WORK}/engine/share/doc/*)
+if(NOT docs STREQUAL "libclaystack-dev")
+  message(FATAL_ERROR "expected the documents of libclaystack-dev alone, found: ${docs}")
+endif()
 
 execute_process(COMMAND ldd ${WORK}/engine-consumer/press_once
   OUTPUT_VARIABLE libraries COMMAND_ERROR_IS_FATAL ANY)

@@ -5,12 +5,19 @@
 # against libclaystack-dev. Takes some minutes.
 set -eu
 cd "$(dirname "$0")/.."
-source=$PWD
 build=$(realpath "${1:-build/release}")
 clean=$build/clean
 . tests/clean_debian.sh
-sh samples/install_packages.sh lintian appstream desktop-file-utils debootstrap shared-mime-info mandoc
+sh samples/install_packages.sh lintian appstream desktop-file-utils debootstrap shared-mime-info mandoc \
+  libxml2-utils
 
+# Afterwards `cmake --install` must not write into /usr, unless it did before.
+prefix=$(sed -n 's/^CMAKE_INSTALL_PREFIX:PATH=//p' "$build/CMakeCache.txt")
+finish() {
+  umount "$clean/proc" 2>/dev/null || true
+  cmake -B "$build" -DCMAKE_INSTALL_PREFIX="$prefix" >/dev/null
+}
+trap finish EXIT
 cmake -B "$build" -DCMAKE_INSTALL_PREFIX=/usr >/dev/null
 cmake --build "$build" --target claystack claystack-studio manual
 rm -rf "$build/packages"
@@ -30,7 +37,6 @@ echo "== a clean Debian 12"
 rm -rf "$clean"
 clean_debian bookworm "$clean" "$build/debootstrap.log"
 mount -t proc proc "$clean/proc"
-trap 'umount "$clean/proc"' EXIT
 inside "$clean" apt-get update -qq
 find "$clean" -xdev | sed "s|^$clean||" | sort >"$build/before.txt"
 # shellcheck disable=SC2086
@@ -79,7 +85,7 @@ if [ "${DEV:-0}" = 1 ]; then
   inside "$clean" sh -c 'apt-get install -y -qq --no-install-recommends /opt/libclaystack-dev_*.deb cmake ninja-build g++ pkg-config >/dev/null
     cmake -S /usr/share/doc/libclaystack-dev/examples -B /opt/consumer -G Ninja >/dev/null
     cmake --build /opt/consumer >/dev/null
-    /opt/consumer/press_once && /opt/consumer/throw_and_export /opt/by_library.stl
+    /opt/consumer/press_once && /opt/consumer/press_and_export
     apt-get purge -y -qq libclaystack-dev >/dev/null'
 fi
 
@@ -89,8 +95,6 @@ find "$clean" -xdev | sed "s|^$clean||" | sort >"$build/after.txt"
 left=$(comm -13 "$build/before.txt" "$build/after.txt" | grep -i claystack |
   grep -v -e '^/var/lib/dpkg' -e '^/var/cache' -e '^/var/log' || true)
 [ -z "$left" ] || { echo "left after removal:"; echo "$left"; exit 1; }
-cd "$source"
 umount "$clean/proc"
-trap - EXIT
 rm -rf "$clean"
 echo "packages: built, valid, installed, used and removed"

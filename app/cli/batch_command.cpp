@@ -57,12 +57,15 @@ Result<std::vector<BatchJob>> read_jobs(const std::string& path) {
   std::vector<BatchJob> jobs;
   std::set<std::string> ids;
   LineReader lines(*text);
+  const auto refuse = [&](const Error& error) {
+    return tl::make_unexpected(kind_error(error, *text, path, "jobs (.jsonl)"));
+  };
   while (const auto line = lines.next()) {
     if (line->find_first_not_of(" \t\r") == std::string_view::npos) continue;
     const auto document = LocatedJson::from_json(*line, path, kMaxLineValues, lines.number());
-    if (!document) return tl::make_unexpected(document.error());
+    if (!document) return refuse(document.error());
     auto job = ObjectReader::read(*document, BatchJob{});
-    if (!job) return tl::make_unexpected(job.error());
+    if (!job) return refuse(job.error());
     if (!ids.insert(job->id).second)
       return tl::make_unexpected(
           document->field_error({"id"}, "expected a different id for each job, found " + job->id));
@@ -181,15 +184,14 @@ void add_batch_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<BatchOptions>();
   CLI::App* command = app.add_subcommand(
       "batch", "Run many commands, several at a time: one line of JSON for each result");
-  command
-      ->add_option("file", options->jobs,
-                   "JOBS.jsonl, or - for standard input: a line for each job, {\"id\": \"bowl\", "
-                   "\"run\": [\"export\", \"bowl.pot.json\", \"bowl.stl\"]}; it may run " +
-                       fmt::format("{}", fmt::join(kRunnable, ", ")))
+  add_file(*command, "file", options->jobs,
+           "JOBS.jsonl, or - for standard input: a line for each job, {\"id\": \"bowl\", "
+           "\"run\": [\"export\", \"bowl.pot.json\", \"bowl.stl\"]}; it may run " +
+               fmt::format("{}", fmt::join(kRunnable, ", ")))
       ->required();
-  command->add_option("-o,--output", options->results,
-                      "File for the results, appended; jobs that have a result with status 0 or 1 "
-                      "in it are skipped (default: standard output)");
+  add_file(*command, "-o,--output", options->results,
+           "File for the results, appended; jobs that have a result with status 0 or 1 "
+           "in it are skipped (default: standard output)");
   command
       ->add_option("-j,--jobs", options->processes,
                    "Number of jobs that run at the same time (default: one for each core)")
@@ -198,8 +200,10 @@ void add_batch_command(CLI::App& app, Console& console, int& exit) {
       ->add_option("--time-limit", options->time_limit_s,
                    "Time after which a job is ended [s] (default: 600)")
       ->check(in_range(0.01, 1e6));
-  command->add_option("--part", options->part,
-                      "Run only the jobs K, K+N, K+2N, ...: K/N, for one task of a job array");
+  command
+      ->add_option("--part", options->part,
+                   "Run only the jobs K, K+N, K+2N, ..., for one task of a job array")
+      ->type_name("K/N");
   command->footer(
       "\nExamples:\n"
       "  claystack batch samples/jobs.jsonl -o results.jsonl\n"

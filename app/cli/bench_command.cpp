@@ -1,6 +1,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/json_output.hpp"
 #include "app/cli/output_files.hpp"
+#include "app/cli/usage.hpp"
 
 #include "app/bench/registered_sections.hpp"
 #include "app/bench/report/report.hpp"
@@ -145,16 +146,19 @@ void add_bench_command(CLI::App& app, Console& console, int& exit) {
   command->add_flag("--quick", options->quick, "Fewer repetitions: ends within three minutes");
   auto* const only =
       command->add_option("--only", options->only, "Sections to measure: " + section_list())
+          ->type_name("SECTION")
           ->delimiter(',');
   command->add_flag("--extremes", options->extremes, "The same as --only extremes")->excludes(only);
-  command->add_option("--report", options->report, "HTML file for all tables and plots");
-  command->add_option("--csv", options->csv, "Folder for one CSV file per table, plot and map");
-  command->add_option("--svg", options->svg, "Folder for one SVG file per plot and map");
+  add_file(*command, "--report", options->report, "HTML file for all tables and plots");
+  command->add_option("--csv", options->csv, "Folder for one CSV file per table, plot and map")
+      ->type_name("FOLDER");
+  command->add_option("--svg", options->svg, "Folder for one SVG file per plot and map")
+      ->type_name("FOLDER");
   command->footer(
       "\nExamples:\n  claystack bench --quick --report bench.html\n"
       "  claystack bench --only tick,left_out --json\n"
       "  claystack bench --report bench.html --csv figures\n\n"
-      "Exit status 1: a required bound does not hold.");
+      "Exit status: 0 every required bound holds; 1 one does not.");
   command->callback([options, &console, &exit] {
     const auto done = run_bench(*options, console);
     exit = done ? *done : report(done.error());

@@ -136,8 +136,8 @@ void add_demands(CLI::App* sub, const std::shared_ptr<CheckCommand>& command) {
                   "miss the thinnest place (pots are measured, not sampled)")
       ->check(in_whole_range(1, solid::kMostWallSamples))
       ->default_str(std::to_string(kWallSamples));
-  sub->add_option("--certificate", command->certificate,
-                  "Certificate of the file, to be verified against its bytes");
+  add_file(*sub, "--certificate", command->certificate,
+           "Certificate of the file, to be verified against its bytes");
   sub->add_option(
          "--accept", command->accept,
          "Exit with status 0 for a mesh that is sound, or also for one that prints: its closed "
@@ -178,8 +178,8 @@ void add_output_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& comm
                   "Maximum number of triangles: decimates a closed mesh after any repair, and "
                   "measures the error")
       ->check(in_whole_range(solid::kFewestTriangles, solid::kMaxTriangles));
-  sub->add_option(
-      "-o,--output", command->out,
+  add_file(
+      *sub, "-o,--output", command->out,
       "File for the repaired or decimated mesh: " + solid::format_endings(solid::FormatUse::write) +
           "; or - for a binary STL on standard output. Written even if nothing had to be changed; "
           "verdict and exit status are those of the "
@@ -192,9 +192,9 @@ void add_check_command(CLI::App& app, Console& console, int& exit) {
   auto command = std::make_shared<CheckCommand>();
   CLI::App* sub =
       app.add_subcommand("check", "Check a pot or a mesh, and report each fault with its place");
-  sub->add_option("file", command->file,
-                  solid::format_endings(solid::FormatUse::read, ", ") +
-                      ", .pot.json or .pot.cbor; or - for standard input")
+  add_file(*sub, "file", command->file,
+           solid::format_endings(solid::FormatUse::read, ", ") +
+               ", .pot.json or .pot.cbor; or - for standard input")
       ->required();
   add_demands(sub, command);
   add_repair_options(sub, command);

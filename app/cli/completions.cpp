@@ -1,6 +1,7 @@
 #include "app/cli/completions.hpp"
 
 #include "app/cli/option_table.hpp"
+#include "app/cli/usage.hpp"
 
 #ifdef CLAYSTACK_EXPORT
 #include "claystack/export/walls.hpp"
@@ -11,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -54,19 +56,28 @@ Completion completion_of(const CLI::Option& option) {
   if (auto choices = choices_of(option); !choices.empty()) return {std::move(choices), false};
   for (const OpenChoices& open : open_choices())
     if (option.check_lname(std::string(open.option))) return {open.words, true};
-  return {{}, true};
+  return {{}, value_name(option) == kFileName};
 }
 
-/// Case lines: the values of the options of a command.
+/// Whether an argument without dashes is a file.
+bool takes_files(const CLI::App& command) {
+  return std::ranges::any_of(options_of(command, true), [](const CLI::Option* argument) {
+    return value_name(*argument) == kFileName;
+  });
+}
+
+/// Case lines: the values of the options of a command, then its arguments.
 void add_values_for_bash(std::ostream& script, const CLI::App& command) {
   for (const CLI::Option* option : options_of(command, false)) {
+    if (is_flag(*option)) continue;
     const Completion offered = completion_of(*option);
-    if (offered.words.empty()) continue;
-    for (const std::string& name : names_of(*option))
-      script << "    " << command.get_name() << ':' << name
-             << ") words=" << shell_word(joined(offered.words, " "))
-             << (offered.files ? " files=1" : "") << " ;;\n";
+    for (const std::string& name : names_of(*option)) {
+      script << "    " << command.get_name() << ':' << name << ')';
+      if (!offered.words.empty()) script << " words=" << shell_word(joined(offered.words, " "));
+      script << (offered.files ? " files=1" : "") << " ;;\n";
+    }
   }
+  if (takes_files(command)) script << "    " << command.get_name() << ":*) files=1 ;;\n";
 }
 
 std::string words_for_bash(const CLI::App& command) {
@@ -89,11 +100,27 @@ std::string for_zsh(std::string_view text) {
 /// The part of a specification that offers the values.
 std::string action_for_zsh(const CLI::Option& option) {
   const Completion offered = completion_of(option);
-  if (offered.words.empty()) return "_files";
+  if (offered.words.empty()) return offered.files ? "_files" : " ";
   if (!offered.files) return "(" + joined(offered.words, " ") + ")";
   for (const OpenChoices& open : open_choices())
     if (open.words == offered.words) return "_claystack_" + std::string(open.option);
   return "_files";
+}
+
+/// -F offers files also where the command takes none; -x offers none.
+void add_command_for_fish(std::ostream& script, const CLI::App& command) {
+  const std::string line =
+      "complete -c claystack -n '__fish_seen_subcommand_from " + command.get_name() + "'";
+  if (!takes_files(command)) script << line << " -f\n";
+  for (const CLI::Option* option : options_of(command, false)) {
+    script << line;
+    for (const std::string& name : option->get_snames()) script << " -s " << name;
+    for (const std::string& name : option->get_lnames()) script << " -l " << name;
+    const Completion offered = completion_of(*option);
+    if (!is_flag(*option)) script << (offered.files ? " -r -F" : " -x");
+    if (!offered.words.empty()) script << " -a " << shell_word(joined(offered.words, " "));
+    script << " -d " << shell_word(option->get_description()) << '\n';
+  }
 }
 
 }  // namespace
@@ -104,20 +131,23 @@ std::string bash_completions(const CLI::App& app) {
   script << "# bash completion for claystack\n_claystack() {\n"
             "  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}\n"
             "  local words= files=\n"
+            "  [ \"$current\" != = ] || current=  # --option= is two words\n"
+            "  [ \"$before\" != = ] || before=${COMP_WORDS[COMP_CWORD-2]}\n"
             "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    words="
          << shell_word(names + " help --help --version")
          << "\n  else\n    case ${COMP_WORDS[1]}:$before in\n    help:help) words="
          << shell_word(names) << " ;;\n";
   for (const CLI::App* command : commands_of(app)) add_values_for_bash(script, *command);
   script << "    esac\n    if [ -z \"$words\" ] && [[ $current == -* ]]; then\n"
-            "      case ${COMP_WORDS[1]} in\n";
+            "      files=\n      case ${COMP_WORDS[1]} in\n";
   for (const CLI::App* command : commands_of(app))
     script << "      " << command->get_name() << ") words=" << shell_word(words_for_bash(*command))
            << " ;;\n";
   script << "      esac\n    fi\n  fi\n"
-            "  COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
-            "  if [ -z \"$words\" ] || [ -n \"$files\" ]; then\n    compopt -o filenames\n"
-            "    COMPREPLY+=($(compgen -f -- \"$current\"))\n  fi\n}\n"
+            "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n"
+            "  [ -n \"$files\" ] || return 0\n"
+            "  compopt -o filenames -o default  # bash reads a quoted beginning of a name\n"
+            "  mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -f -- \"$current\")\n}\n"
             "complete -F _claystack claystack\n";
   return script.str();
 }
@@ -145,7 +175,8 @@ std::string zsh_completions(const CLI::App& app) {
           spec += ":" + for_zsh(value_name(*option)) + ":" + action_for_zsh(*option);
         script << " \\\n      " << shell_word(spec);
       }
-    script << " \\\n      '*:file:_files'\n    ;;\n";
+    if (takes_files(*command)) script << " \\\n      '*:file:_files'";
+    script << "\n    ;;\n";
   }
   script << "  esac\n}\n_claystack \"$@\"\n";
   return script.str();
@@ -160,18 +191,7 @@ std::string fish_completions(const CLI::App& app) {
             "'Print the help of a command'\n"
             "complete -c claystack -f -n '__fish_seen_subcommand_from help' -a "
          << shell_word(joined(names_of_commands(app), " ")) << '\n';
-  for (const CLI::App* command : commands_of(app))
-    for (const CLI::Option* option : options_of(*command, false)) {
-      script << "complete -c claystack -n '__fish_seen_subcommand_from " << command->get_name()
-             << "'";
-      for (const std::string& name : option->get_snames()) script << " -s " << name;
-      for (const std::string& name : option->get_lnames()) script << " -l " << name;
-      if (const Completion offered = completion_of(*option); !offered.words.empty())
-        script << (offered.files ? " -r -a " : " -x -a ") << shell_word(joined(offered.words, " "));
-      else if (!is_flag(*option))
-        script << " -r";
-      script << " -d " << shell_word(option->get_description()) << '\n';
-    }
+  for (const CLI::App* command : commands_of(app)) add_command_for_fish(script, *command);
   return script.str();
 }
 

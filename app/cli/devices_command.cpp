@@ -127,6 +127,7 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
       ->add_option("device", options->device,
                    "Device to open: auto, falcon, bridge, spacemouse, simulated, or a place from "
                    "the list, such as usb:1-2 or /dev/hidraw0")
+      ->type_name("DEVICE")
       ->check(check_device_name);
   add_falcon_options(*command, options->falcon);
   CLI::Option* const monitor = command->add_flag("--monitor", options->monitor,
@@ -140,8 +141,8 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
   command->footer(
       "\nExamples:\n  claystack devices\n  claystack devices falcon --firmware FILE --monitor\n"
       "  claystack devices simulated --monitor --seconds 5\n\n"
-      "Exit status: 0; 2 for a bad option or firmware file; 3 if that file cannot be read; 4 if "
-      "the device cannot be opened or fails.");
+      "Exit status: 0 done; 2 bad option or firmware file; 3 could not read that file; 4 could not "
+      "open the device, or it failed.");
   command->callback([options, &console, &exit] {
     falcon::DeviceSettings settings;
     settings.falcon = options->falcon;

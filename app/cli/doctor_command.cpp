@@ -1,4 +1,5 @@
 #include "app/cli/commands.hpp"
+#include "app/cli/installed.hpp"
 #include "app/cli/json_output.hpp"
 #include "app/cli/memory_room.hpp"
 
@@ -50,18 +51,29 @@ Finding examine_memory() {
   return finding;
 }
 
+/// Whether a folder lies below the home folder, where a command that ran as root may have made it.
+/// Folders elsewhere, such as / if there is no home folder, must keep their owner.
+bool is_below_home(const fs::path& folder) {
+  const char* home = std::getenv("HOME");
+  const fs::path below = folder.lexically_relative(home != nullptr ? home : "");
+  return !below.empty() && below != "." && *below.begin() != "..";
+}
+
 /// Creates nothing: a folder that does not exist yet is made where the nearest one is writable.
 Finding examine_home() {
+  constexpr const char* kAnother = "export HOME=/path/to/a/folder";
   fs::path folder = user_folder(UserFolder::state);
   if (folder.empty())
-    return {"home folder", false, "none", "journals for recovery, settings",
-            "export HOME=/path/to/a/folder"};
+    return {"home folder", false, "none", "journals for recovery, settings", kAnother};
   const std::string wanted = folder.string();
   std::error_code ignored;
   while (!fs::exists(folder, ignored) && folder.has_relative_path()) folder = folder.parent_path();
-  const bool good = ::access(folder.c_str(), W_OK) == 0;
-  return {"home folder", good, wanted, "journals for recovery, settings",
-          good ? "" : fmt::format("sudo chown \"$USER\" {}", folder.string())};
+  const bool is_folder = fs::is_directory(folder, ignored);
+  const bool good = is_folder && ::access(folder.c_str(), W_OK) == 0;
+  const std::string fix = is_folder && is_below_home(folder)
+                              ? fmt::format("sudo chown \"$USER\" \"{}\"", folder.string())
+                              : kAnother;
+  return {"home folder", good, wanted, "journals for recovery, settings", good ? "" : fix};
 }
 
 #ifdef CLAYSTACK_WINDOW
@@ -123,15 +135,11 @@ Finding examine_real_time() {
                  "then log in again"};
 }
 
-/// Installed under another prefix, installed and moved, or in a clone.
+/// Installed, or in a clone.
 std::string rule_to_copy() {
-  std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  const fs::path beside =
-      program.parent_path().parent_path() / "lib/udev/rules.d/60-claystack.rules";
-  if (!failed && fs::exists(beside, failed)) return beside.string();
-  if (fs::exists(CLAYSTACK_UDEV_RULE, failed)) return CLAYSTACK_UDEV_RULE;
-  return "falcon/device/60-claystack.rules";
+  std::error_code ignored;
+  const fs::path rule = installed("lib/udev/rules.d/60-claystack.rules");
+  return fs::exists(rule, ignored) ? rule.string() : "falcon/device/60-claystack.rules";
 }
 
 Finding examine_udev_rule() {

@@ -45,15 +45,15 @@ Result<std::optional<double>> smooth_length_of(const std::string& text) {
 
 /// The pot and the files to write.
 void add_files(CLI::App& sub, ExportCommand& command) {
-  sub.add_option("pot", command.pot,
-                 std::string("NAME") + std::string(kPotInputs) + ", or - for standard input")
+  add_file(sub, "pot", command.pot,
+           std::string("NAME") + std::string(kPotInputs) + ", or - for standard input")
       ->required();
-  sub.add_option("out", command.outputs,
-                 "Files to write: " + solid::format_endings(solid::FormatUse::write) + "; " +
-                     solid::section_endings() +
-                     "; .pot.json or .pot.cbor for the pot; - for a binary STL on standard output");
-  sub.add_option("-o,--output", command.named_outputs,
-                 "File to write, like the argument out; repeatable")
+  add_file(sub, "out", command.outputs,
+           "Files to write: " + solid::format_endings(solid::FormatUse::write) + "; " +
+               solid::section_endings() +
+               "; .pot.json or .pot.cbor for the pot; - for a binary STL on standard output");
+  add_file(sub, "-o,--output", command.named_outputs,
+           "File to write, like the argument out; repeatable")
       ->allow_extra_args(false);
 }
 
@@ -80,7 +80,8 @@ void add_part(CLI::App& sub, ExportCommand& command, const std::string& name, do
               const std::string& help, Field field) {
   add_parsed(
       sub, name, help, [most](const std::string& text) { return part_of(text, most); },
-      [&command, field](double part) { field(command.request.options) = part; });
+      [&command, field](double part) { field(command.request.options) = part; })
+      ->type_name("PERCENT");
 }
 
 /// Figures for weights and capacities.
@@ -127,9 +128,11 @@ void add_goal_options(CLI::App& sub, ExportCommand& command) {
   add_quantity(
       sub, "--holds", command.goal.holds_ml, kVolumeUnits,
       "Scale the pot to this capacity, such as 350ml or 12oz (US fluid ounces): to the brim, "
-      "or to --fill-line");
+      "or to --fill-line")
+      ->type_name("VOLUME");
   add_quantity(sub, "--weighs", command.goal.weighs_g, kWeightUnits,
-               "Scale the pot to this weight, such as 400g");
+               "Scale the pot to this weight, such as 400g")
+      ->type_name("WEIGHT");
   add_size("--height", command.goal.height_mm,
            "Scale the pot to this height, such as 120mm; with one more of these options, "
            "height and radius are scaled separately");
@@ -200,8 +203,8 @@ void add_demand_options(CLI::App& sub, ExportCommand& command) {
       ->capture_default_str();
   sub.add_flag("--certificate", command.request.certificates,
                "Write OUT.certificate.json beside each mesh, for claystack check --certificate");
-  sub.add_option("--report", command.request.report_path,
-                 "File for the report: .html: a page to print; .json: what --json prints");
+  add_file(sub, "--report", command.request.report_path,
+           "File for the report: .html: a page to print; .json: what --json prints");
   sub.add_flag("--measure-left-out", command.request.options.measure_left_out,
                "Also run the skipped stages, and report the time [s] that skipping saves");
 }

@@ -180,14 +180,19 @@ Result<void> import_file(ImportOptions options, Console console) {
 
 /// Options about the content of the drawing, and its size.
 void add_drawing_options(CLI::App* command, ImportOptions& options) {
-  command->add_option(
-      "--axis", options.axis,
-      "Axis of the pot in the drawing: left, middle, right, or its x position [mm]; default: "
-      "a separate vertical line; else the middle of a symmetric drawing; else a straight edge at "
-      "its right end, if the left end has none; else its left end");
-  command->add_option("--layer", options.layer,
-                      "The only layer of an SVG or DXF drawing to read, by its name (default: all "
-                      "that are shown)");
+  command
+      ->add_option(
+          "--axis", options.axis,
+          "Axis of the pot in the drawing: left, middle, right, or its x position [mm]; default: "
+          "a separate vertical line; else the middle of a symmetric drawing; else a straight edge "
+          "at its right end, if the left end has none; else its left end. Of a table (.csv), the "
+          "default is radius 0")
+      ->type_name("AXIS");
+  command
+      ->add_option("--layer", options.layer,
+                   "The only layer of an SVG or DXF drawing to read, by its name (default: all "
+                   "that are shown)")
+      ->type_name("NAME");
   add_length(*command, "--height", options.section.height_mm,
              "Height of the pot: scales the drawing or mesh [mm] (default: as it is)", 0.01, 1e5);
 }
@@ -214,18 +219,16 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
   CLI::App* command = app.add_subcommand(
       "import",
       "Make a pot from a drawing of its section, or from a mesh, to throw on or to print");
-  command
-      ->add_option(
-          "drawing", options->drawing,
-          "NAME.svg, NAME.dxf or NAME.csv, or - for one of them on standard input; or a mesh "
-          "of a pot"
+  add_file(*command, "drawing", options->drawing,
+           "NAME.svg, NAME.dxf or NAME.csv, or - for one of them on standard input; or a mesh "
+           "of a pot"
 #ifdef CLAYSTACK_EXPORT
-          ": " +
-              solid::format_endings(solid::FormatUse::read)
+           ": " +
+               solid::format_endings(solid::FormatUse::read)
 #endif
-              )
+               )
       ->required();
-  command->add_option("-o,--output", options->pot, "NAME.pot.json or NAME.pot.cbor")->required();
+  add_file(*command, "-o,--output", options->pot, "NAME.pot.json or NAME.pot.cbor")->required();
   add_drawing_options(command, *options);
   add_pot_options(command, options->pot_settings);
   command->footer(

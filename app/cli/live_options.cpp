@@ -48,6 +48,7 @@ void add_place_options(CLI::App& command, servo::MappingSettings& mapping) {
             mapping.flip_z = axes.find('z') != std::string::npos;
           },
           "Axes to invert, for example xz (default: none)")
+      ->type_name("AXES")
       ->check(check_flip);
 }
 
@@ -58,8 +59,9 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
       .add_option("--device", options.device,
                   "Device to throw with: auto, falcon, bridge, spacemouse, simulated, or a place "
                   "from claystack devices, such as usb:1-2 or /dev/hidraw0")
+      ->type_name("DEVICE")
       ->check(check_device_name);
-  command.add_option("--record", options.record, "File in which to record the session");
+  add_file(command, "--record", options.record, "File in which to record the session");
   command.add_option(
       "--seconds", settings.seconds,
       "Duration of the throw [s] (default: until ended; simulated: until its stroke ends)");

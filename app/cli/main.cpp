@@ -1,5 +1,6 @@
 #include "app/cli/commands.hpp"
 
+#include "app/cli/installed.hpp"
 #include "app/cli/memory_room.hpp"
 #include "app/cli/quantity.hpp"
 #include "app/cli/suggestion.hpp"
@@ -31,7 +32,7 @@ Examples:
   claystack help export
   claystack doctor
 
-Once installed: cp -r )" CLAYSTACK_DATA R"(/samples .
+Once installed: cp -r {} .
 
 Output files replace older files of the same name, but never an input; with
 --no-overwrite they replace none.
@@ -111,6 +112,7 @@ void add_shared_options(CLI::App& command, Console& console) {
                      "replaced)");
   if (name == "throw" || name == "export")
     command.add_flag("-v,--verbose", console.verbose, "Also print volumes, proofs and timings");
+  refuse_empty_values(command);
 }
 
 void add_commands(CLI::App& app, Console& console, int& exit) {
@@ -179,9 +181,10 @@ std::vector<std::string> arguments_of(int argc, char** argv) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Throw a pot on a virtual wheel, and export a file that prints.", "claystack");
+  CLI::App app("Throw pots on a virtual wheel and export files for 3D printing", "claystack");
+  app.formatter(help_format());  // of the commands, too
   app.set_version_flag("--version", version_text());
-  app.footer(kExamples);
+  app.footer(fmt::format(kExamples, installed(CLAYSTACK_INSTALLED_SAMPLES).string()));
   app.require_subcommand(1);
 
   Console console;

@@ -1,5 +1,6 @@
 #include "app/cli/manual.hpp"
 
+#include "app/cli/installed.hpp"
 #include "app/cli/option_table.hpp"
 #include "claystack/version.hpp"
 
@@ -39,14 +40,17 @@ void add_option(std::ostream& page, const CLI::Option& option) {
     if (!is_flag(option)) page << " \\fI" << roff(value_name(option)) << "\\fR";
     page << '\n';
   }
-  page << roff(option.get_description()) << '\n';
+  const std::string& description = option.get_description();
+  page << roff(description) << (description.ends_with('.') ? "\n" : ".\n");
   if (const auto choices = choices_of(option); !choices.empty())
     page << "One of: " << roff(joined(choices, ", ")) << ".\n";
   if (!option.get_default_str().empty())
     page << "Default: " << roff(option.get_default_str()) << ".\n";
+  if (!option.get_envname().empty())
+    page << "Environment variable: \\fB" << roff(option.get_envname()) << "\\fR.\n";
 }
 
-/// The footer: paragraphs, then "Examples:" and lines of commands.
+/// The footer without its exit status: paragraphs, then "Examples:" and lines of commands.
 void add_examples(std::ostream& page, const std::string& footer) {
   std::istringstream lines(footer);
   bool verbatim = false, blank = false;
@@ -63,6 +67,22 @@ void add_examples(std::ostream& page, const std::string& footer) {
     page << roff(command ? line.substr(2) : line) << '\n';
   }
   if (verbatim) page << ".fi\n";
+}
+
+constexpr std::string_view kStatus = "Exit status: ";
+
+/// What a footer states after its examples; empty if it states nothing.
+std::string exit_status(const std::string& footer) {
+  const std::size_t at = footer.find(kStatus);
+  return at == std::string::npos ? "" : footer.substr(at + kStatus.size());
+}
+
+/// The statuses of a command are in addition to those of the program.
+void add_exit_status(std::ostream& page, const CLI::App& app, const CLI::App& shown) {
+  const std::string own = exit_status(shown.get_footer());
+  page << ".SH EXIT STATUS\n" << roff(own.empty() ? exit_status(app.get_footer()) : own) << '\n';
+  if (&shown != &app && !own.empty())
+    page << ".PP\nThe other statuses are those of \\fBclaystack\\fR(1).\n";
 }
 
 std::string upper(std::string text) {
@@ -106,16 +126,14 @@ std::string manual_page(const CLI::App& app, const CLI::App* command) {
     for (const CLI::Option* option : options_of(shown, false))
       if (option->get_group() == heading) add_option(page, *option);
   }
-  add_examples(page, shown.get_footer());
+  const std::string footer = shown.get_footer();
+  add_examples(page, footer.substr(0, footer.find(kStatus)));
   if (!command) {
-    page << ".SH FILES\n.TP\n\\fI" << roff(CLAYSTACK_DATA)
-         << "/samples\\fR\nScenes, sessions, drawings and schemas: copy the folder to run the "
+    page << ".SH FILES\n.TP\n\\fI" << roff(installed(CLAYSTACK_INSTALLED_SAMPLES).string())
+         << "\\fR\nScenes, sessions, drawings and schemas: copy the folder to run the "
             "examples.\n";
-  } else {
-    page << ".SH EXIT STATUS\n0 done and sound; 1 done, but a check failed; 2 bad usage or bad "
-            "input; 3 could not read or write; 4 a device failed, or no display or OpenGL was "
-            "found.\n";
   }
+  add_exit_status(page, app, shown);
   page << ".SH SEE ALSO\n";
   std::vector<std::string> others;
   for (const CLI::App* one : commands_of(app))

@@ -8,10 +8,10 @@ namespace clay::cli {
 
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
 
-/// "TEXT" of "TEXT:{light,dark}".
 std::string value_name(const CLI::Option& option) {
   const std::string type = option.get_type_name();
-  return type.substr(0, type.find_first_of(": "));
+  if (type == "FLOAT" || type == "UINT" || type == "INT") return "NUMBER";
+  return choices_of(option).empty() ? type : "WORD";
 }
 
 /// The values that the option takes, if they are listed.

@@ -10,7 +10,7 @@
 namespace clay::cli {
 
 [[nodiscard]] bool is_flag(const CLI::Option& option);
-/// "TEXT" of "TEXT:{light,dark}".
+/// "FILE", "NUMBER", "LENGTH"; "WORD" for one of several words.
 [[nodiscard]] std::string value_name(const CLI::Option& option);
 /// The values that the option takes, if they are listed.
 [[nodiscard]] std::vector<std::string> choices_of(const CLI::Option& option);

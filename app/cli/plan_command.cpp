@@ -126,7 +126,7 @@ void add_plan_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<PlanOptions>();
   CLI::App* command = app.add_subcommand(
       "plan", "Show the stages that a scene needs, the stages it skips, and the time this saves");
-  command->add_option("scene", options->scene, "NAME.scene.json, or - for standard input")
+  add_file(*command, "scene", options->scene, "NAME.scene.json, or - for standard input")
       ->required();
 #ifdef CLAYSTACK_FALCON
   add_servo_options(*command, *options);

@@ -25,7 +25,8 @@ std::optional<render::Viewport> size_of(std::string_view text) {
 void add_size(CLI::App& sub, RenderCommand& command) {
   sub.add_option_function<std::string>(
          "--size", [&command](const std::string& text) { command.size_asked = size_of(text); },
-         "Width x height [px] (default: 1280x720 of a picture, 640x360 of a turntable)")
+         "Size [px] (default: 1280x720 of a picture, 640x360 of a turntable)")
+      ->type_name("WIDTHxHEIGHT")
       ->check([](const std::string& text) {
         return size_of(text) ? std::string()
                              : fmt::format("expected WIDTHxHEIGHT, 1x1 to {0}x{0}, found {1}",
@@ -56,8 +57,7 @@ void add_look(CLI::App& sub, render::PictureChoices& choices) {
            choices.style = name == "clay" ? render::Style::clay : render::Style::geometry;
          },
          "geometry: the exact shape of the pot; clay: with throwing lines, specks, a rounded rim "
-         "and "
-         "a bare foot below a glaze, which are not in the pot")
+         "and a bare foot below a glaze, which are not in the pot")
       ->check(one_of({"geometry", "clay"}))
       ->default_str("geometry");
   add_material(sub, choices);
@@ -89,7 +89,7 @@ void print_picture(const Console& console, const RenderCommand& command, const R
                               text_of(command.turntable_size), done.gif_bytes));
   if (done.map)
     console.print(fmt::format(
-        "walls: dark blue 0 mm to yellow {:g} mm{}; thinnest {:.3f} mm", done.map->top_mm,
+        "walls: dark violet 0 mm to yellow {:g} mm{}; thinnest {:.3f} mm", done.map->top_mm,
         done.map->limit_mm > 0.0 ? fmt::format(", hatched red below {:.3f} mm", done.map->limit_mm)
                                  : std::string(),
         *done.thinnest_mm));
@@ -147,11 +147,11 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
   auto command = std::make_shared<RenderCommand>();
   CLI::App* sub =
       app.add_subcommand("render", "Draw a pot without a screen, as a picture or a turntable");
-  sub->add_option("pot", command->pot,
-                  std::string(kPotInputs) + "; for a NAME.scene.json its lump is drawn")
+  add_file(*sub, "pot", command->pot,
+           std::string(kPotInputs) + "; for a NAME.scene.json its lump is drawn")
       ->required();
-  sub->add_option("-o,--output", command->out, "File for the picture, .png");
-  sub->add_option("--turntable", command->turntable, "File for an animation of one turn, .gif");
+  add_file(*sub, "-o,--output", command->out, "File for the picture, .png");
+  add_file(*sub, "--turntable", command->turntable, "File for an animation of one turn, .gif");
   sub->add_option("--frames", command->frames_asked, "Number of frames of the turntable")
       ->check(in_whole_range(1, render::kMostFrames))
       ->default_str(std::to_string(command->choices.frames));

@@ -76,7 +76,7 @@ Result<render::Picture> picture_of(const RenderCommand& command, const Console& 
 /// Streams the frames into `file`, which the caller commits. Returns the number of bytes.
 Result<std::uint64_t> turn(render::Offscreen& screen, const render::Picture& picture,
                            const RenderCommand& command, const Console& console, AtomicFile& file) {
-  Progress progress(console, "turning", 2 * static_cast<std::size_t>(command.choices.frames));
+  Progress progress(console, "turning", render::drawings_of_turn(command.choices.frames));
   render::PictureChoices choices = command.choices;
   choices.size = command.turntable_size;
   return render::write_turntable(

@@ -3,6 +3,7 @@
 #include "app/cli/json_output.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/cli/replay.hpp"
+#include "app/cli/usage.hpp"
 #include "app/strokes/strokes.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -68,10 +69,10 @@ void add_strokes_command(CLI::App& app, Console& console, int& exit) {
   auto options = std::make_shared<StrokesOptions>();
   CLI::App* command = app.add_subcommand(
       "strokes", "Make a session from a stroke script, with a simulated hand on the scene's wheel");
-  command->add_option("scene", options->scene, "NAME.scene.json, or - for standard input")
+  add_file(*command, "scene", options->scene, "NAME.scene.json, or - for standard input")
       ->required();
-  command->add_option("script", options->script, "NAME.strokes.json (docs/files.md)")->required();
-  command->add_option("-o,--output", options->session, "Session file to write, NAME.session")
+  add_file(*command, "script", options->script, "NAME.strokes.json (docs/files.md)")->required();
+  add_file(*command, "-o,--output", options->session, "Session file to write, NAME.session")
       ->required();
   command->footer(
       "\nExamples:\n"

@@ -26,6 +26,7 @@ void add_device_options(CLI::App& parser, StudioOptions& options) {
   parser
       .add_option("--device", options.device,
                   "Device: none (mouse only), or a device as for claystack throw (default: auto)")
+      ->type_name("DEVICE")
       ->check([](const std::string& which) {
         return which == "none" ? std::string() : check_device_name(which);
       });
@@ -48,14 +49,14 @@ void add_report_options(CLI::App& parser, StudioOptions& options) {
 
 void add_studio_options(CLI::App& parser, double smallest_scale, double largest_scale,
                         StudioOptions& options) {
-  parser.add_option(
-      "file", options.file,
-      "A scene, a pot (also a 3MF that has one), a work, or a drawing (.svg, .dxf, .csv)");
+  add_file(parser, "file", options.file,
+           "A scene, a pot (also a 3MF that has one), a work, or a drawing (.svg, .dxf, .csv)");
   add_device_options(parser, options);
-  parser.add_option("--script", options.script, "Script that drives the window without a screen");
-  parser.add_option("--screenshot", options.screenshot,
-                    "Picture of the window at the end, a .png file (without a screen)");
-  parser.add_option("--size", options.size, "Size of the window [px] (default: 1280x800)");
+  add_file(parser, "--script", options.script, "Script that drives the window without a screen");
+  add_file(parser, "--screenshot", options.screenshot,
+           "Picture of the window at the end, a .png file (without a screen)");
+  parser.add_option("--size", options.size, "Size of the window [px] (default: 1280x800)")
+      ->type_name("WIDTHxHEIGHT");
   parser.add_option("--scale", options.scale, "Scale of text and controls (default: as stored)")
       ->check(in_range(smallest_scale, largest_scale));
   parser.add_option("--theme", options.theme, "Theme: dark or light (default: as stored)")
@@ -70,9 +71,10 @@ void add_studio_options(CLI::App& parser, double smallest_scale, double largest_
 
 std::optional<int> parse(int argc, char** argv, double smallest_scale, double largest_scale,
                          StudioOptions& options) {
-  CLI::App parser("The window: throw pots with the mouse or an arm, view, save and export them.",
-                  "claystack studio");
+  CLI::App parser("Open the window: throw by mouse or with a haptic device", "claystack studio");
+  parser.formatter(help_format());
   add_studio_options(parser, smallest_scale, largest_scale, options);
+  refuse_empty_values(parser);
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -97,17 +97,16 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
 }
 
 void add_replay_options(CLI::App& command, ThrowOptions& options) {
-  command.add_option(
-      "scene", options.replay.scene,
-      "NAME.scene.json, or - for standard input; or NAME.work. Not needed with --from: "
-      "the pot remembers its tool and clay");
+  add_file(command, "scene", options.replay.scene,
+           "NAME.scene.json, or - for standard input; or NAME.work. Not needed with --from: "
+           "the pot remembers its tool and clay");
   begin_group(command, "Replay");
-  command.add_option("-s,--session", options.replay.session,
-                     "Poses to play (default: NAME.session beside the scene)");
-  command.add_option("-o,--output", options.replay.pot,
-                     "Pot to write: .pot.json, or .pot.cbor (compact)");
-  command.add_option("--from", options.replay.from,
-                     "Pot to start from, instead of the scene's lump: " + std::string(kPotInputs));
+  add_file(command, "-s,--session", options.replay.session,
+           "Poses to play (default: NAME.session beside the scene)");
+  add_file(command, "-o,--output", options.replay.pot,
+           "Pot to write: .pot.json, or .pot.cbor (compact)");
+  add_file(command, "--from", options.replay.from,
+           "Pot to start from, instead of the scene's lump: " + std::string(kPotInputs));
   command.add_option("--at", options.at, "Node of the work (default: the current one)")
       ->check(in_whole_range(0, UINT32_MAX));
   command.add_flag("--list", options.list, "List the strokes of a work, including undone ones");
@@ -115,12 +114,12 @@ void add_replay_options(CLI::App& command, ThrowOptions& options) {
       .add_option("--model", options.replay.model,
                   "Model to use instead of the scene's: conserving or paper")
       ->check(one_of({"conserving", "paper"}));
-  command.add_option(
-      "--trace", options.replay.trace,
+  add_file(
+      command, "--trace", options.replay.trace,
       "CSV file with one row per tick: time [s], volume error [% of all clay], the clay of the top "
       "ring [% of all clay] (the bound of the paper), height [mm], force [N]");
-  command.add_option("--error-plot", options.replay.error_plot,
-                     "SVG plot of the volume error over time, for both models");
+  add_file(command, "--error-plot", options.replay.error_plot,
+           "SVG plot of the volume error over time, for both models");
 }
 
 #ifdef CLAYSTACK_FALCON

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 namespace clay::cli {
@@ -68,40 +69,7 @@ std::string choice_of(const std::vector<std::string>& words) {
   return text;
 }
 
-}  // namespace
-
-ValueCheck in_range(double low, double high) {
-  return [=](const std::string& text) -> std::string {
-    const auto value = number_in<double>(text);
-    // Not (value < low): NaN must fail.
-    if (value && *value >= low && *value <= high) return {};
-    return fmt::format("expected a number from {:g} to {:g}, found {}", low, high, text);
-  };
-}
-
-ValueCheck in_whole_range(std::uint64_t low, std::uint64_t high) {
-  return [=](const std::string& text) -> std::string {
-    const auto value = number_in<std::uint64_t>(text);
-    if (value && *value >= low && *value <= high) return {};
-    return fmt::format("expected a whole number from {} to {}, found {}", low, high, text);
-  };
-}
-
-CLI::Validator one_of(const std::vector<std::string>& words) {
-  return {[words](const std::string& text) {
-            if (std::ranges::find(words, text) != words.end()) return std::string();
-            return fmt::format("expected {}, found {}{}", choice_of(words), text,
-                               suggestion(text, words));
-          },
-          fmt::format("{{{}}}", fmt::join(words, ","))};
-}
-
-Error no_effect_without(std::string_view option, std::string_view other) {
-  return {ErrorKind::bad_input,
-          fmt::format("{}: expected {} too; without it the option has no effect", option, other)};
-}
-
-std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
+std::string message_of(const CLI::App& app, const CLI::ParseError& error) {
   const std::string_view text = error.what();
   switch (static_cast<CLI::ExitCodes>(error.get_exit_code())) {
     case CLI::ExitCodes::RequiredError:
@@ -129,6 +97,68 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
     default:
       return std::string(text);
   }
+}
+
+class HelpFormat : public CLI::Formatter {
+ public:
+  HelpFormat() {
+    for (const char* number : {"FLOAT", "UINT", "INT"}) label(number, "NUMBER");
+  }
+
+  std::string make_option_opts(const CLI::Option* option) const override {
+    constexpr std::string_view kChoice = " TEXT:{";
+    std::string text = CLI::Formatter::make_option_opts(option);
+    if (text.starts_with(kChoice)) text.replace(0, kChoice.size(), " {");
+    return text;
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<CLI::Formatter> help_format() { return std::make_shared<HelpFormat>(); }
+
+ValueCheck in_range(double low, double high) {
+  return [=](const std::string& text) -> std::string {
+    const auto value = number_in<double>(text);
+    // Not (value < low): NaN must fail.
+    if (value && *value >= low && *value <= high) return {};
+    return fmt::format("expected a number from {:g} to {:g}, found {}", low, high, text);
+  };
+}
+
+ValueCheck in_whole_range(std::uint64_t low, std::uint64_t high) {
+  return [=](const std::string& text) -> std::string {
+    const auto value = number_in<std::uint64_t>(text);
+    if (value && *value >= low && *value <= high) return {};
+    return fmt::format("expected a whole number from {} to {}, found {}", low, high, text);
+  };
+}
+
+void refuse_empty_values(CLI::App& command) {
+  const ValueCheck check = [](const std::string& value) {
+    return value.empty() ? "expected a value, found nothing" : std::string();
+  };
+  for (CLI::Option* option : command.get_options())
+    if (option->get_items_expected_max() > 0) option->check(check);
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  return {[words](const std::string& text) {
+            if (std::ranges::find(words, text) != words.end()) return std::string();
+            return fmt::format("expected {}, found {}{}", choice_of(words), text,
+                               suggestion(text, words));
+          },
+          fmt::format("{{{}}}", fmt::join(words, ","))};
+}
+
+Error no_effect_without(std::string_view option, std::string_view other) {
+  return {ErrorKind::bad_input,
+          fmt::format("{}: expected {} too; without it the option has no effect", option, other)};
+}
+
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
+  const std::string message = message_of(app, error);
+  return message.ends_with("found ") ? message + "nothing" : message;  // the value is empty
 }
 
 }  // namespace clay::cli

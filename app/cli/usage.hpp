@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,24 @@ inline void begin_group(CLI::App& command, const char* heading) {
 [[nodiscard]] ValueCheck in_whole_range(std::uint64_t low, std::uint64_t high);
 /// Accepts one of these words. Help and completions list them.
 [[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);
+
+/// The name of a value that is a file, in the help. Completions offer files for it alone.
+inline constexpr const char* kFileName = "FILE";
+
+/// Adds an option, or an argument without dashes, whose value is a file.
+template <class Value>
+CLI::Option* add_file(CLI::App& command, const std::string& name, Value& value,
+                      const std::string& help) {
+  return command.add_option(name, value, help)->type_name(kFileName);
+}
+
+/// Refuses empty values, such as that of an unset variable in a script, which the parser would take
+/// for the number 0. Call it when the command has all its options.
+void refuse_empty_values(CLI::App& command);
+
+/// The layout of `--help`: "NUMBER" for numbers of every kind, and the words of a choice without
+/// their type.
+[[nodiscard]] std::shared_ptr<CLI::Formatter> help_format();
 
 /// The error for an option that has no effect without another one.
 [[nodiscard]] Error no_effect_without(std::string_view option, std::string_view other);

@@ -11,10 +11,12 @@ void WallOptions::add_to(CLI::App& command) {
   add_length(command, "--min-wall", min_wall_mm_,
              "Minimum wall [mm]; with --process the larger of both applies (default: no limit)",
              solid::kMinWallRange.lowest, solid::kMinWallRange.highest);
-  command.add_option(
-      "--process", process_,
-      "Process whose limits apply to the minimum wall, the overhang and the size: fdm, sla, "
-      "earthenware, stoneware, porcelain, or a .json file with custom limits (default: none)");
+  command
+      .add_option(
+          "--process", process_,
+          "Process whose limits apply to the minimum wall, the overhang and the size: fdm, sla, "
+          "earthenware, stoneware, porcelain, or a .json file with custom limits (default: none)")
+      ->type_name("PROCESS");
 }
 
 Result<void> WallOptions::load() {

@@ -27,7 +27,9 @@ unsigned mods_of(int glfw) {
 std::string problem() {
   const char* text = nullptr;
   glfwGetError(&text);
-  return text != nullptr ? text : "no reason given";
+  std::string reason = text != nullptr ? text : "no reason given";
+  reason.erase(reason.find_last_not_of(' ') + 1);  // the name of the display may be empty
+  return reason;
 }
 
 }  // namespace

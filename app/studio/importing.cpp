@@ -25,7 +25,8 @@ bool is_drawing(const std::filesystem::path& path) {
 Result<Imported> import_drawing(const std::string& bytes, const std::string& name,
                                 const ImportSettings& settings) {
   constexpr std::array kRules = {importing::AxisRule::by_itself, importing::AxisRule::left,
-                                 importing::AxisRule::middle, importing::AxisRule::at};
+                                 importing::AxisRule::middle, importing::AxisRule::right,
+                                 importing::AxisRule::at};
   const auto asked = [](double mm) { return mm > 0.0 ? std::optional(mm) : std::nullopt; };
   const importing::HalfSectionSettings how{kRules[static_cast<std::size_t>(settings.axis)],
                                            settings.axis_mm, asked(settings.height_mm)};

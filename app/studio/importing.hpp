@@ -16,7 +16,7 @@ namespace clay::studio {
 /// drawings.
 [[nodiscard]] bool is_drawing(const std::filesystem::path& path);
 
-enum class ImportAxis { by_itself, left, middle, at };
+enum class ImportAxis { by_itself, left, middle, right, at };
 
 /// The options of `claystack import`; 0: not set.
 struct ImportSettings {

@@ -1,7 +1,7 @@
 # Homebrew formula. Not tested: it needs macOS or Linuxbrew. The program itself is written for
 # Linux (O_TMPFILE, /proc, EGL, SCHED_FIFO); on macOS only the engine is expected to build.
 class Claystack < Formula
-  desc "Throw a pot on a virtual wheel, and export a file that prints"
+  desc "Throw pots on a virtual wheel and export files for 3D printing"
   # No homepage, and the clone that holds this file instead of an archive: there is no release yet.
   head "file://#{File.expand_path("../..", __dir__)}", using: :git, branch: "main"
   license "GPL-3.0-or-later"

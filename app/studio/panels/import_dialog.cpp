@@ -17,7 +17,7 @@ constexpr double kFarthestAxisMm = 1000.0;
 
 ImportSettings draw_choices(const ImportDialog& dialog, const ViewModel& model) {
   ImportSettings settings = dialog.settings;
-  constexpr std::array kTitles = {"Automatic", "Left end", "Middle", "At"};
+  constexpr std::array kTitles = {"Automatic", "Left end", "Middle", "Right end", "At"};
   form_row("Axis");
   if (const int chosen = choice_row("##axis", kTitles, static_cast<int>(settings.axis));
       chosen >= 0) {

@@ -116,7 +116,7 @@ void mark_thinnest(const ViewModel& model, const PotCheck& check, ImDrawList* dr
   const auto at = pixel_on_pot(model, middle);
   if (!at || !model.scene.rect().holds(*at)) return;
   const ImVec4 colour =
-      check.thin() ? model.colours().warning : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+      check.thin() ? model.colours().fault : ImGui::GetStyleColorVec4(ImGuiCol_Text);
   draw_ring(draw, *at, 0.6f * em, colour, 0.15f * em);
   shaded_text(draw, {at->x + em, at->y - 0.5f * em},
               thickness_text(check.thinnest_mm, model.settings.unit), colour);

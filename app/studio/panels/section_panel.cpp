@@ -183,11 +183,11 @@ void draw_faults(const PlotArea& area, const Sheet& sheet, const PotCheck& check
   for (const Stretch& thin : thin_stretches(check))
     draw->AddRectFilled({area.high.x - 0.4f * em, sheet.at(0.0, thin.to_mm).y},
                         {area.high.x - 0.15f * em, sheet.at(0.0, thin.from_mm).y},
-                        ImGui::GetColorU32(colours.warning));
+                        ImGui::GetColorU32(colours.fault));
   const ImVec2 from = sheet.at(std::abs(check.thinnest_from.x), check.thinnest_from.y);
   const ImVec2 to = sheet.at(std::abs(check.thinnest_to.x), check.thinnest_to.y);
   const ImU32 ink =
-      ImGui::GetColorU32(check.thin() ? colours.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text));
+      ImGui::GetColorU32(check.thin() ? colours.fault : ImGui::GetStyleColorVec4(ImGuiCol_Text));
   draw->AddLine(from, to, ink, 0.12f * em);
   for (const ImVec2& end : {from, to}) draw->AddCircleFilled(end, 0.18f * em, ink);
 }

@@ -4,6 +4,7 @@
 #include "tests/support/schema_check.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <sstream>
 
@@ -46,6 +47,14 @@ TEST(Doctor, NamesWhatIsMissingAndTheFix) {
   EXPECT_TRUE(finding(look("HOME=" + folder.path().string()), "home folder").at("good"));
   const nlohmann::json no_folder = finding(look("HOME=/proc XDG_STATE_HOME="), "home folder");
   EXPECT_EQ(no_folder.at("found"), "/proc/.local/state/claystack");
+  // A file is no home, and nothing outside of the home folder gets another owner.
+  EXPECT_EQ(finding(look("HOME=/dev/null XDG_STATE_HOME="), "home folder").at("fix"),
+            "export HOME=/path/to/a/folder");
+  // Only root may write into /, the nearest folder that exists.
+  if (::geteuid() != 0) {
+    EXPECT_EQ(finding(look("HOME=/nonexistent XDG_STATE_HOME="), "home folder").at("fix"),
+              "export HOME=/path/to/a/folder");
+  }
 #ifdef CLAYSTACK_STUDIO
   write_text(folder.file("zenity"), "#!/bin/sh\n");
   std::filesystem::permissions(folder.file("zenity"), std::filesystem::perms::owner_all);
@@ -72,6 +81,18 @@ TEST(Doctor, NamesTheRuleBesideTheProgram) {
       EXPECT_NE(one.at("fix").get<std::string>().find("sudo cp " + rule + " "), std::string::npos)
           << one;
     }
+}
+
+/// An installed program names the samples beside itself, wherever the folder was moved to.
+TEST(Manual, NamesTheSamplesBesideTheProgram) {
+  const ScratchFolder folder;
+  namespace fs = std::filesystem;
+  fs::create_directories(folder.path() / "bin");
+  fs::create_directories(folder.path() / "share/claystack/samples");
+  fs::copy_file(CLAYSTACK_PROGRAM, folder.path() / "bin/claystack");
+  const std::string program = folder.file("bin/claystack");
+  const std::string samples = folder.file("share/claystack/samples");
+  EXPECT_NE(shell(program + " --help").out.find("cp -r " + samples + " ."), std::string::npos);
 }
 
 TEST(Manual, ShowsEveryOptionThatHelpLists) {
@@ -112,8 +133,31 @@ TEST(Manual, CompletesInBash) {
   // Words, and names of files beside them.
   EXPECT_EQ(complete("claystack export a --process po"), "porcelain\n");
   EXPECT_EQ(complete("claystack export a --process " + folder.file("")), folder.file("c") + "\n");
+  // A name with a blank is one word. Files are offered for files alone.
+  write_text(folder.file("d e"), "");
+  EXPECT_EQ(complete("claystack check " + folder.file("d")), folder.file("d e") + "\n");
+  EXPECT_EQ(complete("claystack check a --certificate " + folder.file("d")),
+            folder.file("d e") + "\n");
+  EXPECT_EQ(complete("claystack check a --min-wall " + folder.file("")), "\n");
+  EXPECT_EQ(complete("claystack doctor " + folder.file("")), "\n");
+  // Bash takes --smooth=e for three words.
+  EXPECT_EQ(complete("claystack export a --smooth = e"), "exact\n");
+  EXPECT_EQ(complete("claystack export a --smooth ="), "fair exact none\n");
   const bool devices = claystack("throw --help").out.find("--device") != std::string::npos;
   EXPECT_EQ(complete("claystack throw a --device sim"), devices ? "simulated\n" : "\n");
+}
+
+/// The statuses of a command appear once, and not as an example.
+TEST(Manual, StatesTheExitStatusOfTheCommand) {
+  const auto page = [](const char* name) { return claystack("manual " + std::string(name)).out; };
+  EXPECT_NE(page("export").find(".SH EXIT STATUS\n0 done and sound; 1 done, but "),
+            std::string::npos);
+  const std::string doctor = page("doctor");
+  EXPECT_NE(doctor.find(".SH EXIT STATUS\n0 nothing is missing; 1 something is.\n.PP\n"),
+            std::string::npos)
+      << doctor;
+  EXPECT_EQ(doctor.find("Exit status"), std::string::npos) << doctor;
+  EXPECT_EQ(doctor.find("done and sound"), std::string::npos) << doctor;
 }
 
 /// The words that shells offer are those of the help.
@@ -124,8 +168,8 @@ TEST(Manual, CompletesTheProcessesInEveryShell) {
   for (const auto& [shell, line] :
        {std::pair("bash", "export:--process) words='" + words + "' files=1"),
         std::pair("zsh", "_alternative 'words:word:(" + words + ")' 'files:file:_files'"),
-        std::pair("zsh", std::string(":TEXT:_claystack_process'")),
-        std::pair("fish", " -l process -r -a '" + words + "'"),
+        std::pair("zsh", std::string(":PROCESS:_claystack_process'")),
+        std::pair("fish", " -l process -r -F -a '" + words + "'"),
         std::pair("fish", std::string("'__fish_seen_subcommand_from help' -a"))}) {
     const std::string script = claystack("manual " + std::string(shell)).out;
     EXPECT_NE(script.find(line), std::string::npos) << shell << ": " << line;

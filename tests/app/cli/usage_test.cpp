@@ -113,6 +113,12 @@ TEST(Usage, ErrorsNameTheOptionTheExpectedAndTheFound) {
       {"export a b --glaze-allowance 1.1cm",
        "--glaze-allowance: expected 0 or a length from 0.001 to 10 mm (mm, cm, in), found 1.1cm\n"},
       {"export a b --foot 60mmx6ftx4mm", "such as 60x6x4 or 6mmx4mm, found 60mmx6ftx4mm\n"},
+      {"export a b --tolerance ''", "(mm, cm, in), found nothing\n"},
+      {"export a b --smooth ''", "--smooth: expected fair, exact or none, found nothing\n"},
+      {"throw a --device simulated --damping ''", "--damping: expected a value, found nothing\n"},
+      {"throw a --device simulated --seconds ''", "--seconds: expected a value, found nothing\n"},
+      {"export '' b.stl", "pot: expected a value, found nothing\n"},
+      {"export a.pot.json b.stl --report ''", "--report: expected a value, found nothing\n"},
       {"throw a --at one", "--at: expected a whole number from 0 to 4294967295, found one"},
       {"throw a b", "unexpected argument b\n"},
       {"check a --jsn", "unknown option --jsn; did you mean --json?\n"},
@@ -170,6 +176,20 @@ TEST(Usage, EveryLengthMayHaveAUnit) {
   }
 }
 
+TEST(Usage, HelpNamesTheKindOfEveryValue) {
+  const std::string help = claystack("export --help").out;
+  for (const char* line :
+       {"pot FILE REQUIRED", "out FILE ...", "--report FILE", "--segments NUMBER",
+        "--shrinkage PERCENT", "--holds VOLUME", "--weighs WEIGHT",
+        "--smooth {fair,exact,none}=fair", "--process PROCESS"})
+    EXPECT_NE(help.find(line), std::string::npos) << line << "\n" << help;
+  for (const char* command : {"throw", "export", "check", "plan", "strokes", "doctor"}) {
+    const std::string text = claystack(std::string(command) + " --help").out;
+    for (const char* type : {"TEXT", "FLOAT", "UINT", " INT"})
+      EXPECT_EQ(text.find(type), std::string::npos) << command << ": " << type << "\n" << text;
+  }
+}
+
 TEST(Usage, HelpSaysWhatALengthLooksLike) {
   for (const char* command : {"export", "check", "import", "render", "throw"})
     EXPECT_NE(claystack(std::string(command) + " --help")
@@ -186,6 +206,13 @@ TEST(Usage, ReportsAMissingFileEvenWithoutADisplay) {
                          " " CLAYSTACK_PROGRAM " studio " + file);
   EXPECT_EQ(run.status, 3);
   EXPECT_EQ(run.err, "claystack: " + file + ": cannot open: No such file or directory\n");
+}
+
+TEST(Usage, ReportsAnEmptyDisplayWithoutAStrayBlank) {
+  const auto run =
+      shell("env DISPLAY= WAYLAND_DISPLAY= XDG_RUNTIME_DIR= " CLAYSTACK_PROGRAM " studio");
+  EXPECT_EQ(run.status, 4);
+  EXPECT_EQ(run.err.find(" ;"), std::string::npos) << run.err;
 }
 #endif
 

@@ -36,6 +36,7 @@ TEST(WrongKind, IsNamedInTheMessage) {
        ": expected a scene (.scene.json), found a stroke script"},
       {"import " + pot + " -o " + folder.file("y.pot.json"),
        pot + ": expected a drawing (.svg, .dxf, .csv) or a mesh, found a pot"},
+      {"batch " + scene, scene + ": expected jobs (.jsonl), found a scene"},
       {"check " + session, "the file is a session"}};
   for (const Case& c : cases) {
     const Ran run = claystack(c.arguments);

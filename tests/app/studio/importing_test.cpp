@@ -24,6 +24,9 @@ TEST(Importing, MatchesTheCommand) {
       {"jug.svg", "", {}},
       {"jug.svg", "--height 120", {.height_mm = 120.0}},
       {"jug.svg", "--axis left --wall 5", {.axis = ImportAxis::left, .wall_mm = 5.0}},
+      {"jug.svg", "--axis middle", {.axis = ImportAxis::middle}},
+      {"jug.svg", "--axis right", {.axis = ImportAxis::right}},
+      {"tumbler.csv", "--axis 5", {.axis = ImportAxis::at, .axis_mm = 5.0}},
   };
   for (const auto& [file, options, settings] : cases) {
     const std::string path = test::sample(std::string("drawings/") + file);
