@@ -6,6 +6,7 @@
 #include "app/cli/live_stage.hpp"
 #include "app/cli/rescue.hpp"
 #include "app/servo/scene_hand.hpp"
+#include "app/servo/servo_check.hpp"
 #include "app/servo/signals.hpp"
 #include "app/servo/tick_trace.hpp"
 #include "app/servo/words.hpp"
