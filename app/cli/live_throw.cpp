@@ -5,7 +5,6 @@
 #include "app/cli/live_report.hpp"
 #include "app/cli/live_stage.hpp"
 #include "app/cli/rescue.hpp"
-#include "app/servo/scene_hand.hpp"
 #include "app/servo/servo_check.hpp"
 #include "app/servo/signals.hpp"
 #include "app/servo/tick_trace.hpp"

@@ -32,15 +32,16 @@ bool candidates(const Tool& tool, const ClayStack& stack, double hip_y, Contact&
 
 /// The ring whose walls the tool stands between: the one at its centre. With `hand`, the way to the
 /// hand (+1 up), a centre in solid clay belongs to the bore through which the tool came: the first
-/// one on this way, at most the height of the tool away.
-const Ring& ring_about(const Tool& tool, const ClayStack& stack, double hip_y, int hand) noexcept {
+/// one on this way, at most the height of the tool away. A centre beside a solid ring is outside.
+const Ring& ring_about(const Tool& tool, const ClayStack& stack, double hip_y, double axis_distance,
+                       int hand) noexcept {
   const auto rings = stack.rings();
   const double last = static_cast<double>(rings.size() - 1), h = stack.ring_height_mm();
   const auto ring_at = [=](double up) {
     return static_cast<std::size_t>(std::clamp(std::floor(up / h), 0.0, last));
   };
   const std::size_t at = ring_at(hip_y);
-  if (hand == 0 || rings[at].inner2 > 0) return rings[at];
+  if (hand == 0 || rings[at].inner2 > 0 || axis_distance >= rings[at].outer_mm()) return rings[at];
   const std::size_t end = ring_at(hip_y + static_cast<double>(hand) * (tool.high() - tool.low()));
   for (std::size_t i = at; i != end;) {
     i = hand > 0 ? i + 1 : i - 1;
@@ -267,7 +268,7 @@ void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hi
   contact.axis_distance_mm = d;
   contact.radial_x = d > 0.0 ? hip_mm.x / d : 0.0;
   contact.radial_z = d > 0.0 ? hip_mm.z / d : 0.0;
-  contact.side = side_at(ring_about(tool, stack, hip_mm.y, hand), d);
+  contact.side = side_at(ring_about(tool, stack, hip_mm.y, d, hand), d);
   const double x = hip_mm.x - moved_mm.x, z = hip_mm.z - moved_mm.z;
   const double way = std::sqrt(x * x + z * z) - d;
   contact.approach_mm = contact.side == Side::compressive ? way : -way;

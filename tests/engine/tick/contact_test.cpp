@@ -114,6 +114,27 @@ TEST(Contact, ACentreAboveAHollowFootIsOnItsSideForAHandBelow) {
   EXPECT_EQ(side(24.1, -1), Side::compressive);  // farther
 }
 
+/// A plate of 80 mm radius on a foot of 30 mm radius and 11 mm height. The tool is in the air
+/// beside the foot, below the plate, whose bore begins 2 mm higher.
+TEST(Contact, ACentreBesideAFootIsOutside) {
+  std::vector<Ring> rings(11, {quanta_from_radius(30.0), 0});
+  rings.resize(13, {quanta_from_radius(80.0), 0});
+  rings.resize(50, {quanta_from_radius(80.0), quanta_from_radius(70.0)});
+  const ClayStack stack = ClayStack::from_rings(1.0, rings, 0).value();
+  const Tool tool = Tool::build(SphereSpec{5.0}).value();
+  Contact contact;
+  contact.rings.reserve(most_contacts(tool, 1.0, stack.size()));
+  for (const double x : {36.0, 50.0, 69.0}) {
+    find_contact(tool, stack, {x, 5.5, 0.0}, contact, glm::dvec3(0.0), 1);
+    EXPECT_TRUE(contact.rings.empty()) << x;
+  }
+  find_contact(tool, stack, {34.0, 5.5, 0.0}, contact, glm::dvec3(0.0), 1);
+  EXPECT_EQ(contact.side, Side::compressive);
+  EXPECT_FALSE(contact.rings.empty());
+  find_contact(tool, stack, {29.0, 5.5, 0.0}, contact, glm::dvec3(0.0), 1);
+  EXPECT_EQ(contact.side, Side::expansive);
+}
+
 TEST_F(ContactOnCylinder, CandidatesFollowEquationsOneAndTwo) {
   // (1): ceil((50.2 + 10) / 1) = 61st ring, (2): floor((50.2 - 10) / 1) = 40th ring.
   Contact contact;
