@@ -58,7 +58,7 @@ void BareWheel::press(const ToolState& tool, StepReport& report) noexcept {
 }
 
 double bare_stroke_s(const SceneSpec& scene, double depth_mm) {
-  const auto poses = cli::stroke_poses(scene, depth_mm);
+  const auto poses = stroke_poses(scene, depth_mm);
   BareWheel wheel(scene);
   return work_seconds_of([&] {
     for (const Pose& pose : poses) wheel.step(pose);

@@ -34,8 +34,7 @@ SceneSpec scene_without(const std::string& stage) {
 }
 
 Work stroke(const SceneSpec& scene, double depth_mm) {
-  return {"stroke",
-          [scene, depth_mm] { return 1e-9 * cli::kStrokeTicks * cli::stroke_ns(scene, depth_mm); }};
+  return {"stroke", [scene, depth_mm] { return 1e-9 * kStrokeTicks * stroke_ns(scene, depth_mm); }};
 }
 
 Work by_hand(double depth_mm) {
@@ -49,7 +48,7 @@ Duel pinch_at_work(const Rounds& rounds) {
   SceneSpec pinched = wall;
   pinched.tool.mode = ToolMode::pinch;
   pinched.tool.gap_mm = 10.0;
-  return duel(stroke(wall, cli::kFirmMm), stroke(pinched, cli::kFirmMm), rounds);
+  return duel(stroke(wall, kFirmMm), stroke(pinched, kFirmMm), rounds);
 }
 
 /// A ratio less twice the standard error of its median, so that the noise of a busy machine does
@@ -59,7 +58,7 @@ double least_ratio(const Spread& ratio, const Rounds& rounds) {
 }
 
 std::vector<Cell> row_of(const std::string& stage, const std::string& where, const Duel& duel) {
-  const double ns = 1e9 / cli::kStrokeTicks;
+  const double ns = 1e9 / kStrokeTicks;
   return {stage,
           where,
           ns * duel.a.median,
@@ -88,10 +87,10 @@ Table empty_table() {
 void measure_tick_stages(Section& section, const Effort& effort) {
   Rounds rounds = rounds_of(effort);
   rounds.count = 2 * rounds.count + 1;
-  const Work out = stroke(bare_scene(), cli::kFirmMm);
+  const Work out = stroke(bare_scene(), kFirmMm);
   Table table = empty_table();
   effort.progress("noise");
-  const Duel noise = duel(out, out, rounds), bare = duel(by_hand(cli::kFirmMm), out, rounds);
+  const Duel noise = duel(out, out, rounds), bare = duel(by_hand(kFirmMm), out, rounds);
   table.rows = {row_of("none: the same scene twice", "in contact", noise),
                 row_of("none: by hand, then the engine", "in contact", bare),
                 row_of("none: by hand, then the engine", "in the air",
@@ -99,8 +98,8 @@ void measure_tick_stages(Section& section, const Effort& effort) {
   for (const std::string stage : {"inner surface", "force", "friction", "stability", "pinch"}) {
     effort.progress(stage);
     const SceneSpec without = scene_without(stage);
-    const SceneSpec with = cli::with_stage(without, stage).value();
-    for (const double depth : {cli::kFirmMm, kInTheAirMm})
+    const SceneSpec with = with_stage(without, stage).value();
+    for (const double depth : {kFirmMm, kInTheAirMm})
       table.rows.push_back(row_of(stage == "pinch" ? "pinch allowed, one hand" : stage,
                                   depth > 0.0 ? "in contact" : "in the air",
                                   duel(stroke(without, depth), stroke(with, depth), rounds)));

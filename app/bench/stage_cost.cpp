@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace clay::cli {
+namespace clay::bench {
 namespace {
 
 constexpr int kRounds = 9;  // odd, so that the median is a sample
@@ -134,4 +134,4 @@ std::optional<StageCost> cost_of(const SceneSpec& scene, std::string_view stage)
   return StageCost{median(in), median(out)};
 }
 
-}  // namespace clay::cli
+}  // namespace clay::bench

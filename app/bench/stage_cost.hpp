@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clay::cli {
+namespace clay::bench {
 
 /// The scene with the stage included; empty for stages that no setting includes.
 std::optional<SceneSpec> with_stage(SceneSpec scene, std::string_view stage);
@@ -54,4 +54,4 @@ struct StageCost {
 /// and without a timed stroke.
 std::optional<StageCost> cost_of(const SceneSpec& scene, std::string_view stage);
 
-}  // namespace clay::cli
+}  // namespace clay::bench

@@ -1,7 +1,7 @@
 #pragma once
 #include <ctime>
 
-namespace clay::cli {
+namespace clay::bench {
 
 /// CPU time [s] of this thread so far. It does not advance while other threads run, so an
 /// interrupted tick is no slower. A call takes 0.1 us, in some virtual machines 0.5 us: time many
@@ -12,4 +12,4 @@ inline double thread_seconds() noexcept {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-}  // namespace clay::cli
+}  // namespace clay::bench

@@ -43,9 +43,9 @@ struct Duel {
 /// CPU time [s] of a call in this thread, without waiting for other programs.
 template <class Call>
 double work_seconds_of(Call&& call) {
-  const double begin = cli::thread_seconds();
+  const double begin = thread_seconds();
   call();
-  return cli::thread_seconds() - begin;
+  return thread_seconds() - begin;
 }
 
 /// Wall-clock time [s]: for calls of a few ticks, and for work on several threads.

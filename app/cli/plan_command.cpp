@@ -20,13 +20,13 @@ namespace {
 // Below 3 %, the clock's noise exceeds the cost of the stage.
 constexpr double kMeasurable = 1.03;
 
-Json line_json(const PlanLine& line, const StageCost* saved) {
+Json line_json(const PlanLine& line, const bench::StageCost* saved) {
   Json json = {{"stage", line.stage}, {"in", line.in}, {"why", line.why}};
   if (saved) json["saved_ns"] = saved->with_ns - saved->without_ns;
   return json;
 }
 
-std::string line_text(const PlanLine& line, const StageCost* saved) {
+std::string line_text(const PlanLine& line, const bench::StageCost* saved) {
   std::string text =
       fmt::format("{:<9}{:<15}{}", line.in ? "used" : "skipped", line.stage, line.why);
   if (saved && saved->with_ns > kMeasurable * saved->without_ns)
@@ -104,15 +104,15 @@ Result<void> plan_scene(const PlanOptions& options, const Console& console) {
   Json json = {{"scene", scene->name}, {"in", Json::array()}, {"left_out", Json::array()}};
   for (const PlanLine& line : wheel->plan().lines) {
     progress.stage(line.stage);
-    const auto cost = line.in ? std::nullopt : cost_of(*scene, line.stage);
-    const StageCost* saved = cost ? &*cost : nullptr;
+    const auto cost = line.in ? std::nullopt : bench::cost_of(*scene, line.stage);
+    const bench::StageCost* saved = cost ? &*cost : nullptr;
     json[line.in ? "in" : "left_out"].push_back(line_json(line, saved));
     console.print(line_text(line, saved));
   }
-  if (!timed_stroke(*scene, kFirmMm))
+  if (!bench::timed_stroke(*scene, bench::kFirmMm))
     console.print(
         fmt::format("times not measured: a tick may reach {:.0f} rings, expected at most {}",
-                    rings_in_reach(*scene), kMostRingsInReach));
+                    bench::rings_in_reach(*scene), bench::kMostRingsInReach));
 #ifdef CLAYSTACK_FALCON
   if (contact) print_contact(console, *contact, *options.rate_hz, json);
 #endif

@@ -23,7 +23,7 @@ TEST(BareTick, MatchesTheEnginesStackAndReportBitForBit) {
     scene.lump.inner_radius_mm = inner_mm;
     Wheel wheel = Wheel::build(scene).value();
     bench::BareWheel bare(scene);
-    for (const Pose& pose : cli::stroke_poses(scene, cli::kFirmMm)) {
+    for (const Pose& pose : bench::stroke_poses(scene, bench::kFirmMm)) {
       const StepReport report = wheel.step(pose), bare_report = bare.step(pose);
       ASSERT_EQ(report.flags, bare_report.flags);
       ASSERT_EQ(report.rings_touched, bare_report.rings_touched);
@@ -39,14 +39,14 @@ TEST(StageCost, EnablesTheNamedStage) {
   const unsigned none = StepPlan::build(bare)->stages;
   EXPECT_EQ(none, 0u);
   const auto stages = [&](const char* stage) {
-    return StepPlan::build(cli::with_stage(bare, stage).value())->stages;
+    return StepPlan::build(bench::with_stage(bare, stage).value())->stages;
   };
   EXPECT_EQ(stages("force"), kForce);
   EXPECT_EQ(stages("friction"), kForce | kFriction);
   EXPECT_EQ(stages("stability"), kStability);
   EXPECT_EQ(stages("pinch"), kPinch);
   const auto rules = [&](const char* rule) {
-    return StepPlan::build(cli::with_stage(bare, rule).value())->clay.rules;
+    return StepPlan::build(bench::with_stage(bare, rule).value())->clay.rules;
   };
   EXPECT_EQ(rules("lift"), kLift);
   EXPECT_EQ(rules("shift"), kShift);
@@ -54,8 +54,8 @@ TEST(StageCost, EnablesTheNamedStage) {
   EXPECT_EQ(rules("hoop"), kShift | kHoop);
   EXPECT_EQ(rules("heave"), kHeave);
   EXPECT_EQ(rules("smear"), kSmear);
-  EXPECT_GT(cli::with_stage(bare, "inner surface")->lump.inner_radius_mm, 0.0);
-  EXPECT_FALSE(cli::with_stage(bare, "contact"));
+  EXPECT_GT(bench::with_stage(bare, "inner surface")->lump.inner_radius_mm, 0.0);
+  EXPECT_FALSE(bench::with_stage(bare, "contact"));
 }
 
 /// Counts rings, not seconds: the cost of a stroke is the number of rings its ticks reach.
@@ -66,11 +66,11 @@ TEST(StageCost, TimesAShortStrokeForAnyRingHeight) {
     SceneSpec scene;
     scene.lump.rings = rings;
     scene.lump.ring_height_mm = ring_height_mm;
-    const auto timed = cli::timed_stroke(scene, cli::kFirmMm);
+    const auto timed = bench::timed_stroke(scene, bench::kFirmMm);
     ASSERT_TRUE(timed) << rings;
-    EXPECT_LE(timed->scene.lump.rings, 2 * cli::kMostRingsInReach);
+    EXPECT_LE(timed->scene.lump.rings, 2 * bench::kMostRingsInReach);
     if (rings == 200) {
-      EXPECT_EQ(timed->poses, cli::stroke_poses(scene, cli::kFirmMm));
+      EXPECT_EQ(timed->poses, bench::stroke_poses(scene, bench::kFirmMm));
       EXPECT_EQ(timed->scene, scene);
     }
     Wheel wheel = Wheel::build(timed->scene).value();
@@ -79,9 +79,9 @@ TEST(StageCost, TimesAShortStrokeForAnyRingHeight) {
       const StepReport report = wheel.step(pose);
       touched += report.rings_touched;
       in_contact += report.rings_touched > 0;
-      EXPECT_LE(report.rings_touched, cli::rings_in_reach(scene));
+      EXPECT_LE(report.rings_touched, bench::rings_in_reach(scene));
     }
-    EXPECT_LE(touched, cli::kMostRingVisits) << rings;
+    EXPECT_LE(touched, bench::kMostRingVisits) << rings;
     EXPECT_GE(in_contact, timed->poses.size() * 9 / 10) << rings;
   }
 }
@@ -91,8 +91,8 @@ TEST(StageCost, RefusesStrokesThatReachTooManyRings) {
   scene.lump.rings = std::size_t{1} << 20;
   scene.lump.ring_height_mm = 0.001;
   scene.flow.reach_mm = 100.0;
-  EXPECT_FALSE(cli::timed_stroke(scene, cli::kFirmMm));
-  EXPECT_FALSE(cli::cost_of(scene, "stability"));
+  EXPECT_FALSE(bench::timed_stroke(scene, bench::kFirmMm));
+  EXPECT_FALSE(bench::cost_of(scene, "stability"));
 }
 
 TEST(Presser, TouchesTheStatedNumberOfRings) {
