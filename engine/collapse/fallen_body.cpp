@@ -41,12 +41,12 @@ void FallenBody::measure(const ClayStack& stack, std::size_t first) {
   double volume = 0.0, moment = 0.0, second = 0.0;
   // Heights are relative to the first ring's foot, so that thin parts high up lose no digits.
   const double foot = top_of(stack, first) - stack.ring_height_mm();
-  const auto add = [&](double squanta, const Ring& ring, double bottom, double height) {
+  const auto add = [&](double quanta, const Ring& ring, double bottom, double height) {
     const double middle = bottom - foot + 0.5 * height;
     const double across = 0.25 * (mm2_from_quanta(ring.outer2) + mm2_from_quanta(ring.inner2));
-    volume += squanta;
-    moment += squanta * middle;
-    second += squanta * (across + middle * middle + height * height / 12.0);
+    volume += quanta;
+    moment += quanta * middle;
+    second += quanta * (across + middle * middle + height * height / 12.0);
   };
   const double h = stack.ring_height_mm();
   for (std::size_t i = first; i < stack.size(); ++i) {

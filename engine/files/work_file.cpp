@@ -39,7 +39,8 @@ std::string choices(const WorkRecord& work) {
   visits.from_leaves(work.nodes, [&](std::size_t node, std::size_t taken) {
     const std::size_t wanted = work.nodes[node].taken;
     if (wanted == 0 || taken == wanted) return false;
-    lines += work_at_line(at = wanted);
+    at = wanted;
+    lines += work_at_line(at);
     return true;
   });
   return at == work.at ? lines : lines + work_at_line(work.at);

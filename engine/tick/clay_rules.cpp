@@ -16,8 +16,8 @@
 namespace clay {
 namespace {
 
-constexpr double kMemoryS =
-    0.05;  // of a motion: longer than a device's steps, shorter than a hand's
+// Of a motion: longer than a device's steps, shorter than a hand's.
+constexpr double kMemoryS = 0.05;
 
 template <unsigned rules>
 constexpr bool kOneToolBand = (rules & (kShift | kHeave | kSmear)) != 0;

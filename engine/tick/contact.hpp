@@ -62,7 +62,8 @@ struct Contact {
 /// `paper` takes (2) as printed, which is a ring more than the tool reaches; `conserving` ends the
 /// range with the rings that the tool's ends lie in.
 /// `hand`, of the clay rules: the way from the tool to the hand, 1 up or -1 down. A centre in solid
-/// clay, such as the floor below a bore, is then on the side of the bore on this way.
+/// clay, such as the floor below a bore, is then on the side of the bore on this way. A centre
+/// beside the solid clay is outside.
 template <Model model = Model::conserving>
 void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm,
                   Contact& contact, const glm::dvec3& moved_mm = glm::dvec3(0.0),

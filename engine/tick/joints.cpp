@@ -68,12 +68,15 @@ bool reshape(const ClayStack& stack, std::size_t i, const Ring& shape,
   return true;
 }
 
-/// Whether a tool is deeper in ring i once that has the shape.
+/// Whether a tool is deeper in ring i once that has the shape. At an end of the tool: in the part
+/// that the tool covers.
 bool enters(const Hands& hands, double h, std::size_t i, const Ring& ring,
             const Ring& shape) noexcept {
-  const double t = (static_cast<double>(i) + 0.5) * h - hands.hip_y;
-  if (!(t >= hands.tool.low() && t <= hands.tool.high())) return false;
-  const double f = hands.tool.radius(t);
+  const double bottom = static_cast<double>(i) * h - hands.hip_y;
+  const double from = std::max(bottom, hands.tool.low());
+  const double to = std::min(bottom + h, hands.tool.high());
+  if (!(from < to)) return false;
+  const double f = hands.tool.radius(0.5 * (from + to));
   return std::ranges::any_of(hands.removals, [&](const ToolRemoval& removal) {
     const double before = depth_of(ring, f, removal.contact);
     return depth_of(shape, f, removal.contact) > std::max(before, 0.0);

@@ -80,7 +80,8 @@ void yield(WheelState& s, const ToolState& tool, std::span<ToolRemoval> removals
       measure_front(s.plan, s.stack, tool.hip_mm.y, tool.dt_s, removal.contact);
 }
 
-/// Whether the stack still stands after a flow; the flags of both.
+/// Checks whether the stack still stands after a flow. Returns the flags of the flow and of a
+/// collapse.
 template <unsigned stages>
 std::uint32_t settle_flow(WheelState& s, const Flow& flow, const ToolState& tool) noexcept {
   if constexpr (stages & kStability) {
@@ -142,6 +143,9 @@ void press(WheelState& s, const ToolState& tool, std::span<ToolRemoval> removals
     removals[0].contact.down_offset += std::max(-half_way, 0.0);
   }
   yield<stages>(s, tool, removals);
+  // The first pose takes no time. With clay rules a ring could still rise or be joined, and then a
+  // session would not continue where it was cut.
+  if ((stages & kRules) && !(tool.dt_s > 0.0)) return;
   report.flags |= deform<stages>(s, tool, removals);
 }
 

@@ -141,6 +141,15 @@ TEST(Joints, NoRingBecomesThickerIntoATool) {
   EXPECT_EQ(stack, stack_of(kParted, quanta_from_mm2(500.0)));
 }
 
+/// Ribs that cover 0.15 mm of each of the two rings, whose middles are beyond the ends of the ribs.
+TEST(Joints, NoRingBecomesThickerIntoTheEndOfATool) {
+  ClayStack stack = stack_of(kParted, quanta_from_mm2(500.0));
+  TwoSpheres ribs(44.5, 0.5);
+  ribs.tool = Tool::build(RibSpec{0.3, 5.0}).value();
+  thicken(stack, 0, 3, ribs);
+  EXPECT_EQ(stack, stack_of(kParted, quanta_from_mm2(500.0)));
+}
+
 TEST(Joints, NoRingBeyondTheFlowBecomesThicker) {
   ClayStack stack = stack_of(kParted, quanta_from_mm2(500.0));
   thicken(stack, 3, 3, TwoSpheres(45.0, 20.0));

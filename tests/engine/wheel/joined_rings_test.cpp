@@ -175,6 +175,26 @@ TEST(JoinedRings, NoRingFollowsIntoTheTool) {
   }
 }
 
+/// The wall bends out and up along the shoulder, and the rim sinks and grows. A second part of the
+/// throw begins with the last pose of the first part, wherever that is: this pose moves no clay.
+TEST(JoinedRings, APressContinuesWithTheSameBitsAfterEveryTick) {
+  SceneSpec scene = shoulder_scene();
+  scene.tool.shape = EllipseSpec{15.0, 8.0};
+  int in_clay = 0;
+  for (const double lean_deg : {48.0, 56.0, 64.0}) {
+    Wheel wheel = pot_with_shoulder(scene, lean_deg);
+    for (int k = 0; k < 1500; ++k) {
+      const Pose pose{1000 * (k + 1), {20.0 + 0.01 * k, 65.0 + 0.015 * k, 0.0}, false, 0.0};
+      if ((wheel.step(pose).flags & kContact) == 0 || wheel.collapsed()) continue;
+      ++in_clay;
+      Wheel next = Wheel::build(scene, wheel.pot()).value();
+      EXPECT_TRUE(next.step(pose).flags & kContact) << k;
+      ASSERT_EQ(next.stack(), wheel.stack()) << lean_deg << ", tick " << k;
+    }
+  }
+  EXPECT_GT(in_clay, 2000);
+}
+
 /// The cutter goes through the shoulder. The neck has no support then, whatever the stress.
 TEST(JoinedRings, ACutThroughAShoulderDropsTheNeck) {
   constexpr double kLeanDeg = 75.0;
