@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 
 namespace clay::solid::inline formats {
@@ -262,6 +264,18 @@ class ObjReader {
   std::vector<std::uint32_t> corners_;
 };
 
+/// "f 1 2 3\n": indices count from 1.
+void append_face_line(std::string& text, const std::array<std::uint32_t, 3>& triangle) {
+  char line[40] = "f";
+  char* end = line + 1;
+  for (const std::uint32_t index : triangle) {
+    *end++ = ' ';
+    end = std::to_chars(end, std::end(line), std::uint64_t{index} + 1).ptr;
+  }
+  *end++ = '\n';
+  text.append(line, end);
+}
+
 }  // namespace
 
 std::string encode_obj(const TriangleMesh& mesh, std::string_view object_name) {
@@ -275,12 +289,7 @@ std::string encode_obj(const TriangleMesh& mesh, std::string_view object_name) {
   }
   for (const auto& triangle : mesh.triangles) {
     step_of_loop();
-    text += 'f';
-    for (const std::uint32_t index : triangle) {
-      text += ' ';
-      append_number(text, std::uint64_t{index} + 1);
-    }
-    text += '\n';
+    append_face_line(text, triangle);
   }
   return text;
 }

@@ -21,7 +21,8 @@ struct StepSolid {
 
 /// Reads a file of `encode_step` back, from its text alone: every edge bounds two faces of its
 /// shell in opposite directions, every vertex lies on its edges and every edge on its faces, within
-/// 1e-6 mm; the volume is that which the surfaces bound. Errors (`unsound`) name the entity.
+/// 1e-6 mm; lengths are in mm; the volume is that which the surfaces bound. Errors (`unsound`) name
+/// the entity.
 Result<StepSolid> verify_step(std::string_view text, std::string_view name);
 
 }  // namespace clay::solid::inline formats

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
-#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace {
 
 /// A REAL of at most `digits` decimals: "0.", "12.5".
 std::string real(double number, int digits = 9) {
+  constexpr double kWhole = 1e15;  // whole numbers below it are the same text, much faster
+  if (std::abs(number) < kWhole && number == std::trunc(number))
+    return std::to_string(static_cast<long long>(number)) + ".";
   std::string text = fixed(number + 0.0, digits);
   while (text.back() == '0') text.pop_back();
   return text == "-0." ? "0." : text;
@@ -43,15 +47,25 @@ std::string listed(const std::vector<Ref>& refs) {
 /// The DATA section. Equal entities are written once.
 class StepData {
  public:
+  StepData() = default;
+  StepData(const StepData&) = delete;  // `known_` points into it
+  StepData& operator=(const StepData&) = delete;
+
   template <class... Parts>
   Ref add(const Parts&... parts) {
-    std::string entity;
-    (entity.append(parts), ...);
-    const auto [known, is_new] = numbers_.try_emplace(entity, numbers_.size() + 1);
     Ref ref("#");  // in two steps: GCC 12 gives a false warning for a sum of both
-    ref.append(std::to_string(known->second));
-    if (is_new) text_.append(ref).append("=").append(entity).append(";\n");
-    return ref;
+    ref.append(std::to_string(known_.size() + 1));
+    const std::size_t line = text_.size();
+    text_.append(ref).append("=");
+    const std::size_t begin = text_.size();
+    (text_.append(parts), ...);
+    const auto [same, is_new] = known_.insert({line, begin, text_.size() - begin});
+    if (is_new) {
+      text_.append(";\n");
+      return ref;
+    }
+    text_.resize(line);
+    return text_.substr(same->line, same->begin - 1 - same->line);
   }
   Ref point(double x, double y, double z) {
     return add("CARTESIAN_POINT('',(", real(x), ",", real(y), ",", real(z), "))");
@@ -68,8 +82,23 @@ class StepData {
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
  private:
-  std::unordered_map<std::string, std::size_t> numbers_;
+  /// "#12=ENTITY(...)": where the line and the entity begin in `text_`.
+  struct Entity {
+    std::size_t line = 0, begin = 0, size = 0;
+  };
+  struct SameText {
+    const std::string* text;
+    [[nodiscard]] std::string_view of(const Entity& entity) const {
+      return std::string_view(*text).substr(entity.begin, entity.size);
+    }
+    std::size_t operator()(const Entity& entity) const {
+      return std::hash<std::string_view>()(of(entity));
+    }
+    bool operator()(const Entity& a, const Entity& b) const { return of(a) == of(b); }
+  };
+
   std::string text_;
+  std::unordered_set<Entity, SameText, SameText> known_{0, SameText{&text_}, SameText{&text_}};
 };
 
 /// Both halves of something: from azimuth 0 to a half turn, and back.

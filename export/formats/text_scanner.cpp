@@ -4,6 +4,7 @@
 
 #include "core/cancel.hpp"
 #include "core/number_parsing.hpp"
+#include "export/formats/character_set.hpp"
 #include "export/formats/mesh_limits.hpp"
 
 #include <algorithm>
@@ -12,9 +13,9 @@
 namespace clay::solid::inline formats {
 namespace {
 
-bool is_blank(char c) noexcept {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
+/// A newline is no blank: it ends a line. '#' and '\\' end a word only at a comment or
+/// continuation.
+constexpr CharacterSet kBlank(" \t\r\v\f"), kMayEndWord(" \t\r\v\f\n#\\");
 
 /// from_chars accepts no '+', but text files contain it.
 std::string_view without_plus(std::string_view word) noexcept {
@@ -114,8 +115,11 @@ std::string_view TextScanner::word_in_line() {
   step_of_loop();
   skip_blanks();
   const std::size_t begin = at_;
-  while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '\n' &&
-         continuation_length() == 0 && !at_comment()) {
+  while (true) {
+    at_ = kMayEndWord.find_in(text_, at_);
+    if (at_ == text_.size() || kBlank.has(text_[at_]) || text_[at_] == '\n' ||
+        continuation_length() > 0 || at_comment())
+      break;
     ++at_;
   }
   return text_.substr(begin, at_ - begin);
@@ -134,7 +138,7 @@ void TextScanner::skip_line() {
 
 void TextScanner::skip_blanks() {
   while (at_ < text_.size()) {
-    if (is_blank(text_[at_])) {
+    if (kBlank.has(text_[at_])) {
       ++at_;
     } else if (const std::size_t joint = continuation_length(); joint > 0) {
       at_ += joint;

@@ -1,3 +1,5 @@
+// The model part of a 3MF package: the mesh as XML.
+
 #include "claystack/export/formats.hpp"
 #include "claystack/version.hpp"
 #include "core/base64.hpp"
@@ -6,7 +8,7 @@
 #include "core/parallel_parts.hpp"
 #include "export/formats/file_floats.hpp"
 #include "export/formats/three_mf.hpp"
-#include "export/formats/zip_package.hpp"
+#include "export/formats/three_mf_text.hpp"
 #include "export/solid/mesh_bodies.hpp"
 
 #include <algorithm>
@@ -26,29 +28,6 @@ using namespace three_mf;
 
 constexpr std::size_t kColourSteps = 64;
 constexpr std::uint32_t kUnused = 0xFFFFFFFF;  ///< a point of no triangle of the object
-constexpr std::string_view kDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-
-/// For attributes and text.
-std::string escaped(std::string_view text) {
-  std::string xml;
-  for (const char c : one_line(text)) switch (c) {
-      case '&':
-        xml += "&amp;";
-        break;
-      case '<':
-        xml += "&lt;";
-        break;
-      case '>':
-        xml += "&gt;";
-        break;
-      case '"':
-        xml += "&quot;";
-        break;
-      default:
-        xml += c;
-    }
-  return xml;
-}
 
 /// One short element, joined here because a long string checks its room at every append.
 class ElementText {
@@ -72,7 +51,7 @@ class ModelWriter {
   ModelWriter(const TriangleMesh& mesh, const FileContents& contents)
       : mesh_(mesh),
         contents_(contents),
-        name_(escaped(contents.name)),
+        name_(xml_escaped(contents.name)),
         number_(mesh.points.size(), kUnused) {}
 
   ModelPart write() {
@@ -100,7 +79,7 @@ class ModelWriter {
     add_metadatum("Title", name_);
     add_metadatum("Application", "claystack " CLAYSTACK_VERSION);
     for (const auto& [key, value] : contents_.notes)
-      add_metadatum(std::string(kOwnPrefix) + key, escaped(value));
+      add_metadatum(std::string(kOwnPrefix) + key, xml_escaped(value));
     if (coloured()) {
       std::string range = "0 to ";
       append_number(range, contents_.wall_top_mm);
@@ -146,8 +125,7 @@ class ModelWriter {
   /// Returns the id of the object to build.
   std::size_t add_objects(const std::vector<std::vector<std::uint32_t>>& bodies) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
-      add_object(i + 1, bodies.size() == 1 ? name_ : name_ + " part " + std::to_string(i + 1),
-                 bodies[i]);
+      add_object(i + 1, body_name(name_, i + 1, bodies.size()), bodies[i]);
     if (bodies.size() == 1) return 1;
     const std::size_t whole = bodies.size() + 1;
     begin_object(whole, name_, false);
@@ -260,75 +238,10 @@ class ModelWriter {
   std::vector<std::uint32_t> number_;  ///< of each point in the object that is written
 };
 
-std::string types_xml() {
-  std::string text(kDeclaration);
-  text.append("<Types xmlns=\"").append(kTypes).append("\">\n");
-  for (const auto& [ending, type] :
-       {std::pair{"rels", kRelationType}, std::pair{"model", kModelType},
-        std::pair{"png", std::string_view("image/png")},
-        std::pair{"json", std::string_view("application/json")},
-        std::pair{"cbor", std::string_view("application/cbor")},
-        std::pair{"config", std::string_view("application/xml")}})
-    text.append("<Default Extension=\"")
-        .append(ending)
-        .append("\" ContentType=\"")
-        .append(type)
-        .append("\"/>\n");
-  return text + "</Types>\n";
-}
-
-std::string relations_xml(bool thumbnail) {
-  std::string text(kDeclaration);
-  text.append("<Relationships xmlns=\"").append(kRelations).append("\">\n");
-  const auto add = [&](std::string_view id, std::string_view path, std::string_view type) {
-    text.append("<Relationship Id=\"").append(id).append("\" Target=\"/").append(path);
-    text.append("\" Type=\"").append(type).append("\"/>\n");
-  };
-  add("model", kModelPath, kModelRelation);
-  if (thumbnail) add("thumbnail", kThumbnailPath, kThumbnailRelation);
-  return text + "</Relationships>\n";
-}
-
-/// PrusaSlicer needs the volumes of an object of which it reads a setting.
-std::string notes_xml(const ModelPart& model, const FileContents& contents) {
-  if (contents.pot.empty() || contents.pot.size() > kMostCopiedPotBytes) return {};
-  const std::string note = std::string(kPotNote) + to_base64(contents.pot);
-  const std::string name = escaped(contents.name);
-  std::string text = std::string(kDeclaration) + "<config>\n";
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const std::string own_name =
-        model.bodies.size() == 1 ? name : name + " part " + std::to_string(i + 1);
-    const auto add = [&](std::string_view type, std::string_view key, std::string_view value) {
-      text.append("<metadata type=\"").append(type).append("\" key=\"").append(key);
-      text.append("\" value=\"").append(value).append("\"/>\n");
-    };
-    text += "<object id=\"" + std::to_string(i + 1) + "\" instances_count=\"1\">\n";
-    add("object", "name", own_name);
-    add("object", "notes", note);
-    text += "<volume firstid=\"0\" lastid=\"" + std::to_string(model.bodies[i] - 1) + "\">\n";
-    add("volume", "name", own_name);
-    text += "</volume>\n</object>\n";
-  }
-  return text + "</config>\n";
-}
-
 }  // namespace
 
 ModelPart encode_3mf_model(const TriangleMesh& mesh, const FileContents& contents) {
   return ModelWriter(mesh, contents).write();
-}
-
-Result<std::string> pack_3mf(const ModelPart& model, const FileContents& contents) {
-  const std::string types = types_xml(), relations = relations_xml(!contents.thumbnail_png.empty());
-  std::vector<ZipEntry> entries{
-      {kTypesPath, types}, {kRelationsPath, relations}, {kModelPath, model.xml}};
-  if (!contents.thumbnail_png.empty())
-    entries.push_back({kThumbnailPath, contents.thumbnail_png, false});
-  if (!contents.pot.empty()) entries.push_back({kPotPath, contents.pot});
-  const std::string notes = notes_xml(model, contents);
-  if (!notes.empty()) entries.push_back({kNotesPath, notes});
-  if (!contents.certificate.empty()) entries.push_back({kCertificatePath, contents.certificate});
-  return zipped(entries);
 }
 
 }  // namespace clay::solid::inline formats

@@ -130,6 +130,13 @@ TEST(Step, TheJudgeFindsPlantedFaults) {
   wrong("MANIFOLD_SOLID_BREP", "SHELL_BASED_SURFACE_MODEL", "expected a solid");
   wrong("CLOSED_SHELL('',(", "CLOSED_SHELL('',(#999999,", "expected an entity");
   wrong("ENDSEC;\nEND-ISO", "END-ISO", "expected");
+  wrong("(40.,0.,50.)", "(40.,9.E999,50.)", "expected a number");  // does not fit: not a zero
+  wrong("(40.,0.,50.)", "(40.,nan,50.)", "expected a number");
+  wrong("FACE_BOUND", "FACE_BOUNDARY", "a bound of a face");
+  wrong(".MILLI.,.METRE.", "$,.METRE.", "lengths in mm");
+  wrong("LENGTH_UNIT()", "RATIO_UNIT()", "LENGTH_UNIT");
+  wrong("\n#7=", "\n#8=", "expected #7=");  // numbers that repeat or leave gaps
+  wrong("\n#7=", "\n#18446744073709551623=", "expected #7=");
   // A face that is missing leaves open edges.
   const std::size_t shell = step.find("CLOSED_SHELL('',(") + 17;
   std::string open = step;
@@ -156,6 +163,63 @@ TEST(Step, EmptyListsAreRefused) {
   const std::string ball =
       encode_step(revolved_brep(sphere(200), StepWalls::spline, 0.01).value(), "ball");
   refused(ball, "B_SPLINE_CURVE_WITH_KNOTS('',3,(", "expected control points");
+}
+
+/// Leaves the first and last of the four items after each `keyword`.
+std::string with_two_points(std::string text, std::string_view keyword,
+                            std::string_view separator) {
+  for (std::size_t at = text.find(keyword); at != text.npos; at = text.find(keyword, at + 1)) {
+    const std::size_t first = text.find(separator, at + keyword.size());
+    const std::size_t last = text.find(separator, text.find(separator, first + 1) + 1);
+    text.erase(first, last - first);
+  }
+  return text;
+}
+
+TEST(Step, ACurveWithoutKnotsIsRefused) {
+  const Profile bent{{{{0, 0}, {30, 0}, {35.1, 25}, {40, 50}, {0, 50}}}};
+  const std::string cup = encode_step(revolved_brep(bent, StepWalls::spline, 1.0).value(), "cup");
+  std::string line = with_two_points(cup, "B_SPLINE_CURVE_WITH_KNOTS('',3,(", ",");
+  line = with_two_points(line, "B_SPLINE_SURFACE(3,3,(", "),(");
+  line = with_two_points(line, "RATIONAL_B_SPLINE_SURFACE(", "),(");
+  constexpr std::string_view kKnots = "(4,4),(4,4),(0.,1.),";
+  for (std::size_t at = line.find(kKnots); at != line.npos; at = line.find(kKnots))
+    line.replace(at, kKnots.size(), "(),(4,4),(),");
+  const auto verdict = verify_step(line, "cup.step");
+  ASSERT_FALSE(verdict);
+  EXPECT_NE(verdict.error().message.find("control points than knots"), std::string::npos)
+      << verdict.error().message;
+}
+
+TEST(Step, TheJudgeReadsEveryNumberOfACurve) {
+  const std::string ball =
+      encode_step(revolved_brep(sphere(200), StepWalls::spline, 0.1).value(), "ball");
+  ASSERT_TRUE(verify_step(ball, "ball"));
+  const auto wrong = [&](std::string_view from, std::string_view to, std::string_view why) {
+    const auto verdict = verify_step(replaced(ball, from, to), "ball.step");
+    ASSERT_FALSE(verdict) << from;
+    EXPECT_NE(verdict.error().message.find(why), std::string::npos) << verdict.error().message;
+  };
+  const std::size_t curve = ball.find("B_SPLINE_CURVE_WITH_KNOTS"), end = ball.find('\n', curve);
+  const std::string line = ball.substr(curve, end - curve);
+  wrong(line, replaced(line, "'',3,", "'',2,"), "degree 3");
+  wrong(line, replaced(line, "(4,", "(3,"), "fourfold");
+  wrong(line, replaced(line, "(0.,", "(0.5,"), "its edges on its surface");
+  wrong(line, replaced(line, "(0.,", "(1000.,"), "ascending");
+  wrong("B_SPLINE_SURFACE(3,3,", "B_SPLINE_SURFACE(2,3,", "degree 3");
+  wrong("B_SPLINE_SURFACE(3,3,", "B_SPLINE_SURFACE(3,2,", "degree 3");
+  wrong("(4,4),", "(4,3),", "fourfold");
+  wrong("(0.,1.),.UNSPECIFIED.", "(1.,0.),.UNSPECIFIED.", "ascending");
+  wrong("DIRECTION('',(0.,0.,1.))", "DIRECTION('',(1.,0.,1.))", "a frame on the axis");
+  wrong("DIRECTION('',(1.,0.,0.))", "DIRECTION('',(0.,0.,1.))", "a frame on the axis");
+}
+
+TEST(Step, DeepListsAreRefused) {
+  const std::string head = "ISO-10303-21;\nDATA;\n#1=A", tail = "ENDSEC;\nEND-ISO-10303-21;\n";
+  for (const std::size_t depth : {33u, 1000000u}) {
+    const std::string deep = std::string(depth, '(') + "1" + std::string(depth, ')');
+    EXPECT_EQ(verify_step(head + deep + ";\n" + tail, "deep").error().kind, ErrorKind::bad_input);
+  }
 }
 
 TEST(Step, EveryCutFileIsRefused) {
