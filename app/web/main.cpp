@@ -146,6 +146,8 @@ EMSCRIPTEN_KEEPALIVE bool claystack_dialog_open() {
   return window && (!window->state().ui.shows<studio::NoDialog>() ||
                     ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup));
 }
+/// Whether a text field takes characters. A phone then shows its keyboard.
+EMSCRIPTEN_KEEPALIVE bool claystack_typing() { return window && ImGui::GetIO().WantTextInput; }
 /// True over the pot, false over panels and dialogs.
 EMSCRIPTEN_KEEPALIVE bool claystack_over_pot() {
   return window && window->state().ui.shows<studio::NoDialog>() && !ImGui::GetIO().WantCaptureMouse;

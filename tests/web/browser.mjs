@@ -90,7 +90,7 @@ export async function beginBowl(page) {
     {timeout: 6000}).then(() => true, () => false);
   for (let i = 0; i < 10; ++i) {
     await pause(1000);
-    await page.mouse.click(302, 478);
+    await page.mouse.click(302, 470);  // also where a message below has two lines
     if (await begun()) return;
   }
   await page.says('work started: bowl');
@@ -100,6 +100,30 @@ export async function chord(page, key, ...held) {
   for (const mod of held) await page.keyboard.down(mod);
   await page.keyboard.press(key);
   for (const mod of held.reverse()) await page.keyboard.up(mod);
+}
+
+export async function choose(page, button, file) {
+  const [chooser] = await Promise.all([page.waitForFileChooser(), page.click(button)]);
+  await chooser.accept([file]);
+}
+
+export async function drop(page, ...files) {
+  const events = await page.createCDPSession();
+  const data = {items: [], files, dragOperationsMask: 1};
+  for (const type of ['dragEnter', 'dragOver', 'drop'])
+    await events.send('Input.dispatchDragEvent', {type, x: 640, y: 400, data});
+}
+
+/// Presses at the right of the lump of the bowl and pushes the wall inwards; the button stays down.
+export async function drag(page) {
+  await page.mouse.move(790, 522);
+  await pause(300);
+  await page.mouse.down();
+  await page.says('stroke started');
+  for (let x = 790; x >= 735; x -= 2) {
+    await page.mouse.move(x, 522 - (790 - x) / 4);
+    await pause(30);
+  }
 }
 
 export async function downloaded(folder, name) {

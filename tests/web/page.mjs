@@ -8,8 +8,9 @@ import {mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import {inflateRawSync} from 'node:zlib';
-import {beginBowl, chord, downloaded as downloadedIn, launch as launchIn, openPage as openPageIn, pause} from './browser.mjs';
+import {beginBowl, choose, chord, downloaded as downloadedIn, drag, drop, launch as launchIn, openPage as openPageIn, pause} from './browser.mjs';
 import {gamepad, pen, saved, spaceMouse} from './devices.mjs';
+import {failing, keysAndButtons, oddFiles, oddLinks, twoTabs, typedByFinger} from './odd_input.mjs';
 import {serve} from './server.mjs';
 
 const [site, claystack, pictures] = process.argv.slice(2, 5).map(path => resolve(path));
@@ -45,18 +46,6 @@ function judge(stl) {
   assert.match(slicer, /manifold = yes/);
 }
 
-/// Presses at the right of the lump and pushes the wall inwards.
-async function drag(page) {
-  await page.mouse.move(790, 522);
-  await pause(300);
-  await page.mouse.down();
-  await page.says('stroke started');
-  for (let x = 790; x >= 735; x -= 2) {
-    await page.mouse.move(x, 522 - (790 - x) / 4);
-    await pause(30);
-  }
-}
-
 async function throwAndExport(browser) {
   const page = await openPage(browser, kDesktop);
   await pause(1500);
@@ -83,7 +72,7 @@ async function throwAndExport(browser) {
   await chord(page, 'KeyE', 'Control');
   await page.says('export previewed');
   await page.mouse.click(330, 108);  // STL
-  await page.mouse.click(607, 174);  // Pot
+  await page.mouse.click(561, 137);  // Pot
   await pause(1500);
   await picture(page, 'export');
   await chord(page, 'Enter', 'Control');
@@ -121,18 +110,6 @@ async function linked(page) {
   await page.waitForFunction(() => location.hash.startsWith('#pot='));
   const hash = await page.evaluate(() => location.hash);
   return {hash, pot: inflateRawSync(Buffer.from(hash.slice('#pot='.length), 'base64url'))};
-}
-
-async function choose(page, button, file) {
-  const [chooser] = await Promise.all([page.waitForFileChooser(), page.click(button)]);
-  await chooser.accept([file]);
-}
-
-async function drop(page, file) {
-  const events = await page.createCDPSession();
-  const data = {items: [], files: [file], dragOperationsMask: 1};
-  for (const type of ['dragEnter', 'dragOver', 'drop'])
-    await events.send('Input.dispatchDragEvent', {type, x: 640, y: 400, data});
 }
 
 /// Opens files by picking and by dropping; a link in the profile of another person.
@@ -181,7 +158,7 @@ async function offline(browser) {
   await page.says('ready offline');
   own.close();
   await assert.rejects(fetch(own.address));
-  await page.goto(own.address);
+  await page.goto(own.address + 'index.html');
   await page.says('window open');
   await beginBowl(page);
   await page.says('checked: proved');  // by the worker, whose files are kept too
@@ -412,9 +389,10 @@ async function phone(browser) {
   // The controls of the page are large enough for a finger.
   for (const size of await page.$$eval('footer button:not([hidden])', all => all.map(each => each.getBoundingClientRect().height)))
     assert.ok(size >= 40, `expected 40 px, found ${size}`);
+  await typedByFinger(page, tap);
   assert.deepEqual(page.problems, []);
   await stranger.close();
-  console.log('thrown by finger; two fingers turn the view');
+  console.log('thrown and named by finger; two fingers turn the view');
 }
 
 async function looks(browser) {
@@ -458,7 +436,16 @@ async function devices(browser) {
   console.log('pen, gamepad and 3D mouse reach the clay');
 }
 
-const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, offline, repeated, looks};
+/// Unusual files, links, keys and buttons, see odd_input.mjs.
+async function odd(browser) {
+  const open = async (hash = '', context = null) =>
+    openPage(context ?? await browser.createBrowserContext(), kDesktop, hash);
+  for (const test of [oddFiles, oddLinks, keysAndButtons, twoTabs, failing])
+    await test({open, folder, drawings, claystack});
+  console.log('unusual files, links, keys and a second tab: a message, and no loss');
+}
+
+const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, odd, offline, repeated, looks};
 let failed = 0;
 const only = process.env.ONLY?.split(',');  // some tests, by name
 try {

@@ -4,7 +4,7 @@
 'use strict';
 
 const kCache = 'claystack @VERSION@';  // of all files: app/web/site.cmake
-const kFiles = ['./', 'style.css', 'devices.js', 'touch.js', 'page.js', 'worker.js', 'licences.txt',
+const kFiles = ['./', 'style.css', 'devices.js', 'touch.js', 'keys.js', 'page.js', 'worker.js', 'licences.txt',
   'claystack-page.js',
   'claystack-page.wasm', 'claystack-page.data', 'claystack.js', 'claystack.wasm'];
 
@@ -21,7 +21,8 @@ async function activate() {
 
 async function answer(request) {
   const cache = await caches.open(kCache);
-  return await cache.match(request, {ignoreSearch: true}) ?? fetch(request);
+  const path = new URL(request.url).pathname.replace(/\/index\.html$/, '/');
+  return await cache.match(path) ?? fetch(request);
 }
 
 self.addEventListener('install', event => event.waitUntil(install()));

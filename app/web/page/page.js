@@ -4,7 +4,10 @@
 const kHome = '/home/web_user';
 const kIdleMs = 500;       // interval of frames without input
 const kStoreMs = 400;      // interval at which changes are stored
+const kClaimTries = 5, kClaimMs = 500;  // a page that was reloaded leaves the storage meanwhile
 const kMostLinkBytes = 8192;
+const kNotchPx = 100, kNotchLines = 3;  // of the mouse wheel
+const kPinchPx = 12;       // of a pinch, as much as a notch
 const kMeshes = /\.(stl|obj|ply|off|glb|drc|3mf|step|stp)$/i;
 const kShift = 1, kControl = 2, kAlt = 4;
 
@@ -24,11 +27,22 @@ function ask() {
   clearTimeout(idle);
   requestAnimationFrame(now => {
     asked = false;
-    const more = studio._claystack_frame(now);
-    changed = true;
-    if (more) ask();
-    else idle = setTimeout(ask, kIdleMs);
+    frame(now);
+    keyboard.follow();
   });
+}
+
+function frame(now) {
+  let more = false;
+  try {
+    more = studio._claystack_frame(now);
+  } catch (error) {
+    asked = true;  // draws no more
+    return say(`Claystack has stopped: ${error.message ?? error}. Reload the page: it offers the work again.`);
+  }
+  changed = true;
+  if (more) ask();
+  else idle = setTimeout(ask, kIdleMs);
 }
 
 function resize() {
@@ -43,6 +57,7 @@ function resize() {
 // ---- pointer: mouse, pen, touch ----------------------------------------------------------------
 
 function mods(event) {
+  if (event.getModifierState?.('AltGraph')) return event.shiftKey ? kShift : 0;
   return (event.shiftKey ? kShift : 0) | (event.ctrlKey || event.metaKey ? kControl : 0) |
          (event.altKey ? kAlt : 0);
 }
@@ -54,13 +69,26 @@ function point(event) {
                             event.pointerType === 'pen' ? event.pressure : -1);
 }
 
-const kButtons = [0, 2, 1];  // left, middle, right: those of the program
+const kButtonBits = [1, 2, 4];  // left, right, middle: the order of the program
 const down = new Set();
 function button(index, pressed, event) {
   if (pressed === down.has(index)) return;
   if (pressed) down.add(index); else down.delete(index);
   studio._claystack_button(index, pressed, mods(event));
   ask();
+}
+
+/// The browser reports the first button as `pointerdown`, and further ones as moves.
+function mouse(event) {
+  point(event);
+  kButtonBits.forEach((bit, index) => button(index, (event.buttons & bit) !== 0, event));
+}
+
+/// Steps of the wheel. Touchpads report many small parts of a step, and a pinch as the wheel with Ctrl.
+function wheelSteps(event) {
+  const notch = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? (event.ctrlKey ? kPinchPx : kNotchPx)
+    : event.deltaMode === WheelEvent.DOM_DELTA_LINE ? kNotchLines : 1;
+  return Math.max(-1, Math.min(1, -event.deltaY / notch));
 }
 
 const fingers = new Fingers({
@@ -73,79 +101,32 @@ const fingers = new Fingers({
 function listenToPointer() {
   canvas.addEventListener('pointerdown', event => {
     canvas.focus();
-    if (event.button > 2) return;
     canvas.setPointerCapture(event.pointerId);
+    event.preventDefault();  // a touch is not a mouse as well, which would move the focus later
     if (event.pointerType === 'touch') return fingers.begin(event);
-    point(event);
-    button(kButtons[event.button], true, event);
-    event.preventDefault();
+    mouse(event);
   });
   canvas.addEventListener('pointermove', event => {
     if (event.pointerType === 'touch') return fingers.move(event);
     for (const part of event.getCoalescedEvents?.().slice(-1) ?? []) event = part;
-    point(event);
+    if (down.size > 0) mouse(event); else point(event);
     ask();
   });
-  const up = event => {
-    if (event.pointerType === 'touch') return fingers.end(event);
-    if (event.button > 2) return;
-    point(event);
-    button(kButtons[Math.max(0, event.button)], false, event);
-  };
-  canvas.addEventListener('pointerup', up);
+  canvas.addEventListener('pointerup', event => {
+    if (event.pointerType !== 'touch') return mouse(event);
+    fingers.end(event);
+    if (!studio._claystack_over_pot()) keyboard.tapped();
+  });
   canvas.addEventListener('pointercancel', event => {
     if (event.pointerType === 'touch') fingers.end(event);
     for (const b of [...down]) button(b, false, event);
   });
   canvas.addEventListener('wheel', event => {
-    studio._claystack_scroll(event.deltaY > 0 ? -1 : event.deltaY < 0 ? 1 : 0);
+    studio._claystack_scroll(wheelSteps(event));
     ask();
     event.preventDefault();
   }, {passive: false});
   canvas.addEventListener('contextmenu', event => event.preventDefault());
-}
-
-// ---- keys --------------------------------------------------------------------------------------
-
-const kKeys = {Escape: 256, Enter: 257, Tab: 258, Backspace: 259, Insert: 260, Delete: 261,
-  ArrowRight: 262, ArrowLeft: 263, ArrowDown: 264, ArrowUp: 265, PageUp: 266, PageDown: 267,
-  Home: 268, End: 269, ' ': 32};
-
-/// The code of GLFW; -1: the program does not use the key.
-function codeOf(event) {
-  if (event.key in kKeys) return kKeys[event.key];
-  const f = /^F(\d+)$/.exec(event.key);
-  if (f) return 289 + Number(f[1]);
-  return event.key.length === 1 && event.key < '\x7f' ? event.key.toUpperCase().charCodeAt(0) : -1;
-}
-
-function listenToKeys() {
-  canvas.addEventListener('keydown', event => {
-    const code = codeOf(event), control = event.ctrlKey || event.metaKey;
-    // Tab goes on to the buttons of the page, unless a dialog or menu uses it.
-    if (event.key === 'Tab' && (event.shiftKey || !studio._claystack_dialog_open())) return;
-    if (control && code === 86) return;  // the event `paste` follows
-    const inDialog = studio._claystack_dialog_open();  // before the key closes it
-    if (code >= 0) studio._claystack_key(code, true, event.repeat, mods(event));
-    if (!control && !event.altKey && event.key.length === 1)
-      studio._claystack_text(event.key.codePointAt(0));
-    ask();
-    // Leaves the page's own keys to the browser: reload, developer tools, tabs. In a dialog Ctrl+R
-    // recovers or replaces.
-    const browsers = control && (/^[tnwl]$/i.test(event.key) || (/^r$/i.test(event.key) && !inDialog));
-    if (code >= 0 && !browsers && !/^F(5|11|12)$/.test(event.key)) event.preventDefault();
-  });
-  canvas.addEventListener('keyup', event => {
-    const code = codeOf(event);
-    if (code >= 0) studio._claystack_key(code, false, false, mods(event));
-    ask();
-  });
-  document.addEventListener('paste', event => {
-    if (document.activeElement !== canvas) return;
-    withText(event.clipboardData.getData('text'), text => studio._claystack_paste(text));
-    for (const pressed of [true, false]) studio._claystack_key(86, pressed, false, kControl);
-    ask();
-  });
 }
 
 // ---- files -------------------------------------------------------------------------------------
@@ -163,13 +144,20 @@ function storeIn(name, bytes) {
   return path;
 }
 
+/// {name, bytes}; null: the browser cannot read it, for example because it is a folder.
+async function contents(file) {
+  try {
+    return {name: file.name, bytes: new Uint8Array(await file.arrayBuffer())};
+  } catch (error) {
+    status(`${file.name}: could not be read: ${error.message}`);
+    return null;
+  }
+}
+
 function pickFile(then) {
   const input = document.createElement('input');
   input.type = 'file';
-  input.onchange = async () => {
-    const file = input.files[0];
-    then(file ? {name: file.name, bytes: new Uint8Array(await file.arrayBuffer())} : null);
-  };
+  input.onchange = async () => then(input.files[0] ? await contents(input.files[0]) : null);
   input.oncancel = () => then(null);
   input.click();
 }
@@ -295,7 +283,7 @@ function checkMesh(file) {
       : data.status === 1 ? 'Not sound: the report says why' : 'The file could not be read',
     data.out || data.err),
   failure => done('The check stopped: the browser may have too little memory, or lacks a file', failure));
-  checker.postMessage({words: ['check', '--json', file.name], files: [file]}, [file.bytes.buffer]);
+  checker.postMessage({words: ['check', '--json', '--', file.name], files: [file]}, [file.bytes.buffer]);
 }
 
 // ---- links -------------------------------------------------------------------------------------
@@ -310,17 +298,18 @@ async function copyLink() {
     return status('There is no pot on the wheel');
   const packed = await through(new CompressionStream('deflate-raw'), studio.FS.readFile(path));
   studio.FS.unlink(path);
+  const characters = Math.ceil(packed.length * 4 / 3);
+  if (characters > kMostLinkBytes)
+    return status(`The pot takes ${characters} characters; a link holds ${kMostLinkBytes}. Save it instead.`);
   const code = btoa(String.fromCharCode(...packed)).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
-  if (code.length > kMostLinkBytes)
-    return status(`The pot takes ${code.length} characters; a link holds ${kMostLinkBytes}. Save it instead.`);
   history.replaceState(null, '', '#pot=' + code);
-  await navigator.clipboard?.writeText(location.href).catch(() => {});
-  status('The address of this page now holds the pot; it is copied');
+  const copied = await navigator.clipboard?.writeText(location.href).then(() => true, () => false);
+  status('The address of this page now holds the pot; ' + (copied ? 'it is copied' : 'copy it from the address bar'));
 }
 
 async function openLink() {
-  const code = /^#pot=([\w-]+)$/.exec(location.hash)?.[1];
-  if (!code) return;
+  if (!location.hash.startsWith('#pot=')) return;
+  const code = location.hash.slice('#pot='.length);
   try {
     if (code.length > kMostLinkBytes) throw new Error('too long');
     const packed = Uint8Array.from(atob(code.replace(/-/g, '+').replace(/_/g, '/')), c => c.charCodeAt(0));
@@ -332,9 +321,31 @@ async function openLink() {
 
 // ---- storage -----------------------------------------------------------------------------------
 
+/// Shown in the window too.
+function warn(text) {
+  status(text);
+  withText(text, place => studio._claystack_notice(place));
+  ask();
+}
+
+/// One tab alone stores: another one would replace the works by its own. Where browsers have no locks,
+/// which need https or localhost, each tab stores.
+let stores = !navigator.locks;
+function claimStorage(tries = kClaimTries) {
+  navigator.locks?.request('claystack storage', {ifAvailable: true}, lock => {
+    if (lock) {
+      stores = true;
+      return new Promise(() => {});  // as long as the page is open
+    }
+    if (tries > 1) return setTimeout(claimStorage, kClaimMs, tries - 1);
+    warn('Claystack is open in another tab, so this tab stores no works. ' +
+      'Save the work as a file (Ctrl+S), or close the other tab and reload this page.');
+  });
+}
+
 let changed = false, storing = false, warned = false;
 function store() {
-  if (!changed || storing || !studio) return;
+  if (!stores || !changed || storing || !studio) return;
   changed = false;
   storing = true;
   studio.FS.syncfs(false, error => {
@@ -348,12 +359,9 @@ function store() {
     if (warned) return;
     warned = true;
     const full = error.name === 'QuotaExceededError';
-    const text = 'The browser cannot store the work: ' +
+    warn('The browser cannot store the work: ' +
       (full ? 'its storage is full' : error.message || error.name || error) +
-      '. What it stored before remains. Save the work as a file (Ctrl+S).';
-    status(text);
-    withText(text, place => studio._claystack_notice(place));
-    ask();
+      '. What it stored before remains. Save the work as a file (Ctrl+S).');
   });
 }
 
@@ -421,9 +429,10 @@ async function start() {
   window.addEventListener('dragover', event => event.preventDefault());
   window.addEventListener('drop', async event => {
     event.preventDefault();
-    const files = event.dataTransfer.files, file = files[0];
+    const {files} = event.dataTransfer;
     if (files.length > 1) return status(`Expected one file, found ${files.length}: drop one file at a time`);
-    if (file) open({name: file.name, bytes: new Uint8Array(await file.arrayBuffer())});
+    const file = files.length === 1 ? await contents(files[0]) : null;
+    if (file) open(file);
   });
   by('open').onclick = () => pickFile(file => file && open(file));
   by('check').onclick = () => pickFile(file => file && checkMesh(file));
@@ -436,10 +445,12 @@ async function start() {
     say('The browser has taken the graphics away. The work is stored: reload the page.');
   });
   by('about').onclick = () => by('about-text').showModal();
+  claimStorage();
   setInterval(store, kStoreMs);
   keepOffline();
   canvas.focus();
   openLink();
+  window.addEventListener('hashchange', openLink);
   (window.requestIdleCallback ?? setTimeout)(() => compiled().catch(() => {}));  // before the first check
 }
 

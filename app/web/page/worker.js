@@ -30,10 +30,11 @@ function answer(module, question) {
 
 function command(module, {words, files}) {
   out = err = '';
-  for (const {name, bytes} of files) module.FS.writeFile('/' + name, bytes);
-  module.FS.chdir('/');
+  module.FS.mkdirTree('/files');  // of any name
+  module.FS.chdir('/files');
+  for (const {name, bytes} of files) module.FS.writeFile(name, bytes);
   const status = module.callMain(words);
-  for (const {name} of files) module.FS.unlink('/' + name);
+  for (const {name} of files) module.FS.unlink(name);
   postMessage({status, out, err});
 }
 

@@ -1,0 +1,173 @@
+// Files, links, keys and buttons that few people use, the keyboard of a phone, a second tab, and a
+// program that stops: the page reports what it cannot do, and loses nothing.
+import assert from 'node:assert/strict';
+import {spawnSync} from 'node:child_process';
+import {copyFileSync, mkdirSync, writeFileSync} from 'node:fs';
+import {join} from 'node:path';
+import {beginBowl, choose, chord, drag, drop, pause} from './browser.mjs';
+
+const clearStatus = page => page.evaluate(() => { document.getElementById('status').textContent = ''; });
+
+/// Notes the calls of functions of the program from now on. Returns a function: the calls so far.
+async function noteCalls(page, ...names) {
+  await page.evaluate(names => {
+    window.calls = [];
+    for (const name of names) {
+      const real = studio[name];
+      const noted = (...words) => {
+        window.calls.push(words);
+        return real(...words);
+      };
+      // Emscripten's functions replace themselves in their first call.
+      Object.defineProperty(studio, name, {get: () => noted, set() {}});
+    }
+  }, names);
+  return () => page.evaluate(() => window.calls.splice(0));
+}
+
+/// Several files, a folder, files without a pot, and meshes with names like options.
+export async function oddFiles({open, folder, drawings, claystack}) {
+  const page = await open();
+  await drop(page, join(drawings, 'jug.svg'), join(drawings, 'jug.svg'));
+  await page.shows('status', /^Expected one file, found 2: drop one file at a time$/);
+  mkdirSync(join(folder, 'a folder'));
+  await drop(page, join(folder, 'a folder'));
+  await page.shows('status', /^a folder: could not be read: /);
+  for (const [name, text] of [['empty.pot.json', ''], ['list.pot.json', '[]'], ['picture.png', '\x89PNG'], ['x'.repeat(240) + '.work', '']]) {
+    writeFileSync(join(folder, name), text);
+    await drop(page, join(folder, name));
+    await page.shows('pot', new RegExp(`/${name}(:\\d+)?: .`));
+  }
+  for (const name of ['-x.stl', '--help.stl', 'dev']) {
+    if (name === 'dev') writeFileSync(join(folder, name), '');
+    else copyFileSync(join(folder, 'bowl.stl'), join(folder, name));
+    await choose(page, '#check', join(folder, name));
+    const {stdout} = spawnSync(claystack, ['check', '--json', '--', name], {encoding: 'utf8', cwd: folder});
+    assert.ok(stdout.length > 0);
+    await page.waitForFunction(text => document.getElementById('report-text').textContent === text, {timeout: 60000}, stdout)
+      .catch(async () => assert.equal(await page.$eval('#report-text', e => e.textContent), stdout));
+    await page.keyboard.press('Escape');
+  }
+  assert.deepEqual(page.problems, []);
+  await page.browserContext().close();
+}
+
+/// Links that were cut off or changed; and links that are put into the address of an open page.
+export async function oddLinks({open}) {
+  const page = await open('#pot=');
+  await page.shows('status', /^The link holds no pot: it was cut off or changed$/);
+  await beginBowl(page);
+  await page.click('#link');
+  await page.shows('status', /^The address of this page now holds the pot/);
+  const link = await page.evaluate(() => location.hash);
+  for (const hash of [link.slice(0, -9), link + '.', '#pot=%20', '#pot=' + 'A'.repeat(9000)]) {
+    await clearStatus(page);
+    await page.evaluate(hash => { location.hash = hash; }, hash);
+    await page.shows('status', /^The link holds no pot: it was cut off or changed$/);
+  }
+  await page.evaluate(hash => { location.hash = hash; }, link);
+  await page.says('opened: ');
+  assert.deepEqual(page.problems, []);
+  await page.browserContext().close();
+}
+
+/// Two buttons at once, keys of other layouts, a key that is held while the focus goes, touchpads.
+export async function keysAndButtons({open}) {
+  const page = await open();
+  await beginBowl(page);
+  await page.says('checked: proved');
+  let calls = await noteCalls(page, '_claystack_button');
+  await page.mouse.move(400, 300);
+  for (const [way, button] of [['down', 'right'], ['down', 'left'], ['up', 'right'], ['up', 'left']])
+    await page.mouse[way]({button});
+  const kLeft = 0, kRight = 1;
+  assert.deepEqual((await calls()).map(([index, pressed]) => [index, pressed]),
+    [[kRight, true], [kLeft, true], [kRight, false], [kLeft, false]]);
+
+  calls = await noteCalls(page, '_claystack_key', '_claystack_text');
+  await chord(page, 'Slash', 'Shift');  // ?
+  await page.waitForFunction(() => studio._claystack_dialog_open());
+  await page.keyboard.press('Escape');
+  await calls();
+  const kEqual = 61, kHome = 268, kShift = 1, kControl = 2;  // GLFW's codes and the bits of input.hpp
+  await chord(page, 'Equal', 'Shift', 'Control');
+  assert.deepEqual((await calls())[0], [kEqual, true, false, kShift | kControl]);
+  await page.keyboard.down('Home');
+  await calls();
+  await page.focus('#open');
+  assert.deepEqual(await calls(), [[kHome, false, false, 0]]);
+  await page.keyboard.up('Home');
+  await page.focus('#canvas');
+  await page.evaluate(() => document.getElementById('canvas').dispatchEvent(new KeyboardEvent('keydown',
+    {key: '@', ctrlKey: true, altKey: true, modifierAltGraph: true})));
+  assert.deepEqual(await calls(), [['@'.charCodeAt(0), true, false, 0], ['@'.charCodeAt(0)]]);
+
+  calls = await noteCalls(page, '_claystack_scroll');
+  for (let i = 0; i < 20; ++i) await page.mouse.wheel({deltaY: -5});
+  const turned = (await calls()).reduce((sum, [steps]) => sum + steps, 0);
+  assert.ok(Math.abs(turned - 1) < 1e-6, `expected one step from 100 px of a touchpad, found ${turned}`);
+  await page.mouse.wheel({deltaY: 120});
+  assert.deepEqual(await calls(), [[-1]]);
+  assert.deepEqual(page.problems, []);
+  await page.browserContext().close();
+}
+
+/// On a phone a text field shows the keyboard of the screen: a field of the page has the focus. The
+/// keyboard composes a word and corrects it.
+export async function typedByFinger(page, tap) {
+  const kNameField = [150, 225];
+  await page.focus('#canvas');
+  await chord(page, 'KeyS', 'Control');
+  await page.says('action: file.save');
+  await pause(1000);
+  await tap(...kNameField);
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'typed');
+  await page.keyboard.press('End');
+  const keyboard = await page.createCDPSession();
+  await keyboard.send('Input.imeSetComposition', {text: '-tae', selectionStart: 4, selectionEnd: 4});
+  await pause(300);
+  await keyboard.send('Input.insertText', {text: '-tea.work'});
+  await pause(500);
+  await page.keyboard.press('Enter');
+  await page.says('saved: /home/web_user/bowl.work-tea.work');
+  await page.waitForFunction(() => document.activeElement.id === 'canvas');  // the keyboard goes
+}
+
+/// A second tab, for example a link that is opened, does not replace the works of the first one.
+export async function twoTabs({open}) {
+  const first = await open();
+  const context = first.browserContext();
+  await beginBowl(first);
+  await first.says('checked: proved');
+  await pause(1000);
+  const second = await open('', context);
+  await second.shows('status', /^Claystack is open in another tab, so this tab stores no works\. /);
+  await first.bringToFront();
+  await drag(first);
+  await first.mouse.up();
+  await first.says('stroke ended');
+  await pause(2000);  // it is stored
+  await first.close();
+  await second.bringToFront();
+  await second.mouse.move(400, 300);
+  await pause(2000);
+  await second.close();
+  const third = await open('', context);
+  await third.says('recovery offered: 1');
+  await pause(1500);
+  await chord(third, 'KeyR', 'Control');
+  await third.says('recovered: ');
+  await third.click('#words');
+  assert.match(await third.$eval('#report-text', element => element.textContent), /Strokes: 1\n/);
+  assert.deepEqual([...first.problems, ...second.problems, ...third.problems], []);
+  await context.close();
+}
+
+/// A fault of the program: the page reports that it has stopped.
+export async function failing({open}) {
+  const page = await open();
+  await page.evaluate(() => { studio._claystack_frame = () => { throw new Error('planted'); }; });
+  await page.shows('message', /^Claystack has stopped: planted\. Reload the page/);
+  assert.deepEqual(page.problems, []);
+  await page.browserContext().close();
+}
