@@ -184,7 +184,7 @@ TEST(WallMap, LegendMatchesTheColourScale) {
   }
   const render::Swatch thin = render::wall_swatch(map, 1.0);
   const auto red = rows_in(bar, [&](const auto* px) { return is_colour(px, thin); });
-  EXPECT_GT(red.size(), height / 10u);  // the stripes take the rest
+  EXPECT_GT(std::ssize(red), height / 10);  // the stripes take the rest
   EXPECT_NEAR(red.front(), top + 0.8 * height, 8.0);
   EXPECT_LE(red.back(), rows.back());
 }
