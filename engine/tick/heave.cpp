@@ -15,8 +15,6 @@ constexpr std::size_t kRows = 64;
 // A share fills at most the first part of a bore, as it was before the shift, which leaves at least
 // a quarter of the bore. It goes to no ring beyond the second part of the largest radius.
 constexpr float kMostOfBore = 0.2f, kMostOfRadius = 0.999f;
-// No bore becomes narrower than this radius, or a hole would close and enclose a cavity.
-constexpr double kLeastBoreMm = 0.1;
 
 // Filling x of r^2, x <= r^2 / 2, moves the surface of a bore of radius r by at most this times x /
 // r.

@@ -2,6 +2,7 @@
 
 #include "engine/clay/packs.hpp"
 #include "engine/tick/contact.hpp"
+#include "engine/tick/heave.hpp"
 
 #include <algorithm>
 
@@ -10,7 +11,6 @@ namespace {
 
 // Rings that one stretch may take from the top.
 constexpr std::size_t kMostTaken = 64;
-constexpr double kLeastBoreMm = 0.1;  // a bore stays open
 
 /// Clay that a ring can get: the crown, and the rings above it.
 WideQuanta spare_above(const ClayStack& stack, std::size_t ring) noexcept {
@@ -68,8 +68,8 @@ bool reshape(const ClayStack& stack, std::size_t i, const Ring& shape,
   return true;
 }
 
-/// Whether a tool is deeper in ring i once that has the shape. At an end of the tool: in the part
-/// that the tool covers.
+/// Whether a tool would be deeper in ring i if the ring had this shape. At an end of the tool, only
+/// the part of the ring that the tool covers counts.
 bool enters(const Hands& hands, double h, std::size_t i, const Ring& ring,
             const Ring& shape) noexcept {
   const double bottom = static_cast<double>(i) * h - hands.hip_y;

@@ -26,7 +26,7 @@ class StepEntities {
   /// The place of an entity in `all()`.
   [[nodiscard]] std::size_t place(std::string_view ref) const;
   [[nodiscard]] const StepValue& entity(std::string_view ref) const { return all()[place(ref)]; }
-  /// Of this keyword, with so many items.
+  /// The same. Fails unless the entity has this keyword and `size` items.
   [[nodiscard]] const StepValue& entity(std::string_view ref, std::string_view keyword,
                                         std::size_t size) const;
   /// A typed value of a complex entity.
