@@ -30,21 +30,25 @@ bool candidates(const Tool& tool, const ClayStack& stack, double hip_y, Contact&
   return true;
 }
 
-/// The ring whose walls the tool stands between: the one at its centre. With `hand`, the way to the
-/// hand (+1 up), a centre in solid clay belongs to the bore through which the tool came: the first
-/// one on this way, at most the height of the tool away. A centre beside a solid ring is outside.
+/// The ring whose walls the tool stands between: the one at its centre. If it is known where the
+/// hand is, a centre in solid clay belongs to the bore through which the tool came: the first one
+/// on the way to the hand, at most the height of the tool away. A centre beside a solid ring is
+/// outside.
 const Ring& ring_about(const Tool& tool, const ClayStack& stack, double hip_y, double axis_distance,
-                       int hand) noexcept {
+                       HandAt hand) noexcept {
   const auto rings = stack.rings();
   const double last = static_cast<double>(rings.size() - 1), h = stack.ring_height_mm();
   const auto ring_at = [=](double up) {
     return static_cast<std::size_t>(std::clamp(std::floor(up / h), 0.0, last));
   };
   const std::size_t at = ring_at(hip_y);
-  if (hand == 0 || rings[at].inner2 > 0 || axis_distance >= rings[at].outer_mm()) return rings[at];
-  const std::size_t end = ring_at(hip_y + static_cast<double>(hand) * (tool.high() - tool.low()));
+  if (hand == HandAt::unknown || rings[at].inner2 > 0 || axis_distance >= rings[at].outer_mm())
+    return rings[at];
+  const double reach = tool.high() - tool.low();
+  const bool up = hand == HandAt::above;
+  const std::size_t end = ring_at(up ? hip_y + reach : hip_y - reach);
   for (std::size_t i = at; i != end;) {
-    i = hand > 0 ? i + 1 : i - 1;
+    i = up ? i + 1 : i - 1;
     if (rings[i].inner2 > 0) return rings[i];
   }
   return rings[at];
@@ -261,7 +265,7 @@ std::size_t most_contacts(const Tool& tool, double ring_height_mm, std::size_t m
 
 template <Model model>
 void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm,
-                  Contact& contact, const glm::dvec3& moved_mm, int hand) noexcept {
+                  Contact& contact, const glm::dvec3& moved_mm, HandAt hand) noexcept {
   contact.rings.clear();
   if (!candidates<model>(tool, stack, hip_mm.y, contact)) return;
   const double d = std::sqrt(hip_mm.x * hip_mm.x + hip_mm.z * hip_mm.z);
@@ -308,9 +312,9 @@ void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_
 }
 
 template void find_contact<Model::paper>(const Tool&, const ClayStack&, const glm::dvec3&, Contact&,
-                                         const glm::dvec3&, int) noexcept;
+                                         const glm::dvec3&, HandAt) noexcept;
 template void find_contact<Model::conserving>(const Tool&, const ClayStack&, const glm::dvec3&,
-                                              Contact&, const glm::dvec3&, int) noexcept;
+                                              Contact&, const glm::dvec3&, HandAt) noexcept;
 template void find_pinch<Model::paper>(const Tool&, const ClayStack&, const glm::dvec3&, double,
                                        Contact&, Contact&, const glm::dvec3&) noexcept;
 template void find_pinch<Model::conserving>(const Tool&, const ClayStack&, const glm::dvec3&,

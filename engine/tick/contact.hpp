@@ -11,6 +11,9 @@ namespace clay {
 
 enum class Side { compressive, expansive };
 
+/// Where the hand is, seen from the tool that it holds.
+enum class HandAt { unknown, above, below };
+
 /// The rings that the tool touches (section 4). `rings` are some of bottom..top; none when there is
 /// no contact. Storage is reserved once, so that a tick allocates nothing.
 ///
@@ -61,13 +64,12 @@ struct Contact {
 /// `moved_mm`: of the HIP since the last pose, for `conserving`.
 /// `paper` takes (2) as printed, which is a ring more than the tool reaches; `conserving` ends the
 /// range with the rings that the tool's ends lie in.
-/// `hand`, of the clay rules: the way from the tool to the hand, 1 up or -1 down. A centre in solid
-/// clay, such as the floor below a bore, is then on the side of the bore on this way. A centre
-/// beside the solid clay is outside.
+/// `hand`, of the clay rules: a centre in solid clay, such as the floor below a bore, is on the
+/// side of the bore on the way to the hand. A centre beside the solid clay is outside.
 template <Model model = Model::conserving>
 void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm,
                   Contact& contact, const glm::dvec3& moved_mm = glm::dvec3(0.0),
-                  int hand = 0) noexcept;
+                  HandAt hand = HandAt::unknown) noexcept;
 
 /// Both tools of a pinch, at the HIP's height and along its radius: at their widest they reach
 /// d + gap/2 from outside and d - gap/2 from inside, so their centres are gap/2 + max f from the

@@ -29,7 +29,9 @@ std::span<ToolRemoval> touch(WheelState& s, const ToolState& tool) noexcept {
       return s.removals;
     }
   }
-  const int hand = !(stages & kRules) ? 0 : s.plan.mode == ToolMode::trim_foot ? -1 : 1;
+  const HandAt hand = !(stages & kRules)                   ? HandAt::unknown
+                      : s.plan.mode == ToolMode::trim_foot ? HandAt::below
+                                                           : HandAt::above;
   find_contact<kModel<stages>>(s.plan.tool, s.stack, tool.hip_mm, s.removals[0].contact,
                                tool.moved_mm, hand);
   return std::span(s.removals).first(1);

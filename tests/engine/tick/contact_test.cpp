@@ -83,17 +83,17 @@ TEST(Contact, ACentreInTheFloorIsOnTheSideOfTheBoreAboveIt) {
   const Tool tool = Tool::build(SphereSpec{10.0}).value();
   Contact contact;
   contact.rings.reserve(most_contacts(tool, 1.0, stack.size()));
-  const auto side = [&](double x, double y, int hand) {
+  const auto side = [&](double x, double y, HandAt hand) {
     find_contact(tool, stack, {x, y, 0.0}, contact, glm::dvec3(0.0), hand);
     return contact.side;
   };
   for (const double y : {-9.0, 0.0, 5.0, 7.9, 8.1}) {
-    EXPECT_EQ(side(40.0, y, 1), Side::expansive) << y;
-    EXPECT_EQ(side(42.0, y, 1), Side::compressive) << y;
+    EXPECT_EQ(side(40.0, y, HandAt::above), Side::expansive) << y;
+    EXPECT_EQ(side(42.0, y, HandAt::above), Side::compressive) << y;
   }
-  EXPECT_EQ(side(40.0, 5.0, 0), Side::compressive);
-  EXPECT_EQ(side(40.0, 5.0, -1), Side::compressive);
-  EXPECT_EQ(side(22.0, 5.0, -1), Side::expansive);
+  EXPECT_EQ(side(40.0, 5.0, HandAt::unknown), Side::compressive);
+  EXPECT_EQ(side(40.0, 5.0, HandAt::below), Side::compressive);
+  EXPECT_EQ(side(22.0, 5.0, HandAt::below), Side::expansive);
 }
 
 /// The hand is below: the centre is in the floor above a foot that is hollow.
@@ -104,14 +104,14 @@ TEST(Contact, ACentreAboveAHollowFootIsOnItsSideForAHandBelow) {
   const Tool tool = Tool::build(SphereSpec{10.0}).value();
   Contact contact;
   contact.rings.reserve(most_contacts(tool, 1.0, stack.size()));
-  const auto side = [&](double y, int hand) {
+  const auto side = [&](double y, HandAt hand) {
     find_contact(tool, stack, {40.0, y, 0.0}, contact, glm::dvec3(0.0), hand);
     return contact.side;
   };
-  EXPECT_EQ(side(6.0, -1), Side::expansive);
-  EXPECT_EQ(side(6.0, 1), Side::compressive);
-  EXPECT_EQ(side(23.0, -1), Side::expansive);    // 20 mm above the foot: the tool's height
-  EXPECT_EQ(side(24.1, -1), Side::compressive);  // farther
+  EXPECT_EQ(side(6.0, HandAt::below), Side::expansive);
+  EXPECT_EQ(side(6.0, HandAt::above), Side::compressive);
+  EXPECT_EQ(side(23.0, HandAt::below), Side::expansive);  // 20 mm above the foot: the tool's height
+  EXPECT_EQ(side(24.1, HandAt::below), Side::compressive);  // farther
 }
 
 /// A plate of 80 mm radius on a foot of 30 mm radius and 11 mm height. The tool is in the air
@@ -125,13 +125,13 @@ TEST(Contact, ACentreBesideAFootIsOutside) {
   Contact contact;
   contact.rings.reserve(most_contacts(tool, 1.0, stack.size()));
   for (const double x : {36.0, 50.0, 69.0}) {
-    find_contact(tool, stack, {x, 5.5, 0.0}, contact, glm::dvec3(0.0), 1);
+    find_contact(tool, stack, {x, 5.5, 0.0}, contact, glm::dvec3(0.0), HandAt::above);
     EXPECT_TRUE(contact.rings.empty()) << x;
   }
-  find_contact(tool, stack, {34.0, 5.5, 0.0}, contact, glm::dvec3(0.0), 1);
+  find_contact(tool, stack, {34.0, 5.5, 0.0}, contact, glm::dvec3(0.0), HandAt::above);
   EXPECT_EQ(contact.side, Side::compressive);
   EXPECT_FALSE(contact.rings.empty());
-  find_contact(tool, stack, {29.0, 5.5, 0.0}, contact, glm::dvec3(0.0), 1);
+  find_contact(tool, stack, {29.0, 5.5, 0.0}, contact, glm::dvec3(0.0), HandAt::above);
   EXPECT_EQ(contact.side, Side::expansive);
 }
 
