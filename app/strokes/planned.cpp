@@ -93,20 +93,14 @@ Path touching_path(const Tool& tool, double from, double to, double rim, bool in
   return path;
 }
 
-/// To the first place of a stroke, over the script's start.
-void approach(Hand& hand, glm::dvec2 first) {
-  const StrokeScript& script = hand.script();
-  if (hand.here().at != script.start_mm)
-    hand.move({{hand.here().at}, {script.start_mm}}, script.travel_mm_s, false);
-  hand.move({{script.start_mm}, {first}}, script.travel_mm_s, false);
-}
-
-/// The widest line down the bore that a tool can take to a height; 0 where it does not fit.
-double free_line(const Tool& tool, const Section& section, double down_to) {
+/// The widest line down the bore that a tool can take to a height: `kClearMm` from the clay, or the
+/// axis if the bore is narrower. None where less than half of that distance is free.
+std::optional<double> free_line(const Tool& tool, const Section& section, double down_to) {
   const Surface bore = [&](double up) { return section.surface(true, up); };
   double line = kInfinity;
   for (double up = down_to; up < section.height() + tool.high(); up += kStepMm)
     line = std::min(line, touching(tool, up, section.height(), true, bore).value_or(0.0));
+  if (line < 0.5 * kClearMm) return std::nullopt;
   return std::max(0.0, line - kClearMm);
 }
 
@@ -133,7 +127,7 @@ void lead(Hand& hand, Path path, const Section& section, bool inside, const Stro
     return;
   }
   const double top = section.height() + tool.high() + kClearMm;
-  const double line = free_line(tool, section, std::min(enter.at.y, leave.at.y));
+  const double line = free_line(tool, section, std::min(enter.at.y, leave.at.y)).value_or(0.0);
   approach(hand, {line, std::max(top, enter.at.y)});
   hand.move({hand.here(), {{line, enter.at.y}, 0.0}}, travel, false);
   path.insert(path.begin(), hand.here());
@@ -154,6 +148,13 @@ double gap_at(const Stroke& stroke, double share) {
 }
 
 }  // namespace
+
+void approach(Hand& hand, glm::dvec2 first_mm) {
+  const StrokeScript& script = hand.script();
+  if (hand.here().at != script.start_mm)
+    hand.move({{hand.here().at}, {script.start_mm}}, script.travel_mm_s, false);
+  hand.move({{script.start_mm}, {first_mm}}, script.travel_mm_s, false);
+}
 
 void shape(Hand& hand, const Stroke& stroke, int pass) {
   const Section section(hand.wheel().stack());
@@ -223,7 +224,7 @@ void round_lip(Hand& hand, const Stroke& stroke) {
     return std::max(least, std::sqrt(std::max(0.0, round * round - t * t)));
   };
   for (const bool inside : {false, true}) {
-    if (inside && free_line(plan.tool, section, rim - round - plan.tool.high()) <= 0.0) break;
+    if (inside && !free_line(plan.tool, section, rim - round - plan.tool.high())) break;
     const Surface lip = [&](double up) {
       if (up < rim - round) return section.surface(inside, up);
       return inside ? middle - half_width(up) : middle + half_width(up);

@@ -24,11 +24,8 @@ Path points_of(const Stroke& stroke, int pass) {
 }
 
 void follow(Hand& hand, const Stroke& stroke, int pass) {
-  const StrokeScript& script = hand.script();
   const Path through = points_of(stroke, pass);
-  if (hand.here().at != script.start_mm)
-    hand.move({{hand.here().at}, {script.start_mm}}, script.travel_mm_s, false);
-  hand.move({{script.start_mm}, {through.front().at}}, script.travel_mm_s, false);
+  approach(hand, through.front().at);
   hand.move(spline(through), stroke.speed_mm_s, stroke.trim);
   hand.hold(stroke.hold_s, stroke.trim);
 }

@@ -34,8 +34,24 @@ struct Block {
 /// Radii and walls of neighbouring rings, from the first one on; see `WallRadii`.
 struct Rows {
   const float *outer, *inner, *wall;
-  std::size_t apart;
+  std::ptrdiff_t apart;
   float spare;  ///< growth over them
+
+  /// How far the k-th ring and those above it may grow before they stand out too steeply [mm].
+  template <class F>
+  [[nodiscard]] CLAYSTACK_INLINE F room(std::ptrdiff_t k) const noexcept {
+    return spare + lesser(F(lead<F>(k, k - apart)), F(lead<F>(k, k + apart)));
+  }
+
+ private:
+  /// By how much another ring is thicker; beside a solid ring, which has no wall, by how much it is
+  /// wider.
+  template <class F>
+  [[nodiscard]] CLAYSTACK_INLINE F lead(std::ptrdiff_t k, std::ptrdiff_t other) const noexcept {
+    const F thicker = load<F>(wall + other) - load<F>(wall + k);
+    const F wider = load<F>(outer + other) - load<F>(outer + k);
+    return lesser(load<F>(inner + k), load<F>(inner + other)) > 0.0f ? thicker : wider;
+  }
 };
 
 /// A heap on its way from the band: the part of it up to each face of a ring, in whole quanta. Up
@@ -87,9 +103,7 @@ CLAYSTACK_INLINE inline void divide(Block& b, const Rows& rows, std::size_t coun
     const F outer = load_floats<n>(rows.outer + k), inner = load_floats<n>(rows.inner + k);
     const F moved =
         0.5f * outside / outer + static_cast<float>(kBoreMoves) * inside / (inner + 1e-20f);
-    const float* const wall = rows.wall + k;
-    const F thinner = lesser(load_floats<n>(wall - rows.apart), load_floats<n>(wall + rows.apart));
-    const F slope = thinner + rows.spare - load_floats<n>(wall);
+    const F slope = rows.room<F>(static_cast<std::ptrdiff_t>(k));
     const F over = moved - lesser(slope, load_floats<n>(b.clear + k));
     const F bore = inside > 0.0f ? inside - kMostOfBore * (inner * inner - kLeastBore2) : F{};
     const F wide = outer - kLargest;
@@ -207,8 +221,7 @@ class Heaving {
                   single(faces + static_cast<double>(count)),
                   sign * static_cast<double>(heap_.outside),
                   sign * static_cast<double>(heap_.inside)};
-    const Rows rows{walls_.outer(first), walls_.inner(first), walls_.thickness(first),
-                    walls_.apart(), single(steepest_mm_)};
+    const Rows rows = rows_from(first);
     in_packs([=, b = &block_](auto n) CLAYSTACK_INLINE { divide<n>(*b, rows, count, way); });
   }
 
@@ -262,9 +275,7 @@ class Heaving {
   void place(std::size_t i, std::size_t k) noexcept {
     const Ring& ring = stack_.rings()[i];
     if (ring.inner2 == 0) carry_ = {0, carry_.inside + carry_.outside};
-    float* const wall = walls_.thickness(i);
-    const float thinner = std::min(*(wall - walls_.apart()), wall[walls_.apart()]);
-    const double room = thinner + steepest_mm_ - *wall;
+    const double room = rows_from(i).room<float>(0);
     if (!(room > 0.0)) return;
     // At most these, even if the radii are small.
     const double out =
@@ -286,7 +297,11 @@ class Heaving {
     carry_.inside -= inside;
     carry_.outside -= outside;
     placed_ += inside + outside;
-    *wall += static_cast<float>(out_part * out + in_part * in);
+    walls_.thicken(i, out_part * out, in_part * in);
+  }
+  [[nodiscard]] Rows rows_from(std::size_t first) const noexcept {
+    return {walls_.outer(first), walls_.inner(first), walls_.thickness(first),
+            static_cast<std::ptrdiff_t>(walls_.apart()), static_cast<float>(steepest_mm_)};
   }
 
   const Tool& tool_;

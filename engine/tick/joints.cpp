@@ -86,24 +86,35 @@ bool enters(const Hands& hands, double h, std::size_t i, const Ring& ring,
 }  // namespace
 
 /// Neighbours overlap from r to R. R^2 - r^2 is at most 2 R times the overlap, so no root is
-/// needed.
+/// needed. Most stacks have only strong joints; that shows without floating point.
 bool has_weak_joint(std::span<const Ring> rings, double least_mm) noexcept {
   if (rings.size() < 2) return false;
+  const double least = std::max(4.0 * least_mm * least_mm * kQuantaPerMm2, 1e-6);
   bool weak = false;
-  in_packs([=, from = rings.data(), joints = rings.size() - 1,
-            least = std::max(4.0 * least_mm * least_mm * kQuantaPerMm2, 1e-6),
-            to = &weak](auto n) CLAYSTACK_INLINE {
-    using D = Doubles<n>;
-    Quantas<n> found{};
-    for (std::size_t k = 0; k < joints; k += n) {
-      const RingPack<n> a = load_rings<n>(from + k, joints - k);
-      const RingPack<n> b = load_rings<n>(from + k + 1, joints - k);
-      const Quantas<n> outer = lesser(a.outer2, b.outer2), inner = greater(a.inner2, b.inner2);
-      const D shared = doubles_of(Quantas<n>(outer > inner ? outer - inner : Quantas<n>{}));
-      found |= D(shared * shared) < D(least * doubles_of(outer));
-    }
-    *to = any(found);
-  });
+  in_packs(
+      [=, from = rings.data(), joints = rings.size() - 1, to = &weak](auto n) CLAYSTACK_INLINE {
+        using D = Doubles<n>;
+        const auto overlap = [=](std::size_t k) CLAYSTACK_INLINE {
+          const RingPack<n> a = load_rings<n>(from + k, joints - k);
+          const RingPack<n> b = load_rings<n>(from + k + 1, joints - k);
+          return RingPack<n>{lesser(a.outer2, b.outer2), greater(a.inner2, b.inner2)};
+        };
+        Quantas<n> smallest = overlap(0).outer2, widest{};
+        for (std::size_t k = 0; k < joints; k += n) {
+          const RingPack<n> both = overlap(k);
+          smallest = lesser(smallest, Quantas<n>(both.outer2 - both.inner2));
+          widest = greater(widest, both.outer2);
+        }
+        const auto all = static_cast<double>(least_of(smallest));
+        if (all > 0.0 && all * all >= least * static_cast<double>(most_of(widest))) return;
+        Quantas<n> found{};
+        for (std::size_t k = 0; k < joints; k += n) {
+          const auto [outer, inner] = overlap(k);
+          const D shared = doubles_of(Quantas<n>(outer > inner ? outer - inner : Quantas<n>{}));
+          found |= D(shared * shared) < D(least * doubles_of(outer));
+        }
+        *to = any(found);
+      });
   return weak;
 }
 

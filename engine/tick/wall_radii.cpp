@@ -102,7 +102,11 @@ void WallRadii::cover(const ClayStack& stack, std::size_t first, std::size_t end
   if (first < from_) measure(stack, first, from_);
   if (end > to_) measure(stack, to_, end);
   if (first == 0)
-    for (std::size_t k = 1; k <= apart_; ++k) thickness_[row(0) - k] = thickness_[row(0)];
+    for (std::size_t k = 1; k <= apart_; ++k) {
+      thickness_[row(0) - k] = thickness_[row(0)];
+      outer_[row(0) - k] = outer_[row(0)];
+      inner_[row(0) - k] = inner_[row(0)];
+    }
   from_ = std::min(from_, first);
   to_ = std::max(to_, end);
 }

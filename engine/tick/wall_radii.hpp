@@ -24,12 +24,20 @@ class WallRadii {
   /// covered ring can be read.
   [[nodiscard]] const float* outer(std::size_t ring) const noexcept { return &outer_[row(ring)]; }
   [[nodiscard]] const float* inner(std::size_t ring) const noexcept { return &inner_[row(ring)]; }
-  [[nodiscard]] float* thickness(std::size_t ring) noexcept { return &thickness_[row(ring)]; }
+  [[nodiscard]] const float* thickness(std::size_t ring) const noexcept {
+    return &thickness_[row(ring)];
+  }
+
+  /// Notes that clay was laid on a covered ring. The bore stays as it was measured.
+  void thicken(std::size_t ring, double outside_mm, double inside_mm) noexcept {
+    outer_[row(ring)] += static_cast<float>(outside_mm);
+    thickness_[row(ring)] += static_cast<float>(outside_mm + inside_mm);
+  }
 
   /// Number of rings over which a slope is measured: 0.17 mm, or one ring if that is more. Over
-  /// less, the limit of the slope would depend on the height of rings. `thickness` can be read for
-  /// as many rings below and above the covered ones. Beyond an end of the stack it is that of the
-  /// end ring.
+  /// less, the limit of the slope would depend on the height of rings. All rows can be read for
+  /// as many rings below and above the covered ones. Beyond an end of the stack they are those of
+  /// the end ring.
   [[nodiscard]] std::size_t apart() const noexcept { return apart_; }
 
  private:

@@ -36,8 +36,10 @@ void expect_radii(double outer_mm, std::size_t count, bool four) {
     EXPECT_NEAR(walls.inner(0)[i], inner, 1e-7 * outer) << "ring " << i;
     EXPECT_EQ(walls.thickness(0)[i], walls.outer(0)[i] - walls.inner(0)[i]) << "ring " << i;
   }
-  EXPECT_EQ(walls.thickness(0)[-1], walls.thickness(0)[0]);
-  EXPECT_EQ(walls.thickness(0)[count], walls.thickness(0)[count - 1]);
+  for (const float* row : {walls.outer(0), walls.inner(0), walls.thickness(0)}) {
+    EXPECT_EQ(row[-1], row[0]);
+    EXPECT_EQ(row[count], row[count - 1]);
+  }
 }
 
 TEST(WallRadii, AreThoseOfTheRings) {
@@ -48,6 +50,19 @@ TEST(WallRadii, AreThoseOfTheRings) {
         SCOPED_TRACE(testing::Message() << outer_mm << " mm, " << count << " rings");
         expect_radii(outer_mm, count, four);
       }
+}
+
+TEST(WallRadii, LaidClayThickensTheWallAndLeavesItsBore) {
+  const ClayStack stack = leaning_wall(50.0, 9);
+  WallRadii walls;
+  walls.reserve(Tool::build(SphereSpec{10.0}).value(), stack);
+  walls.begin(0);
+  walls.cover(stack, 0, 9);
+  const float outer = *walls.outer(4), inner = *walls.inner(4), wall = *walls.thickness(4);
+  walls.thicken(4, 0.5, 0.25);
+  EXPECT_EQ(*walls.outer(4), outer + 0.5f);
+  EXPECT_EQ(*walls.inner(4), inner);
+  EXPECT_EQ(*walls.thickness(4), wall + 0.75f);
 }
 
 }  // namespace

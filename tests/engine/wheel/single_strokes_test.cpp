@@ -118,5 +118,36 @@ TEST(SingleStrokes, APressFromInsideSpoilsFewPots) {
 
 TEST(SingleStrokes, APinchSpoilsNoPot) { expect_few_spoiled(0, pinch); }
 
+/// The largest step outside between neighbouring rings within 2 mm of a height [mm].
+double step_outside(const Wheel& wheel, double up_mm) {
+  const auto rings = wheel.stack().rings();
+  const auto at = static_cast<std::size_t>(up_mm / kRingMm);
+  double step = 0.0;
+  for (std::size_t i = at - 4; i < at + 4; ++i)
+    step = std::max(step, std::abs(rings[i + 1].outer_mm() - rings[i].outer_mm()));
+  return step;
+}
+
+/// A ball presses a wall outside, near the top of its solid bottom, and goes down. Its own surface
+/// rises by at most 0.67 mm from one ring to the next, where it leaves the clay.
+TEST(SingleStrokes, APressBesideTheFloorLeavesNoStepOutside) {
+  constexpr double kOuterMm = 50.0, kDepthMm = 4.0, kDownMm = 15.0;
+  for (const double floor_mm : {20.0, 40.0, 60.0})
+    for (const double wall_mm : {12.0, 20.0})
+      for (const double below_mm : {0.0, 5.0, 10.0}) {
+        Wheel wheel = wheel_with(
+            cylinder_scene({}), 80.0, [](double) { return kOuterMm; },
+            [&](double up) { return up < floor_mm ? 0.0 : kOuterMm - wall_mm; }, kRingMm);
+        Hand hand(wheel);
+        const double up = floor_mm - below_mm, in = kOuterMm + kBallMm - kDepthMm;
+        hand.place_at(in + 10.0, up);
+        hand.move_to(in, up, 30.0);
+        hand.move_to(in, up - kDownMm, 30.0);
+        hand.move_to(in + 15.0, up - kDownMm, 30.0);
+        EXPECT_LE(step_outside(wheel, floor_mm), 1.0)
+            << "floor " << floor_mm << " mm, wall " << wall_mm << " mm, from " << up << " mm";
+      }
+}
+
 }  // namespace
 }  // namespace clay::single_strokes
