@@ -23,10 +23,8 @@ fs::path numbered(const fs::path& target, int number) {
   std::string name = target.filename().string();
   if (name.size() > kMostBytes) {
     std::size_t end = kMostBytes;
-    const auto within_a_letter = [&] {
-      return (name[end] & 0xC0) == 0x80;
-    };  // inside a UTF-8 character
-    while (end > 0 && within_a_letter()) --end;
+    const auto within_a_character = [&] { return (name[end] & 0xC0) == 0x80; };  // of UTF-8
+    while (end > 0 && within_a_character()) --end;
     name.resize(end);
   }
   return folder_of(target) / ("." + name + ".claystack-" + std::to_string(number));

@@ -1,10 +1,14 @@
 #include "core/text.hpp"
 
+#include "core/little_endian.hpp"
+#include "core/lower_case.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace clay {
 namespace {
@@ -19,7 +23,8 @@ constexpr Beginning kBeginnings[] = {
     {"<?xml", "an XML document"},     {"solid ", "an STL mesh in text"},
     {"OFF", "an OFF mesh"},           {"%PDF", "a PDF document"},
     {"ISO-10303-21", "a STEP model"}, {"\x89PNG", "a PNG picture"},
-    {"GIF8", "a GIF picture"}};
+    {"GIF8", "a GIF picture"},        {"AC10", "a DWG drawing"},
+    {"%!PS", "a PostScript drawing"}, {"\x1F\x8B", "a gzip archive"}};
 // The schemas of the project's own files, JSON or CBOR, stand in their first bytes.
 constexpr Beginning kSchemas[] = {{"claystack-pot-", "a pot"},
                                   {"claystack-scene-", "a scene"},
@@ -40,32 +45,44 @@ std::size_t length_by_lead(unsigned char lead) {
   return 0;
 }
 
-/// Length of the first character if XML 1.0 permits it (production 2); otherwise 0.
-std::size_t allowed(std::string_view text) {
+struct Character {
+  std::uint32_t code = 0;
+  std::size_t length = 0;  ///< in bytes; 0: not UTF-8, or XML 1.0 forbids it (production 2)
+};
+
+/// The first character of a text that is not empty.
+Character first_of(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const std::size_t length = length_by_lead(byte(0));
-  if (length == 0 || length > text.size()) return 0;
+  if (length == 0 || length > text.size()) return {};
   if (length == 1) {
     const bool blank = text[0] == '\t' || text[0] == '\n' || text[0] == '\r';
-    return byte(0) >= 0x20 || blank ? 1 : 0;
+    return {byte(0), byte(0) >= 0x20 || blank ? 1u : 0u};
   }
   std::uint32_t code = byte(0) & (0xFFu >> (length + 1));
   for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
+    if ((byte(i) & 0xC0) != 0x80) return {};
     code = code << 6 | (byte(i) & 0x3Fu);
   }
   constexpr std::array<std::uint32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
   const bool surrogate = code >= 0xD800 && code < 0xE000;
   const bool none = code == 0xFFFE || code == 0xFFFF || code > 0x10FFFF;
-  return code < kLeast[length] || surrogate || none ? 0 : length;
+  return {code, code < kLeast[length] || surrogate || none ? 0 : length};
+}
+
+/// No control character, and none that hides or reorders the text around it.
+bool is_visible(std::uint32_t code) {
+  constexpr std::pair<std::uint32_t, std::uint32_t> kHidden[] = {
+      {0x0, 0x1F},      {0x7F, 0x9F},     {0xAD, 0xAD},     {0x200B, 0x200F},
+      {0x2028, 0x202E}, {0x2060, 0x206F}, {0xFEFF, 0xFEFF}, {0xE0000, 0xE0FFF}};
+  return std::ranges::none_of(
+      kHidden, [&](const auto& range) { return code >= range.first && code <= range.second; });
 }
 
 /// A header of 80 bytes, the number of triangles, and 50 bytes for each.
 bool is_binary_stl(std::string_view bytes) {
   if (bytes.size() < 84) return false;
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    count |= std::uint64_t{static_cast<unsigned char>(bytes[80 + i])} << (8 * i);
+  const std::uint64_t count = load_u32(bytes.data() + 80);
   return count > 0 && bytes.size() == 84 + 50 * count;
 }
 
@@ -110,9 +127,9 @@ std::string counted(std::size_t count, std::string_view noun) {
 }
 
 bool ends_ignoring_case(std::string_view text, std::string_view ending) noexcept {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
   return text.size() >= ending.size() &&
-         std::ranges::equal(text.substr(text.size() - ending.size()), ending, {}, lower);
+         std::ranges::equal(text.substr(text.size() - ending.size()), ending, {},
+                            [](char c) { return lower_case(c); });
 }
 
 std::string_view without_byte_order_mark(std::string_view text) noexcept {
@@ -153,16 +170,19 @@ Error kind_error(Error error, std::string_view bytes, std::string_view name,
 }
 
 std::string shown(std::string_view text, std::size_t most) {
-  std::string result(text.substr(0, most));
-  std::ranges::replace_if(
-      result, [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text.size() > most ? result + "..." : result;
+  std::string result;
+  for (std::size_t count = 0; count < most && !text.empty(); ++count) {
+    const auto [code, length] = first_of(text);
+    result += length > 0 && is_visible(code) ? text.substr(0, length) : "?";
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return text.empty() ? result : result + "...";
 }
 
 std::string valid_text(std::string_view text) {
   std::string valid;
   while (!text.empty()) {
-    const std::size_t length = allowed(text);
+    const std::size_t length = first_of(text).length;
     valid += length == 0 ? kReplacement : text.substr(0, length);
     text.remove_prefix(length == 0 ? 1 : length);
   }

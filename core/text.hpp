@@ -40,8 +40,8 @@ namespace clay {
 /// locale.
 [[nodiscard]] bool ends_ignoring_case(std::string_view text, std::string_view ending) noexcept;
 
-/// Text of unknown origin for a message: at most `most` characters, then "..."; a character that is
-/// not printable ASCII becomes '?'.
+/// Text of unknown origin for a message: at most `most` characters, then "..."; bytes that are not
+/// UTF-8, and characters that control, hide or reorder text, become '?'.
 [[nodiscard]] std::string shown(std::string_view text, std::size_t most = 40);
 
 /// Invalid UTF-8, and characters that XML forbids, become U+FFFD: file names may hold any bytes.

@@ -1,5 +1,6 @@
 #include "core/xml_attributes.hpp"
 
+#include "core/lower_case.hpp"
 #include "core/text.hpp"
 
 #include <algorithm>
@@ -33,10 +34,7 @@ std::string encoding_in(std::string_view declaration) {
   if (at == declaration.npos || declaration[at] != '=') return {};
   at = declaration.find_first_not_of(kBlank, at + 1);
   if (at == declaration.npos) return {};
-  std::string name(declaration.substr(at + 1, declaration.find(declaration[at], at + 1) - at - 1));
-  for (char& c : name)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return name;
+  return lower_case(declaration.substr(at + 1, declaration.find(declaration[at], at + 1) - at - 1));
 }
 
 }  // namespace

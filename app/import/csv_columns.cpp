@@ -2,6 +2,7 @@
 
 #include "app/import/readers.hpp"
 
+#include "core/lower_case.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ constexpr std::array<std::pair<std::string_view, double>, 8> kUnits = {{{"mm", 1
                                                                         {"inches", 25.4},
                                                                         {"millimetres", 1.0},
                                                                         {"centimetres", 10.0}}};
-constexpr std::array<std::string_view, 4> kRadii = {"radius", "r", "rho", "x"};
+constexpr std::array<std::string_view, 5> kRadii = {"radius", "r", "rho", "x", "halbmesser"};
 constexpr std::array<std::string_view, 3> kDiameters = {"diameter", "d", "durchmesser"};
 // The escapes are of Windows-1252, in which German spreadsheets write tables.
 constexpr std::array<std::string_view, 9> kHeights = {
@@ -47,9 +48,24 @@ std::vector<std::string> words_in(std::string_view text) {
     const auto byte = static_cast<unsigned char>(c);
     const bool part = std::isalnum(byte) != 0 || byte >= 0x80;
     if (part && !open) words.emplace_back();
-    if (part) words.back() += static_cast<char>(std::tolower(byte));
+    if (part) words.back() += lower_case(c);
     open = part;
   }
+  return words;
+}
+
+/// The words of a column's name, with "in" before a unit left out ("radius in mm"), and a German
+/// compound such as "innendurchmesser" as two words.
+std::vector<std::string> words_of_column(std::string_view name) {
+  std::vector<std::string> words = words_in(name);
+  if (words.size() > 2 && words[words.size() - 2] == "in") words.erase(words.end() - 2);
+  const auto split_after = [&](std::string_view side) {
+    if (words.empty() || words[0].size() <= side.size() || !words[0].starts_with(side)) return;
+    words.insert(words.begin() + 1, words[0].substr(side.size()));
+    words[0].resize(side.size());
+  };
+  for (const std::string_view side : kOuter) split_after(side);
+  for (const std::string_view side : kInner) split_after(side);
   return words;
 }
 
@@ -63,7 +79,7 @@ struct NamedColumn {
 
 /// The kind and unit of the `index`-th column, by its name.
 NamedColumn column_of(std::string_view name, std::size_t index) {
-  const std::vector<std::string> words = words_in(name);
+  const std::vector<std::string> words = words_of_column(name);
   NamedColumn result{Kind::other, {index, 1.0}, true};
   if (words.empty()) return result;
   const bool within = among(kInner, words.front());

@@ -26,9 +26,9 @@ struct CsvColumns {
 /// the first of these that occurs.
 [[nodiscard]] std::vector<std::string> csv_fields(std::string_view row);
 
-/// Columns by their names: radius, r, rho, x or diameter, d, durchmesser; height, h, y, z or höhe;
-/// each with a unit mm, cm, m or in after _ or a blank or in brackets, by default mm. A radius or
-/// diameter may be called outer or inner; an inner one needs an outer one. Other columns are
+/// Columns by their names: radius, r, rho, x, halbmesser or diameter, d, durchmesser; height, h, y,
+/// z or höhe; each with a unit mm, cm, m or in after _ or a blank or in brackets, by default mm. A
+/// radius or diameter may be called outer or inner; an inner one needs an outer one. Others are
 /// ignored. Refuses names of which not exactly one is a radius and one a height, and the table of
 /// walls that `export` writes, which is no outline. The error is without a place.
 Result<CsvColumns> csv_columns(const std::vector<std::string>& names);

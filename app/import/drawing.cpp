@@ -1,15 +1,17 @@
 #include "app/import/drawing.hpp"
 
 #include "app/import/readers.hpp"
+#include "core/lower_case.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 namespace clay::importing {
 namespace {
@@ -43,19 +45,25 @@ Result<Drawing> checked(Drawing drawing, const std::string& name) {
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlank);
+std::string_view trimmed(std::string_view text, std::string_view blanks) {
+  const std::size_t first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 bool for_construction(std::string_view layer_name) {
   constexpr std::string_view kBegin = "construction";
-  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-  return layer_name.size() >= kBegin.size() &&
-         std::equal(kBegin.begin(), kBegin.end(), layer_name.begin(),
-                    [&](char wanted, char found) { return same(found, wanted); });
+  return lower_case(layer_name.substr(0, kBegin.size())) == kBegin;
+}
+
+std::string list_of(std::span<const std::string> names) {
+  constexpr std::size_t kMostNamed = 12;
+  std::vector<std::string> named;
+  for (const std::string& name : names.first(std::min(names.size(), kMostNamed)))
+    named.push_back(shown(name));
+  const std::size_t more = names.size() - named.size();
+  return fmt::format("\"{}\"{}", fmt::join(named, "\", \""),
+                     more > 0 ? fmt::format(" and {} more", more) : std::string());
 }
 
 std::string PointLimits::out_of_bounds(std::span<const glm::dvec2> points_mm) {
@@ -76,9 +84,9 @@ std::string PointLimits::problem_with(std::span<const glm::dvec2> points_mm) {
 
 Result<Drawing> read_drawing(std::string_view bytes, const std::string& name,
                              const std::string& layer, double scale) {
-  std::string ending = name == "-" ? std::string(ending_of(bytes))
-                                   : std::filesystem::path(name).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = name == "-"
+                                 ? std::string(ending_of(bytes))
+                                 : lower_case(std::filesystem::path(name).extension().string());
   const bool svg = ending == ".svg", dxf = ending == ".dxf";
   if (!svg && !dxf && ending != ".csv")
     return failure(

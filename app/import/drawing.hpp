@@ -24,6 +24,7 @@ struct Drawing {
   bool axis_at_zero = false;
   std::vector<std::string> notes{};  ///< what a reader left out, each for a warning
   double scale = 1.0;                ///< of the points, from the lengths in the file
+  bool unit_stated = true;           ///< false: its lengths are in mm by convention only
 };
 
 /// Maximum distance of chords from their curves, after scaling.

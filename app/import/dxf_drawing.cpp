@@ -1,5 +1,6 @@
 #include "app/import/dxf_shapes.hpp"
 #include "app/import/readers.hpp"
+#include "core/lower_case.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -48,14 +48,10 @@ bool has_outline(std::string_view type) {
   return std::ranges::find(kKinds, type) != kKinds.end();
 }
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
-/// DXF names are equal in either case.
+/// The name of a layer or block, in lower case: DXF names are equal in either case.
 using Name = std::string;
+
+Name name_of(std::string_view text) { return lower_case(dxf_text(text)); }
 
 struct Block {
   DxfGroups content;
@@ -66,7 +62,7 @@ struct Block {
 /// One insertion: what its content is placed by, and the layer of entities on layer 0.
 struct Insertion {
   DxfPlacement placement;
-  Name layer = "0";
+  std::string layer = "0";
   int depth = 0;
 };
 
@@ -74,7 +70,7 @@ struct Insertion {
 class Reader {
  public:
   Reader(const std::string& name, const std::string& layer, double scale)
-      : name_(name), layer_(lower(layer)), scale_(scale) {}
+      : name_(name), asked_layer_(layer), layer_(name_of(layer)), scale_(scale) {}
 
   Result<Drawing> read(DxfGroups groups) {
     while (true) {
@@ -85,15 +81,19 @@ class Reader {
       if (auto done = section(*entity, groups); !done) return tl::make_unexpected(done.error());
     }
     if (!layer_.empty() && !seen_layers_.contains(layer_))
-      return failure(ErrorKind::bad_input,
-                     fmt::format("{}: expected a layer \"{}\", found {}", name_, layer_,
-                                 seen_layers_.empty()
-                                     ? "no lines on any layer"
-                                     : fmt::format("\"{}\"", fmt::join(seen_layers_, "\", \""))));
+      return failure(ErrorKind::bad_input, fmt::format("{}: expected a layer \"{}\", found {}",
+                                                       name_, shown(asked_layer_), layer_names()));
     return drawing();
   }
 
  private:
+  /// The names that --layer accepts, as the file writes them.
+  [[nodiscard]] std::string layer_names() const {
+    std::vector<std::string> names;
+    for (const auto& [name, written] : seen_layers_) names.push_back(written);
+    return names.empty() ? "no lines on any layer" : list_of(names);
+  }
+
   Result<Drawing> drawing() {
     Drawing drawing{std::move(lines_), false};
     if (unread_.empty()) return drawing;
@@ -161,7 +161,7 @@ class Reader {
           construction || (entity.groups[i - 1].value == "LibreCad" &&
                            entity.groups[i].code == 1070 && entity.groups[i].value == "1");
     if ((*flags & kFrozen) != 0 || *colour < 0 || *plotted == 0 || construction)
-      ignored_.insert(lower(entity.text(2)));
+      ignored_.insert(name_of(entity.text(2)));
     return {};
   }
 
@@ -175,7 +175,7 @@ class Reader {
       if (!inside) return tl::make_unexpected(inside.error());
       block.groups += 1 + inside->groups.size();
       if (inside->type == "ENDBLK") {
-        blocks_.insert_or_assign(lower(entity.text(2)), block);
+        blocks_.insert_or_assign(name_of(entity.text(2)), block);
         return {};
       }
       if (inside->type == "EOF" || inside->type == "ENDSEC")
@@ -208,25 +208,26 @@ class Reader {
   }
 
   Result<void> draw(const DxfEntity& entity, DxfGroups& groups, const Insertion& within) {
-    Name layer = lower(entity.text(8));
-    if (layer.empty() || layer == "0") layer = within.layer;
+    const bool own = !entity.text(8).empty() && entity.text(8) != "0";
+    const std::string written = own ? dxf_text(entity.text(8)) : within.layer;
+    const Name layer = name_of(written);
     const bool visible = entity.text(60) != "1" && entity.text(67) != "1" && layer != "defpoints" &&
                          !ignored_.contains(layer);
     const bool drawn = visible && (!for_construction(layer) || layer == layer_);
-    if (entity.type == "INSERT") return drawn ? insert(entity, within, layer) : Result<void>();
+    if (entity.type == "INSERT") return drawn ? insert(entity, within, written) : Result<void>();
     auto line = dxf_line(entity, groups, within.placement, limits_, name_);
     if (!line) return tl::make_unexpected(line.error());
     const bool asked = layer_.empty() || layer == layer_;
     if (drawn && asked && has_outline(entity.type)) unread_.insert(std::string(entity.type));
     if (!*line || (*line)->points_mm.size() < 2 || !visible) return {};
-    seen_layers_.insert(layer);
+    seen_layers_.emplace(layer, written);
     if (drawn && asked) lines_.push_back(std::move(**line));
     return {};
   }
 
   /// Draws the content of a block at each place of an array of insertions.
-  Result<void> insert(const DxfEntity& entity, const Insertion& within, const Name& layer) {
-    const auto found = blocks_.find(lower(entity.text(2)));
+  Result<void> insert(const DxfEntity& entity, const Insertion& within, const std::string& layer) {
+    const auto found = blocks_.find(name_of(entity.text(2)));
     if (found == blocks_.end())
       return refusal(entity,
                      fmt::format("expected the name of a block of the drawing, found \"{}\"",
@@ -299,11 +300,13 @@ class Reader {
   }
 
   const std::string& name_;
+  const std::string& asked_layer_;
   const Name layer_;  ///< the only one to be drawn; empty: all
   const double scale_;
   double unit_mm_ = 1.0;
-  std::set<Name> ignored_, seen_layers_;
-  std::set<std::string> unread_;  ///< kinds of entities
+  std::set<Name> ignored_;
+  std::map<Name, std::string> seen_layers_;  ///< as the file writes them
+  std::set<std::string> unread_;             ///< kinds of entities
   std::map<Name, Block> blocks_;
   std::size_t entities_ = 0, groups_ = 0;  ///< as counted for their limits
   PointLimits limits_;

@@ -6,6 +6,7 @@
 #include "core/text.hpp"
 
 #include <fmt/format.h>
+#include <libxml/encoding.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +96,17 @@ Result<DxfEntity> take_dxf_entity(DxfGroups& groups, const std::string& name) {
     entity.groups.push_back(*group);
     groups = ahead;
   }
+}
+
+std::string dxf_text(std::string_view value) {
+  const std::string bytes(value);
+  if (xmlCheckUTF8(reinterpret_cast<const unsigned char*>(bytes.c_str())) != 0) return bytes;
+  std::string utf8(2 * bytes.size(), '\0');
+  int size = static_cast<int>(utf8.size()), taken = static_cast<int>(bytes.size());
+  isolat1ToUTF8(reinterpret_cast<unsigned char*>(utf8.data()), &size,
+                reinterpret_cast<const unsigned char*>(bytes.data()), &taken);
+  utf8.resize(static_cast<std::size_t>(size));
+  return utf8;
 }
 
 Result<double> dxf_number(const DxfGroup& group, const std::string& name) {

@@ -53,6 +53,10 @@ inline constexpr std::size_t kMostDxfGroups = 2'000'000;
 /// Takes an entity and its groups: the next group must have the code 0.
 Result<DxfEntity> take_dxf_entity(DxfGroups& groups, const std::string& name);
 
+/// A value in UTF-8. Programs before AutoCAD 2007 write the characters of a country, mostly those
+/// of Western Europe: a value that is not UTF-8 is read as Latin-1.
+[[nodiscard]] std::string dxf_text(std::string_view value);
+
 /// A finite number, or an integer. Errors read "NAME:LINE: expected a number, found ...".
 Result<double> dxf_number(const DxfGroup& group, const std::string& name);
 Result<long> dxf_integer(const DxfGroup& group, const std::string& name);

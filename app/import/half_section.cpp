@@ -259,11 +259,13 @@ Result<void> move_to_axis(Drawing& drawing, double axis_mm, std::optional<double
   const Bounds bounds = bounds_of(drawing.lines);
   const double drawn_mm = bounds.high.y - bounds.low.y;
   if (!(drawn_mm > 0.0) || !(bounds.high.x > axis_mm))
-    return failure(ErrorKind::bad_input,
-                   fmt::format("{}: expected an outline right of the axis at x = {:g} mm, found "
-                               "one from x = {:g} to {:g}, {:g} mm high",
-                               name, axis_mm / drawing.scale, bounds.low.x / drawing.scale,
-                               bounds.high.x / drawing.scale, drawn_mm / drawing.scale));
+    return failure(
+        ErrorKind::bad_input,
+        fmt::format("{}: expected an outline right of the axis at x = {:g} mm, found "
+                    "one from x = {:g} to {:g}, {:g} mm high{}",
+                    name, axis_mm / drawing.scale, bounds.low.x / drawing.scale,
+                    bounds.high.x / drawing.scale, drawn_mm / drawing.scale,
+                    drawn_mm > 0.0 ? "" : "; z is ignored: export the sketch in its own plane"));
   const double scale = height_mm.value_or(drawn_mm) / drawn_mm;
   for (Line& line : drawing.lines)
     for (glm::dvec2& p : line.points_mm) p = scale * (p - glm::dvec2{axis_mm, bounds.low.y});
@@ -328,6 +330,11 @@ double HalfSection::volume_mm3() const noexcept {
 
 Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& settings,
                                  const std::string& name) {
+  if (!drawing.unit_stated && !settings.height_mm)
+    drawing.notes.push_back(
+        name +
+        ": expected a page with a size in mm, cm or in, found none: 96 units are read as "
+        "one inch; if the program that drew it counts otherwise, set the height of the pot");
   auto section = section_as_drawn(drawing, settings, name);
   // An outline that is drawn twice may enclose nothing, by the even-odd rule.
   if (section && section->volume_mm3() > 0.0) return section;

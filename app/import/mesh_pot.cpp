@@ -1,6 +1,7 @@
 #include "app/import/mesh_pot.hpp"
 
 #include "app/import/mesh_section.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -128,9 +129,8 @@ double part_limit_mm(double largest_radius_mm) {
 
 Result<void> check_size(const solid::TriangleMesh& mesh, const std::string& name) {
   if (mesh.triangles.size() >= 4) return {};
-  return failure(
-      ErrorKind::bad_input,
-      fmt::format("{}: expected a mesh of a pot, found {} triangles", name, mesh.triangles.size()));
+  return failure(ErrorKind::bad_input, fmt::format("{}: expected a mesh of a pot, found {}", name,
+                                                   counted(mesh.triangles.size(), "triangle")));
 }
 
 /// Along the axis that fits the mesh, with the opening up.

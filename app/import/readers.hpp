@@ -22,11 +22,14 @@ class PointLimits {
 };
 
 /// The text without blanks at its ends.
-std::string_view trimmed(std::string_view text);
+std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r");
 
 /// Whether a layer is for construction by its name, which then begins with "construction" in any
 /// case. Such layers are drawn only if they are asked for by name.
 bool for_construction(std::string_view layer_name);
+
+/// Names of layers for a message: "foot", "rim" and 3 more; the first twelve are named.
+std::string list_of(std::span<const std::string> names);
 
 /// `layer`: the only layer to read; empty: all that are shown. `scale`: as for read_drawing.
 Result<Drawing> read_svg(std::string_view bytes, const std::string& name, const std::string& layer,

@@ -277,7 +277,9 @@ Result<Drawing> read_svg(std::string_view bytes, const std::string& name, const 
     return failure(ErrorKind::bad_input, fmt::format("{}: expected an SVG drawing, found: {}", name,
                                                      shortened(error.what())));
   }
-  return Drawing{std::move(collector.lines), false, std::move(shapes->notes)};
+  Drawing drawing{std::move(collector.lines), false, std::move(shapes->notes)};
+  drawing.unit_stated = shapes->unit_stated;
+  return drawing;
 }
 
 }  // namespace clay::importing

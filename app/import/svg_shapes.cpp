@@ -6,10 +6,10 @@
 #include "core/text.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <new>
 #include <set>
@@ -24,15 +24,19 @@ constexpr std::size_t kMostElements = 200'000;       // counted again at each us
 constexpr std::size_t kMostCopied = 2 * kMostBytes;  // bytes of attributes, again at each use
 constexpr std::string_view kSvgSpace = "http://www.w3.org/2000/svg";
 
-/// The attributes of each shape that are its geometry.
-const std::map<std::string_view, std::vector<const char*>> kShapes = {
-    {"path", {"d"}},
-    {"polygon", {"points"}},
-    {"polyline", {"points"}},
-    {"line", {"x1", "y1", "x2", "y2"}},
-    {"rect", {"x", "y", "width", "height", "rx", "ry"}},
-    {"circle", {"cx", "cy", "r"}},
-    {"ellipse", {"cx", "cy", "rx", "ry"}}};
+/// The attributes that are the geometry of a shape. Without a needed one it draws nothing, as a
+/// path whose nodes were deleted.
+struct Geometry {
+  std::vector<const char*> needed, others;
+};
+const std::map<std::string_view, Geometry> kShapes = {
+    {"path", {{"d"}, {}}},
+    {"polygon", {{"points"}, {}}},
+    {"polyline", {{"points"}, {}}},
+    {"line", {{}, {"x1", "y1", "x2", "y2"}}},
+    {"rect", {{"width", "height"}, {"x", "y", "rx", "ry"}}},
+    {"circle", {{"r"}, {"cx", "cy"}}},
+    {"ellipse", {{}, {"cx", "cy", "rx", "ry"}}}};
 constexpr std::array<const char*, 6> kViewport = {"x",      "y",       "width",
                                                   "height", "viewBox", "preserveAspectRatio"};
 
@@ -51,6 +55,13 @@ std::string_view address_of(const xmlNode* node) {
 
 bool of_svg(const xmlNode* node) {
   return node->type == XML_ELEMENT_NODE && (node->ns == nullptr || address_of(node) == kSvgSpace);
+}
+
+/// A number with a unit of a length on paper. Programs differ in the length of a px.
+bool has_unit(std::string_view length) {
+  constexpr std::array<std::string_view, 6> kUnits = {"mm", "cm", "in", "pt", "pc", "q"};
+  return !length.empty() && length.find_first_of("+-.0123456789") == 0 &&
+         std::ranges::any_of(kUnits, [&](auto unit) { return ends_ignoring_case(length, unit); });
 }
 
 /// Properties that children inherit from their parents.
@@ -77,22 +88,16 @@ class Copier {
     if (!done) return tl::make_unexpected(done.error());
     if (!layer_.empty() && !found_layer_)
       return failure(ErrorKind::bad_input, fmt::format("{}: expected a layer \"{}\", found {}",
-                                                       name_, layer_, layer_names()));
-    return SvgShapes{std::move(result_), std::move(notes_)};
+                                                       name_, shown(layer_), layer_names()));
+    return SvgShapes{std::move(result_), std::move(notes_), unit_stated_};
   }
 
  private:
   /// The names that --layer accepts, layers before other groups.
   [[nodiscard]] std::string layer_names() const {
-    constexpr std::size_t kMost = 12;
     std::vector<std::string> names(layers_.begin(), layers_.end());
-    for (const std::string& group : groups_)
-      if (!layers_.contains(group)) names.push_back(group);
-    if (names.empty()) return "no layers and no groups with a name";
-    const std::size_t more = names.size() - std::min(names.size(), kMost);
-    names.resize(names.size() - more);
-    return fmt::format("\"{}\"{}", fmt::join(names, "\", \""),
-                       more > 0 ? fmt::format(" and {} more", more) : std::string());
+    std::ranges::set_difference(groups_, layers_, std::back_inserter(names));
+    return names.empty() ? "no layers and no groups with a name" : list_of(names);
   }
 
   /// Finds ids and style sheets, without recursion: the depth is not yet limited.
@@ -158,11 +163,20 @@ class Copier {
     if (kind == "svg") return viewport(node, node, parent, state);
     if (kind == "switch") return chosen(node, parent, state);
     if (group) return children(node, parent, state);
-    if (state.visible && state.in_layer && (state.filled || state.stroked)) {
-      xmlNode* copied = add(node, parent, kind);
-      for (const char* attribute : shape->second) copy_attribute(node, copied, attribute);
-    }
+    if (state.visible && state.in_layer && (state.filled || state.stroked))
+      copy_shape(node, parent, shape->second);
     return {};
+  }
+
+  void copy_shape(xmlNode* node, xmlNode* parent, const Geometry& geometry) {
+    const bool drawn = std::ranges::all_of(geometry.needed, [&](const char* attribute) {
+      const std::string value = svg_attribute(node, attribute);
+      return !value.empty() && value != "auto" && value != "none";
+    });
+    if (!drawn) return;
+    xmlNode* copied = add(node, parent, name_of(node));
+    for (const auto* attributes : {&geometry.needed, &geometry.others})
+      for (const char* attribute : *attributes) copy_attribute(node, copied, attribute);
   }
 
   Result<void> count(xmlNode* node) {
@@ -322,6 +336,7 @@ class Copier {
   void copy_attribute(xmlNode* from, xmlNode* to, const char* attribute) {
     const std::string value = svg_attribute(from, attribute);
     if (!value.empty() && value != "auto") set(to, attribute, value);
+    unit_stated_ = unit_stated_ || has_unit(value);
   }
 
   [[nodiscard]] tl::unexpected<Error> refusal(const xmlNode* node,
@@ -338,7 +353,7 @@ class Copier {
   std::map<std::string, xmlNode*> ids_;
   std::vector<std::string> used_;          ///< the references within which the element is
   std::set<std::string> layers_, groups_;  ///< names of layers of Inkscape, and of other groups
-  bool found_layer_ = false;
+  bool found_layer_ = false, unit_stated_ = false;
   std::vector<std::string> notes_;
   std::set<std::string_view> noted_;  // kinds that have a note
   std::size_t count_ = 0, copied_ = 0;

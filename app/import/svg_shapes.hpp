@@ -17,6 +17,7 @@ using XmlDocument = std::unique_ptr<xmlDoc, decltype(&xmlFreeDoc)>;
 struct SvgShapes {
   XmlDocument document;
   std::vector<std::string> notes;  ///< clip paths and masks, which are not applied
+  bool unit_stated = false;        ///< a length has a unit such as mm; px is none on paper
 };
 
 /// Copies the shapes that are drawn: `use` and `symbol` become groups, style sheets and style

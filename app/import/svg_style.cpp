@@ -1,5 +1,7 @@
 #include "app/import/svg_style.hpp"
 
+#include "app/import/readers.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,11 +21,7 @@ constexpr std::array<std::string_view, kSvgProperties> kNames = {
     "display",          "visibility", "fill",      "stroke", "transform",
     "transform-origin", "opacity",    "clip-path", "mask"};
 
-std::string_view stripped(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kSvgBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kSvgBlank) - first + 1);
-}
+std::string_view stripped(std::string_view text) { return trimmed(text, kSvgBlank); }
 
 /// Removes everything up to `end` from the front, and returns what was before it.
 std::string_view take_until(std::string_view& text, char end) {

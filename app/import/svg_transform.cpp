@@ -1,6 +1,7 @@
 #include "app/import/svg_transform.hpp"
 
 #include "app/import/svg_style.hpp"
+#include "core/lower_case.hpp"
 #include "core/number_parsing.hpp"
 #include "core/text.hpp"
 
@@ -18,27 +19,21 @@ namespace {
 
 struct Measure {
   double value = 0.0;
-  std::string unit;  ///< in small letters
+  std::string unit;  ///< in lower case
 };
-
-std::string small_letters(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
 
 void skip(std::string_view& text, std::string_view characters) {
   text.remove_prefix(std::min(text.find_first_not_of(characters), text.size()));
 }
 
-/// The letters at the front, in small letters; also "%" and the digits of "translate3d".
+/// The letters at the front, in lower case; also "%" and the digits of "translate3d".
 std::string take_word(std::string_view& text) {
   const auto end = std::find_if_not(text.begin(), text.end(), [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '%';
   });
   const std::string_view word = text.substr(0, static_cast<std::size_t>(end - text.begin()));
   text.remove_prefix(word.size());
-  return small_letters(word);
+  return lower_case(word);
 }
 
 std::optional<Measure> take_measure(std::string_view& text) {
@@ -91,7 +86,7 @@ std::optional<double> size_of_unit(std::string_view unit, Quantity quantity) {
 
 /// A function, and what its arguments are.
 struct Function {
-  std::string_view name;  ///< in small letters
+  std::string_view name;  ///< in lower case
   std::size_t fewest, most;
   Quantity first, others;
 };

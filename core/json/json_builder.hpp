@@ -51,7 +51,7 @@ class JsonBuilder {
   std::string refusal_;
 };
 
-/// `text` for one line of a message: ASCII, and just long enough to recognise it.
+/// `text` for one line of a message: as shown() makes it, and just long enough to recognise it.
 std::string printable(std::string_view text);
 
 }  // namespace clay::inline json

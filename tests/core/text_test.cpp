@@ -20,10 +20,23 @@ namespace {
 TEST(Shown, BoundsTextAndReplacesUnprintableCharacters) {
   EXPECT_EQ(shown("abc", 3), "abc");
   EXPECT_EQ(shown("abcd", 3), "abc...");
-  EXPECT_EQ(shown("a\x1b[2J\n\xc3\xa9~ "), "a?[2J???~ ");
+  EXPECT_EQ(shown("a\x1b[2J\n~ "), "a?[2J?~ ");
+  EXPECT_EQ(shown("H\u00F6he \u20AC \U0001F3FA"), "H\u00F6he \u20AC \U0001F3FA");
+  EXPECT_EQ(shown("H\xF6he \xE2\x82"), "H?he ??");        // Latin-1, and half a character
+  EXPECT_EQ(shown("a\u0085b\u202Ec\u200Bd"), "a?b?c?d");  // control, reversal, no width
+  EXPECT_EQ(shown("\u00F6\u00F6\u00F6", 2), "\u00F6\u00F6...");
   std::string cut(40, 'x');
   cut += "...";  // with operator+, GCC 12 warns of bounds that are kept
   EXPECT_EQ(shown(std::string(1000, 'x')), cut);
+}
+
+/// By the first bytes that the formats' specifications state.
+TEST(KindOfFile, NamesDrawingsOfOtherPrograms) {
+  EXPECT_EQ(kind_of_file("%PDF-1.7\n"), "a PDF document");
+  EXPECT_EQ(kind_of_file("%!PS-Adobe-3.0 EPSF-3.0\n"), "a PostScript drawing");
+  EXPECT_EQ(kind_of_file("AC1032"), "a DWG drawing");
+  EXPECT_EQ(kind_of_file("\x1F\x8B\x08"), "a gzip archive");
+  EXPECT_EQ(kind_of_file("0\nSECTION"), "text that begins with '0'");
 }
 
 TEST(NumberIn, ReadsTheWholeTextOrNothing) {

@@ -72,6 +72,8 @@ TEST(CsvDrawing, ReadsColumnsByTheirNames) {
         "\xEF\xBB\xBF\"diameter_in\"\t\"height_in\"\r\n2\t0\r\n1\t2\r\n",
         "Radius [mm];Höhe [mm]\n25.4;0\n12.7;50.8\n",
         "Durchmesser (cm)\tHOEHE\n5,08\t0\n2,54\t50,8\n",
+        "Au\u00DFendurchmesser in cm;H\u00F6he in mm\n5,08;0\n2,54;50,8\n",
+        "Halbmesser;H\u00F6he\n25,4;0\n12,7;50,8\n", "Radius in in;Height in in\n1;0\n0.5;2\n",
         "outer_radius, height\n25.4,0\n12.7,50.8\n", "x;y\n25,4;0\n12,7;50,8\n",
         "25,4;0\n+12,7;50,8\n", "25,4\t0\n12,7\t50,8\n",
         // As spreadsheets write tables: quotes, a first row, old line ends, Windows-1252.
@@ -101,6 +103,9 @@ TEST(CsvDrawing, ReadsInnerAndOuterRadii) {
       "tube.csv");
   ASSERT_TRUE(inches) << refusal_of(inches);
   EXPECT_NEAR(inches->volume_mm3(), std::numbers::pi * 0.75 * 3.0 * 25.4 * 25.4 * 25.4, 1e-6);
+  EXPECT_EQ(points_of("Au\xDF"
+                      "enradius;Innenradius;H\xF6he\n9;8;0\n"),
+            (std::vector<glm::dvec2>{{9, 0}, {8, 0}}));
   EXPECT_THAT(refusal_of(read_drawing("outer radius,inner radius,height\n9,10,0\n", "cup.csv")),
               HasSubstr("cup.csv:2: expected an inner radius up to the outer one of 9 mm"));
 }

@@ -59,11 +59,24 @@ TEST(Layers, IgnoresConstructionLayersByDefault) {
   EXPECT_FALSE(for_construction("under construction"));
 }
 
+/// In UTF-8, and in Windows-1252, as programs of Western Europe wrote before AutoCAD 2007.
+TEST(Layers, NamesWithUmlautsAreFoundInBothEncodings) {
+  for (const char* umlaut : {"\u00DF", "\xDF"}) {
+    const std::string dxf =
+        samples::dxf_of("0 SECTION 2 ENTITIES 0 LINE 8 Umri" + std::string(umlaut) +
+                        " 10 0 20 0 11 8 21 8 0 LINE 8 Rim 10 0 20 0 11 9 21 9 0 ENDSEC 0 EOF");
+    EXPECT_EQ(lines_of(dxf, "a.dxf", "umri\u00DF"), 1u) << umlaut;
+    EXPECT_THAT(refusal_of(read_drawing(dxf, "a.dxf", "Pan")),
+                HasSubstr("found \"Rim\", \"Umri\u00DF\""));
+  }
+}
+
 TEST(Layers, UnknownOnesAreRefusedWithTheNames) {
   EXPECT_THAT(
       refusal_of(read_drawing(kSvg, "a.svg", "Pan")),
       HasSubstr("a.svg: expected a layer \"Pan\", found \"Construction lines\", \"Lid\", \"Pot\""));
-  EXPECT_THAT(refusal_of(read_drawing(kDxf, "a.dxf", "Pan")), HasSubstr("found \"lid\", \"pot\""));
+  EXPECT_THAT(refusal_of(read_drawing(kDxf, "a.dxf", "Pan")),
+              HasSubstr("\"Pan\", found \"Lid\", \"Pot\""));
   // An SVG of other programs has groups with ids, which --layer accepts.
   const std::string open = "<svg xmlns='http://www.w3.org/2000/svg'>",
                     line = "<path d='M 0 0 H 9'/></g>";

@@ -227,6 +227,15 @@ TEST(SvgDrawing, IgnoresHiddenElements) {
     EXPECT_NEAR(volume_of(wrapped + pot), wanted, 1e-6) << wrapped;
 }
 
+/// SVG 2 renders none of them; drawing programs leave them behind.
+TEST(SvgDrawing, ShapesWithoutGeometryDrawNothing) {
+  const std::string pot = "<path d='M 0 0 H 30 V 60 H 0 L 0 30 Z'/>";
+  for (const std::string empty :
+       {"<path d=''/>", "<path/>", "<path d='none'/>", "<polygon points=''/>", "<polyline/>",
+        "<rect/>", "<rect width='50'/>", "<rect width='auto' height='50'/>", "<circle cx='50'/>"})
+    EXPECT_NEAR(volume_of(empty + pot), kPi * 900.0 * 60.0, 1e-6) << empty;
+}
+
 TEST(SvgDrawing, ImportantDeclarationsPrevail) {
   const std::string pot = "<path d='M 0 0 H 30 V 60 H 0 L 0 30 Z'/>";
   const auto with = [&](const std::string& css, const std::string& style) {
@@ -252,6 +261,27 @@ TEST(SvgDrawing, ReportsClipPathsAndMasksOnce) {
       notes_of(path + "clip-path='url(#c)'/>\n" + path + "style='clip-path:url(#c)'/>"),
       std::vector<std::string>{"mask.svg:1: a clip-path is not applied: the whole shape was read"});
   EXPECT_EQ(notes_of(path + "mask='url(#m)' clip-path='url(#c)'/>").size(), 2u);
+}
+
+/// Programs differ in the length of a px: Adobe Illustrator has 72 to the inch.
+TEST(SvgDrawing, WarnsOfAPageWithoutALengthOnPaper) {
+  const auto notes_of = [](const std::string& page_attributes, const std::string& unit = "",
+                           const HalfSectionSettings& settings = {}) {
+    const std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 96 96' " +
+                            page_attributes + "><rect width='48" + unit + "' height='48" + unit +
+                            "'/></svg>";
+    return section_of(svg, "a.svg", settings).value().notes;
+  };
+  for (const char* size : {"", "width='96' height='96'", "width='96px'", "width='100%'",
+                           "preserveAspectRatio='xMinYMin'"}) {
+    ASSERT_EQ(notes_of(size).size(), 1u) << size;
+    EXPECT_THAT(notes_of(size)[0],
+                HasSubstr("a.svg: expected a page with a size in mm, cm or in, found none"));
+    EXPECT_TRUE(notes_of(size, "", {{}, 0.0, 25.4}).empty()) << "the height is given";
+    EXPECT_TRUE(notes_of(size, "mm").empty()) << "the shape has a unit";
+  }
+  for (const char* size : {"width='1in'", "height='25.4mm'", "width='2.54cm'", "width='72pt'"})
+    EXPECT_TRUE(notes_of(size).empty()) << size;
 }
 
 TEST(SvgDrawing, CupOfTwoOutlinesEqualsCupOfOne) {
