@@ -23,9 +23,9 @@ BLOCK = re.compile(r"^```[a-z]*\n(.*?)^```", re.S | re.M)
 # the page and the output contain. All other commands end with 0.
 STATED = [
     ("claystack throw samples/cylinder", 0, ["weight", "volume error", "0 quanta"]),
-    ("claystack check out/beaker.pot.json", 1, ["39.7 degrees at a height of 1.5 mm"]),
-    ("claystack throw samples/cylinder", 0, ["5.82 mm"]),
-    ("claystack check out/beaker.pot.json", 0, ["45.8 degrees at a height of 0.5 mm"]),
+    ("claystack check out/beaker.pot.json", 1, ["39.6 degrees at a height of 1.5 mm"]),
+    ("claystack throw samples/cylinder", 0, ["5.84 mm"]),
+    ("claystack check out/beaker.pot.json", 0, ["of 40.9 degrees"]),
     ("claystack export out/jug.pot.json", 0, ["38.8 degrees", "0.04 mm instead of"]),
     ("claystack check out/tumbler.pot.json", 0, ["overhang of 26.6 degrees"]),
 ]

@@ -24,11 +24,6 @@ namespace fs = std::filesystem;
 constexpr int kMostDamaged = 100;
 constexpr auto kSyncEvery = std::chrono::seconds(30);
 
-Error system_error(const fs::path& path, const char* action) {
-  return {ErrorKind::io, fmt::format("{}: could not {}: {}", path.string(), action,
-                                     std::generic_category().message(errno))};
-}
-
 /// "20261121T230307-4711": start time and process.
 std::string stem_of_now() {
   const std::time_t now = std::time(nullptr);
@@ -56,8 +51,7 @@ Result<void> keep_damaged(const fs::path& path) {
     return failure(ErrorKind::io,
                    fmt::format("{}: could not write: {}", copy.string(), copied.message()));
   const Descriptor file(open_retrying(copy, O_RDONLY));
-  if (file.get() == -1 || !synced(file.get()))
-    return tl::make_unexpected(system_error(copy, "sync"));
+  if (file.get() == -1 || !synced(file.get())) return io_failure(copy, "could not sync");
   return {};
 }
 
@@ -82,16 +76,16 @@ Result<fs::path> give_name(int descriptor, const fs::path& temporary, const fs::
         folder / (twin == 0 ? fmt::format("{}.work", stem) : fmt::format("{}-{}.work", stem, twin));
     if (move_to_new(temporary, path)) {
       if (!synced(descriptor)) {
-        const Error error = system_error(path, "sync");
+        const auto failed = io_failure(path, "could not sync");
         (void)unlink(path.c_str());
-        return tl::make_unexpected(error);
+        return failed;
       }
       sync_folder(folder);
       return path;
     }
     if (errno != EEXIST) break;
   }
-  return tl::make_unexpected(system_error(folder / stem, "create"));
+  return io_failure(folder / stem, "could not create");
 }
 
 }  // namespace
@@ -111,13 +105,14 @@ Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs
   const std::string stem = stem_of_now();
   std::string temporary = (folder / fmt::format("{}{}XXXXXX", stem, kUnfinishedJournal)).string();
   const int descriptor = mkostemp(temporary.data(), O_APPEND | O_CLOEXEC);
-  if (descriptor < 0) return tl::make_unexpected(system_error(folder / stem, "create"));
+  if (descriptor < 0) return io_failure(folder / stem, "could not create");
   std::unique_ptr<Journal> journal(new Journal(temporary, descriptor));
   const auto given_up = [&](Error error) {
     (void)unlink(temporary.c_str());
     return tl::make_unexpected(std::move(error));
   };
-  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) return given_up(system_error(temporary, "lock"));
+  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    return given_up(io_failure(temporary, "could not lock").value());
   journal->append(write_work(work) + work_saved_line(work.saved_at, work.saved_nodes));
   if (const auto trouble = journal->trouble()) return given_up(*trouble);
   auto named = give_name(descriptor, temporary, folder, stem);
@@ -130,7 +125,7 @@ Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs
 Result<std::unique_ptr<Journal>> Journal::take_over(const fs::path& path, WorkReading& found) {
   // Opening never blocks, whatever kind of file has that name.
   const int descriptor = open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (descriptor < 0) return tl::make_unexpected(system_error(path, "open"));
+  if (descriptor < 0) return io_failure(path, "could not open");
   std::unique_ptr<Journal> journal(new Journal(path, descriptor));
   struct stat status {};
   if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))
@@ -145,7 +140,7 @@ Result<std::unique_ptr<Journal>> Journal::take_over(const fs::path& path, WorkRe
     if (auto kept = keep_damaged(path); !kept) return tl::make_unexpected(kept.error());
   }
   if (ftruncate(descriptor, static_cast<off_t>(reading->sound_bytes)) != 0)
-    return tl::make_unexpected(system_error(path, "shorten"));
+    return io_failure(path, "could not shorten");
   if (reading->running) journal->append(work_end_line(reading->work.nodes.back().poses.size(), {}));
   found = std::move(*reading);
   return journal;
@@ -164,7 +159,7 @@ Journal::~Journal() {
 void Journal::append(std::string_view lines) {
   const std::lock_guard lock(mutex_);
   if (trouble_) return;
-  if (!write_all(descriptor_, lines)) trouble_ = system_error(path_, "write");
+  if (!write_all(descriptor_, lines)) trouble_ = io_failure(path_, "could not write").value();
   dirty_ = true;
 }
 
@@ -191,7 +186,7 @@ void Journal::sync_changes() {
   const int reason = errno;
   const std::lock_guard lock(mutex_);
   errno = reason;
-  if (!trouble_) trouble_ = system_error(path_, "sync");
+  if (!trouble_) trouble_ = io_failure(path_, "could not sync").value();
 }
 
 }  // namespace clay::history

@@ -2,12 +2,12 @@
 
 #include "app/history/file_lock.hpp"
 #include "claystack/core/atomic_file.hpp"
+#include "core/system_calls.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <system_error>
 #include <utility>
 
@@ -86,9 +86,7 @@ Result<void> discard(const fs::path& path) {
   if (lock.opened() && !lock.held())
     return failure(ErrorKind::io,
                    fmt::format("{}: in use by a program that is running", path.string()));
-  if (!lock.opened() || unlink(path.c_str()) != 0)
-    return failure(ErrorKind::io, fmt::format("{}: could not remove: {}", path.string(),
-                                              std::generic_category().message(errno)));
+  if (!lock.opened() || unlink(path.c_str()) != 0) return io_failure(path, "could not remove");
   return {};
 }
 

@@ -13,6 +13,7 @@
 #include "claystack/export/job.hpp"
 #include "claystack/export/proof.hpp"
 #include "claystack/version.hpp"
+#include "core/text.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -104,12 +105,13 @@ void write_pot(const Pot& pot, const std::string& path) {
   value_of(publish(path, clay::write_pot(pot, *encoding)));
 }
 
-struct Throw {
+/// A pot, and what the command line warns of when it makes it.
+struct MadePot {
   std::shared_ptr<Pot> pot;
   std::vector<std::string> warnings;
 };
 
-Throw throw_pot(const std::string& scene_path, const std::string& session_path) {
+MadePot throw_pot(const std::string& scene_path, const std::string& session_path) {
   const SceneSpec scene = value_of(read_file(scene_path).and_then([&](const std::string& text) {
     return parse_scene(text, scene_path);
   }));
@@ -135,30 +137,29 @@ Throw throw_pot(const std::string& scene_path, const std::string& session_path) 
   return {std::make_shared<Pot>(wheel.pot()), std::move(warnings)};
 }
 
-/// The pot, and the warnings of the command line.
-py::tuple throw_with_warnings(const std::string& scene_path, const std::string& session_path) {
-  Throw thrown;
-  {
-    py::gil_scoped_release others_run;
-    thrown = throw_pot(scene_path, session_path);
-  }
-  py::list warnings;
-  for (const std::string& warning : thrown.warnings) warnings.append(text_of(warning));
-  return py::make_tuple(thrown.pot, warnings);
+/// One ring from its radii; `number` is its place in the stack, for the message.
+Ring ring_of(std::size_t number, double outer_mm, double inner_mm) {
+  const auto refuse = [&](const std::string& problem) {
+    throw Failed{{ErrorKind::bad_input, "ring " + std::to_string(number) + ": " + problem}};
+  };
+  for (const double radius : {outer_mm, inner_mm})
+    if (!(radius >= 0.0 && radius <= kMaxRadiusMm))
+      refuse("expected radii from 0 to 5000 mm, found " + number_text(radius));
+  if (!(inner_mm < outer_mm))
+    refuse("expected an inner radius below the outer one of " + number_text(outer_mm) +
+           " mm, found " + number_text(inner_mm));
+  return {quanta_from_radius(outer_mm), quanta_from_radius(inner_mm)};
 }
 
 std::shared_ptr<Pot> stacked(double ring_height_mm, const std::vector<double>& outer_mm,
                              const std::vector<double>& inner_mm, double density_g_cm3) {
-  if (outer_mm.empty() || outer_mm.size() != inner_mm.size())
+  if (outer_mm.empty())
+    throw Failed{{ErrorKind::bad_input, "outer_mm: expected one ring or more, found none"}};
+  if (outer_mm.size() != inner_mm.size())
     throw Failed{{ErrorKind::bad_input, "inner_mm: expected one radius for each of outer_mm"}};
   std::vector<Ring> rings;
-  for (std::size_t i = 0; i < outer_mm.size(); ++i) {
-    for (const double radius : {outer_mm[i], inner_mm[i]})
-      if (!(radius >= 0.0 && radius <= kMaxRadiusMm))
-        throw Failed{{ErrorKind::bad_input,
-                      "ring " + std::to_string(i) + ": expected radii from 0 to 5000 mm"}};
-    rings.push_back({quanta_from_radius(outer_mm[i]), quanta_from_radius(inner_mm[i])});
-  }
+  for (std::size_t i = 0; i < outer_mm.size(); ++i)
+    rings.push_back(ring_of(i, outer_mm[i], inner_mm[i]));
   const std::size_t count = rings.size();
   ClayStack stack = value_of(ClayStack::from_rings(ring_height_mm, std::move(rings), 0, count));
   const Ledger ledger{.initial = stack.recount()};
@@ -226,12 +227,14 @@ py::dict report_of(const solid::ExportReport& report) {
 
 py::dict export_pot(const Pot& pot, const std::vector<std::string>& paths,
                     const ExportSettings& settings) {
+  if (paths.empty())
+    throw Failed{{ErrorKind::bad_input, "files: expected one file or more, found none"}};
   solid::ExportRequest request;
   request.options = options_of(settings);
   request.certificates = settings.certificates;
   for (const std::string& path : paths)
     request.files.push_back(value_of(solid::file_request(path)));
-  if (!paths.empty()) request.options.name = std::filesystem::path(paths.front()).stem().string();
+  request.options.name = std::filesystem::path(paths.front()).stem().string();
   solid::ExportReport report;
   {
     py::gil_scoped_release others_run;
@@ -288,30 +291,43 @@ py::dict check_mesh(const solid::TriangleMesh& mesh) {
   return dict;
 }
 
-std::shared_ptr<Pot> import_pot(const std::string& path) {
-  py::gil_scoped_release others_run;
-  if (solid::mesh_format_of(path))
-    return std::make_shared<Pot>(
-        value_of(value_of(solid::mesh_format_of(path).and_then([&](solid::MeshFormat format) {
-          return read_file(path)
-              .and_then(
-                  [&](const std::string& bytes) { return solid::decode_mesh(bytes, format, path); })
-              .map([&](solid::TriangleMesh mesh) {
-                return importing::mesh_pot(std::move(mesh), {}, path);
-              });
-        }))).pot);
-  return std::make_shared<Pot>(value_of(read_file(path)
-                                            .and_then([&](const std::string& bytes) {
-                                              return importing::read_drawing(bytes, path);
-                                            })
-                                            .and_then([&](importing::Drawing drawing) {
-                                              return importing::half_section(std::move(drawing), {},
-                                                                             path);
-                                            })
-                                            .and_then([&](const importing::HalfSection& section) {
-                                              return importing::drawn_pot(section, {}, path);
-                                            }))
-                                   .pot);
+MadePot pot_of_mesh(const std::string& path, solid::MeshFormat format) {
+  const std::string bytes = value_of(read_file(path));
+  solid::TriangleMesh mesh = value_of(solid::decode_mesh(bytes, format, path));
+  importing::MeshPot made = value_of(importing::mesh_pot(std::move(mesh), {}, path));
+  std::vector<std::string> warnings;
+  if (!made.parts.empty())
+    warnings.push_back(path +
+                       ": not of revolution, left out: " + counted(made.parts.size(), "part"));
+  return {std::make_shared<Pot>(std::move(made.pot)), std::move(warnings)};
+}
+
+MadePot pot_of_drawing(const std::string& path) {
+  const std::string bytes = value_of(read_file(path));
+  importing::HalfSection section = value_of(importing::read_half_section(bytes, path, {}, {}));
+  importing::DrawnPot drawn = value_of(importing::drawn_pot(section, {}, path));
+  return {std::make_shared<Pot>(std::move(drawn.pot)), std::move(section.notes)};
+}
+
+MadePot import_pot(const std::string& path) {
+  const auto format = solid::mesh_format_of(path);
+  MadePot made = format ? pot_of_mesh(path, *format) : pot_of_drawing(path);
+  if (const auto gap = importing::gap_warning(made.pot->stack))
+    made.warnings.push_back(path + ": " + *gap);
+  return made;
+}
+
+/// Calls `make`, while other threads of Python run; returns the pot, and a list of the warnings.
+template <class Make>
+py::tuple with_warnings(const Make& make) {
+  MadePot made;
+  {
+    py::gil_scoped_release others_run;
+    made = make();
+  }
+  py::list warnings;
+  for (const std::string& warning : made.warnings) warnings.append(text_of(warning));
+  return py::make_tuple(made.pot, warnings);
 }
 
 void add_types(py::module_& module) {
@@ -329,20 +345,28 @@ void add_types(py::module_& module) {
       .def_property_readonly("collapsed", [](const Pot& pot) { return pot.collapse.has_value(); });
   py::class_<ExportSettings>(module, "ExportSettings")
       .def(py::init<double, std::string, std::optional<double>, std::optional<double>,
-                    std::optional<std::string>, double, bool>());
+                    std::optional<std::string>, double, bool>(),
+           py::arg("tolerance_mm"), py::arg("smoothing"), py::arg("smooth_length_mm"),
+           py::arg("min_wall_mm"), py::arg("process"), py::arg("shrinkage"),
+           py::arg("certificates"));
 }
 
 void add_functions(py::module_& module) {
   const auto released = py::call_guard<py::gil_scoped_release>();
   module.def("read_pot", &read_pot, released);
   module.def("write_pot", &write_pot, released);
-  module.def("throw_pot", &throw_with_warnings);
-  module.def("stacked", &stacked);
+  module.def("throw_pot", [](const std::string& scene, const std::string& session) {
+    return with_warnings([&] { return throw_pot(scene, session); });
+  });
+  module.def("stacked", &stacked, py::arg("ring_height_mm"), py::arg("outer_mm"),
+             py::arg("inner_mm"), py::arg("density_g_cm3"));
   module.def("export_pot", &export_pot);
   module.def("mesh_of", &mesh_of);
   module.def("read_mesh", &read_mesh);
   module.def("check_mesh", &check_mesh);
-  module.def("import_pot", &import_pot);
+  module.def("import_pot", [](const std::string& path) {
+    return with_warnings([&] { return import_pot(path); });
+  });
   module.attr("version") = CLAYSTACK_VERSION;
 }
 

@@ -172,6 +172,13 @@ def _pot(native) -> Pot:
                native.collapsed, native.quanta, native)
 
 
+def _made(native, messages) -> Pot:
+    """Warns as the command line does. A warning names the line that called the public function."""
+    for message in messages:
+        warnings.warn(message, stacklevel=3)
+    return _pot(native)
+
+
 def _mesh(native) -> Mesh:
     return Mesh(native.points, native.triangles, native)
 
@@ -190,10 +197,7 @@ def throw(scene: _Path, session: Optional[_Path] = None) -> Pot:
     if session is None:
         ending = b".scene.json"
         session = (path[: -len(ending)] if path.endswith(ending) else path) + b".session"
-    native, messages = _call(_native.throw_pot, path, os.fsencode(session))
-    for message in messages:
-        warnings.warn(message, stacklevel=2)
-    return _pot(native)
+    return _made(*_call(_native.throw_pot, path, os.fsencode(session)))
 
 
 def stack(ring_height_mm: float, outer_mm: Sequence[float], inner_mm: Sequence[float],
@@ -209,8 +213,9 @@ def read_pot(path: _Path) -> Pot:
 
 
 def import_pot(path: _Path) -> Pot:
-    """Makes a pot of a drawing (SVG, DXF, CSV) or of a mesh of revolution."""
-    return _pot(_call(_native.import_pot, os.fsencode(path)))
+    """Makes a pot of a drawing (SVG, DXF, CSV) or of a mesh of revolution. Warns of doubts, such as
+    about the axis, and of parts that were left out."""
+    return _made(*_call(_native.import_pot, os.fsencode(path)))
 
 
 def export(pot: Pot, files: Union[_Path, Sequence[_Path]], *, tolerance_mm: float = 0.02,

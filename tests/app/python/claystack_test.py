@@ -102,6 +102,23 @@ class Package(unittest.TestCase):
         self.assertNotEqual(claystack.mesh(pot), claystack.mesh(other))
         self.assertEqual(len({claystack.mesh(pot), claystack.mesh(same)}), 1)
 
+    def test_refuses_impossible_rings_and_no_file_by_name(self):
+        pot = claystack.stack(1.0, [40.0], [0.0])
+        for refused, message in [
+                (lambda: claystack.stack(1.0, [], []), "outer_mm: expected one ring or more"),
+                (lambda: claystack.stack(1.0, [30.0, 30.0], [0.0, 31.0]),
+                 "ring 1: expected an inner radius below the outer one of 30 mm, found 31"),
+                (lambda: claystack.stack(1.0, [5001.0], [0.0]),
+                 "ring 0: expected radii from 0 to 5000 mm, found 5001"),
+                (lambda: claystack.export(pot, []), "files: expected one file or more")]:
+            with self.assertRaises(claystack.Error) as error:
+                refused()
+            self.assertIn(message, error.exception.message)
+            self.assertEqual(error.exception.code, 2)
+        with self.assertRaises(TypeError) as wrong:
+            claystack.export(pot, self.file("cup.stl"), min_wall_mm="3")
+        self.assertIn("min_wall_mm: ", str(wrong.exception))
+
     def test_refuses_an_impossible_density(self):
         for density in [float("nan"), -1.0, 0.0, 26.0]:
             with self.assertRaises(claystack.Error):
@@ -169,6 +186,15 @@ class Package(unittest.TestCase):
         claystack.export(jug, [self.file("jug.stl")])
         back = claystack.import_pot(self.file("jug.stl"))
         self.assertAlmostEqual(back.volume_mm3 / jug.volume_mm3, 1.0, places=2)
+
+    def test_warns_of_doubts_about_an_import(self):
+        with open(self.file("cup.svg"), "w", encoding="utf-8") as file:
+            file.write("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 9 9'>"
+                       "<rect width='200' height='300'/></svg>")
+        with self.assertWarns(UserWarning) as warned:
+            claystack.import_pot(self.file("cup.svg"))
+        self.assertIn("cup.svg: expected a page with a size in mm", str(warned.warning))
+        self.assertEqual(warned.filename, __file__)
 
     def test_finds_faults_of_a_mesh(self):
         with open(self.file("open.off"), "w", encoding="utf-8") as file:
