@@ -1,5 +1,6 @@
 // Executes actions, and asks first about unsaved changes.
 
+#include "app/studio/page.hpp"
 #include "app/studio/performer.hpp"
 
 #include <filesystem>
@@ -47,13 +48,19 @@ void apply(AppState& state, const Action& action) {
     if (state.document.unsaved()) {
       // A file that cannot be opened replaces nothing.
       if (const auto* open = std::get_if<OpenFile>(&action))
-        if (const auto read = Document::read(open->path); !read) return report(state, read.error());
+        if (const auto read = Document::read(open->path); !read)
+          return report_unopened(state, open->path, read.error());
       state.ui.dialog = UnsavedDialog{action};
       state.log(std::string("prompt: ").append(reason));
       return;
     }
   }
   std::visit(Performer{state}, action);
+}
+
+void report_unopened(AppState& state, const std::filesystem::path& path, const Error& error) {
+  forget_if_missing(state.settings, path);
+  report(state, error);
 }
 
 bool save_document(AppState& state, const std::filesystem::path& path) {
@@ -64,7 +71,7 @@ bool save_document(AppState& state, const std::filesystem::path& path) {
       std::filesystem::path(state.settings.recent.front()).parent_path().string();
   state.host.file_written(path.string());
   state.log("saved: " + path.string());
-  note(state, Grade::note, "Saved " + path.string(), kSavedNoteS);
+  note(state, Grade::note, "Saved " + shown_name(path), kSavedNoteS);
   return true;
 }
 

@@ -6,7 +6,7 @@
 #include "app/studio/commands.hpp"
 #include "app/studio/new_scene.hpp"
 #include "app/studio/output_dialogs.hpp"
-#include "app/studio/panels/widgets.hpp"
+#include "app/studio/page.hpp"
 #include "app/studio/samples.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "core/text.hpp"
@@ -24,6 +24,12 @@ namespace {
 std::filesystem::path with_extension(std::filesystem::path path) {
   if (path.has_filename() && !path.has_extension()) path += ".work";
   return path;
+}
+
+/// A page saves into its storage, whatever folder a file was opened from.
+std::filesystem::path save_path(const Settings& settings, const std::filesystem::path& name) {
+  const std::filesystem::path path = with_extension(name);
+  return kInPage ? std::filesystem::path(settings.folder) / path : path;
 }
 
 /// NAME.work in the folder, or NAME-2.work and so on: the first that is free.
@@ -103,7 +109,7 @@ void Performer::operator()(const OpenFile& open) const {
   state.stroke.release();
   state.ui.notices.close_answer();
   const auto opened = state.document.open(open.path);
-  if (!opened) return report(state, opened.error());
+  if (!opened) return report_unopened(state, open.path, opened.error());
   if (!opened->empty()) state.ui.notices.show(Grade::warning, *opened);
   remember(state.settings, open.path);
   show_own_wheel();
@@ -144,9 +150,9 @@ void Performer::operator()(const DiscardAsked&) const {
 void Performer::operator()(const Quit&) const { state.done = true; }
 
 void Performer::operator()(const SaveFile& save) const {
-  const std::filesystem::path path = with_extension(save.path);
+  const std::filesystem::path path = save_path(state.settings, save.path);
   const std::optional<Action> next = after_saving();
-  const bool confirmed = save.replace && path == save.path;
+  const bool confirmed = save.replace && path.filename() == save.path.filename();
   if (!confirmed && state.document.replaces_other(path)) {
     state.log("prompt: replace");
     const std::string reason = !state.document.has_file(path)
@@ -154,7 +160,7 @@ void Performer::operator()(const SaveFile& save) const {
                                : state.document.file_in_use() ? " is open in another window."
                                                               : " was changed by another program.";
     state.ui.dialog =
-        ReplaceDialog{path.filename().string() + reason, SaveDialog{path.string(), next}};
+        ReplaceDialog{path.filename().string() + reason, SaveDialog{shown_name(path), next}};
     return;
   }
   if (!save_document(state, path)) {
@@ -266,7 +272,7 @@ void Performer::forget(std::size_t index) const {
 
 void Performer::open_drawing(const std::filesystem::path& path) const {
   auto bytes = read_file(path);
-  if (!bytes) return report(state, bytes.error());
+  if (!bytes) return report_unopened(state, path, bytes.error());
   ImportDialog import;
   import.path = path;
   import.bytes = std::move(*bytes);
@@ -282,7 +288,7 @@ void Performer::ask_for_name(std::optional<Action> next) const {
   if (folder.empty() && !kInPage) folder = current_folder();
   const std::filesystem::path path = unused_name(folder, state.document.name());
   if (!open_desktop_dialog(state, FileDialog::Kind::save, path))
-    state.ui.dialog = SaveDialog{path.string(), std::move(next)};
+    state.ui.dialog = SaveDialog{shown_name(path), std::move(next)};
 }
 
 }  // namespace clay::studio

@@ -10,7 +10,7 @@
 #include "app/servo/scene_hand.hpp"
 #include "app/servo/signals.hpp"
 #include "app/studio/glfw_host.hpp"
-#include "app/studio/script.hpp"
+#include "app/studio/script_runner.hpp"
 #include "claystack/core/atomic_file.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #pragma once
-// Actions of the dialogs for exports, pictures and turntables.
+// The dialogs for exports, pictures and turntables: their actions and their results.
 
 namespace clay::studio {
 
@@ -17,5 +17,11 @@ void write_picture(AppState& state, bool replace);
 
 /// Shows the folder of the files that the open dialog has written in the file manager.
 void show_written_folder(AppState& state);
+
+// --- Once a frame. -------------------------------------------------------------------------------
+/// Takes the files or the preview of an export. While the dialog is open, an export is previewed
+/// after every change of the choices or, by an arm, of the pot.
+void update_export(AppState& state);
+void update_picture(AppState& state);
 
 }  // namespace clay::studio

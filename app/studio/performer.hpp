@@ -110,7 +110,9 @@ struct Performer {
   template <class Change>
   void change_document(Change change) const {
     state.stroke.release();
+    const render::Extent before = render::extent_of(state.stroke.view());
     (void)succeeded(state, change(state.document));
+    state.scene.follow(state.stroke.view(), before, state.settings.tool.mode);
     state.stroke.resume();
   }
   /// After a new work has begun: selects its tool and shows it in the view.

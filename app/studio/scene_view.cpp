@@ -7,16 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <numbers>
 #include <utility>
 
 namespace clay::studio {
 namespace {
 
-constexpr double kRoomForTool = 1.35;   // size of the view relative to the whole pot
 constexpr double kSizingPerPx = 0.006;  // drag: change of the logarithm of the size per pixel
-constexpr double kLessonRad = 0.22, kGrowth = 2.4;  // a pot that is pulled grows to that
 
 std::optional<Tool> built(const ToolSpec& spec) {
   auto tool = Tool::build(spec.shape);
@@ -48,83 +44,6 @@ glm::dvec2 pinch_place(const WallPlace& wall, glm::dvec2 pointed_mm) {
 
 }  // namespace
 
-render::Viewport SceneView::viewport() const noexcept {
-  return {std::max(1, static_cast<int>(rect_.size_px.x)),
-          std::max(1, static_cast<int>(rect_.size_px.y))};
-}
-
-float SceneView::free_height_px() const noexcept {
-  return static_cast<float>(1.0 - camera_.covered) * rect_.size_px.y;
-}
-
-void SceneView::look(const render::PotView& pot, ViewFrom from) {
-  constexpr double kRight = std::numbers::pi / 2.0;
-  render::Camera camera = camera_;
-  switch (from) {
-    case ViewFrom::home:
-      wheel_radius_mm_ = 0.0;
-      camera_ = render::framed(pot, viewport().aspect(), camera.covered);
-      camera_.distance_mm *= kRoomForTool;
-      return;
-    case ViewFrom::lesson: {
-      camera.azimuth_rad = 0.0;
-      camera.elevation_rad = kLessonRad;
-      render::PotView grown = pot;
-      grown.height_mm *= kGrowth;
-      camera_ = render::framed(grown, viewport().aspect(), camera);
-      return;
-    }
-    case ViewFrom::front:
-      camera.azimuth_rad = camera.elevation_rad = 0.0;
-      break;
-    case ViewFrom::right:
-      camera.azimuth_rad = kRight;
-      camera.elevation_rad = 0.0;
-      break;
-    case ViewFrom::top:
-      camera.azimuth_rad = 0.0;
-      camera.elevation_rad = render::kSteepest;
-      break;
-  }
-  camera_ = render::framed(pot, viewport().aspect(), camera);
-  camera_.distance_mm *= kRoomForTool;
-}
-
-void SceneView::keep_rim_in_view(const render::PotView& pot, ToolMode mode) {
-  constexpr double kAboveMm = 40.0, kPulledPart = 0.5, kBack = 1.03;
-  constexpr int kMostSteps = 60;
-  const double pulled_mm = mode == ToolMode::pinch ? kPulledPart * pot.height_mm : 0.0;
-  const double top_mm = pot.height_mm + std::max(kAboveMm, pulled_mm);
-  const auto hidden = [&] {
-    const auto rim = pixel_of({0.0, top_mm}), foot = pixel_of({0.0, 0.0});
-    return !rim || !foot || rim->y < rect_.corner_px.y ||
-           foot->y > rect_.corner_px.y + free_height_px();
-  };
-  if (!hidden()) return;
-  camera_.target_mm.y = std::max(camera_.target_mm.y, 0.5 * top_mm);
-  for (int step = 0; step < kMostSteps && hidden(); ++step) camera_.distance_mm *= kBack;
-}
-
-/// The wheel head only grows, so that it does not change with every stroke; showing the whole pot
-/// fits it again.
-void SceneView::turn_wheel(const render::PotView& pot, double rad) {
-  wheel_radius_mm_ = std::max(wheel_radius_mm_, render::wheel_radius_mm(pot));
-  extent_ = render::extent_of(pot);
-  turn_rad_ = std::fmod(turn_rad_ + rad, 2.0 * std::numbers::pi);
-}
-
-glm::dvec3 SceneView::on_wheel(glm::dvec2 place_mm) const {
-  return place_mm.x * render::profile_direction(camera_) + glm::dvec3(0.0, place_mm.y, 0.0);
-}
-
-glm::dvec3 SceneView::in_stroke(glm::dvec2 place_mm) const {
-  return place_mm.x * outward_ + glm::dvec3(0.0, place_mm.y, 0.0);
-}
-
-glm::dvec2 SceneView::in_section(const glm::dvec3& place_mm) const noexcept {
-  return {glm::dot(place_mm, render::profile_direction(camera_)), place_mm.y};
-}
-
 std::optional<glm::dvec2> SceneView::pointed_mm() const {
   if (led_mm_) return led_mm_;
   return render::profile_point(camera_, viewport(), glm::dvec2(mouse_px_ - rect_.corner_px));
@@ -137,22 +56,6 @@ glm::vec2 SceneView::pointer_px() const noexcept {
 glm::dvec2 SceneView::free_at(const ViewModel& view, glm::dvec2 place_mm) const {
   const auto tool = built(view.tool_in_use());
   return tool ? free_in(view, *tool, place_mm) : place_mm;
-}
-
-void SceneView::turn(glm::dvec2 by_rad) {
-  const double px_per_rad = viewport().height_px / std::numbers::pi;
-  camera_ = render::orbited(camera_, px_per_rad * by_rad, viewport());
-}
-
-std::optional<glm::vec2> SceneView::pixel_of(glm::dvec2 place_mm) const noexcept {
-  const auto pixel = render::pixel_of(camera_, viewport(), on_wheel(place_mm));
-  if (!pixel) return std::nullopt;
-  return glm::vec2(*pixel) + rect_.corner_px;
-}
-
-float SceneView::px_per_mm() const noexcept {
-  const auto foot = pixel_of({0.0, 0.0}), above = pixel_of({10.0, 0.0});
-  return foot && above ? 0.1f * glm::distance(*foot, *above) : 1.0f;
 }
 
 bool SceneView::pointer_moved(const ViewModel& view, const PointerMoved& moved, Actions& actions) {

@@ -69,10 +69,13 @@ class SceneView {
 
   // --- Camera. -----------------------------------------------------------------------------------
   void look(const render::PotView& pot, ViewFrom from);
-  /// Moves back if the rim and the room above it are not in sight: 40 mm, and for a pinch, which
-  /// pulls the wall up, at least half of the pot's height. Not during a stroke, because the pointer
-  /// would lead the tool elsewhere.
-  void keep_rim_in_view(const render::PotView& pot, ToolMode mode);
+  /// Moves back until the whole pot and the room above its rim are in sight: 40 mm, and for a
+  /// pinch, which pulls the wall up, at least half of the pot's height. Not during a stroke,
+  /// because the pointer would lead the tool elsewhere.
+  void make_room(const render::PotView& pot, ToolMode mode);
+  /// Keeps in sight what was in sight of the pot before it changed: its whole, and the room above.
+  /// A part of the pot that the user has moved close to stays in the view.
+  void follow(const render::PotView& pot, const render::Extent& before, ToolMode mode);
   void zoom(double notches) { camera_ = render::zoomed(camera_, notches, extent_); }
   /// To the right and up.
   void turn(glm::dvec2 by_rad);
@@ -112,6 +115,8 @@ class SceneView {
                                 ToolSpec& spec, Actions& actions);
   void drag(const ViewModel& view, glm::vec2 by_px, Actions& actions);
   [[nodiscard]] float free_height_px() const noexcept;
+  [[nodiscard]] bool shows(const render::Extent& pot, double above_mm) const noexcept;
+  void back_off(const render::Extent& pot, double above_mm);
   [[nodiscard]] std::optional<render::ToolView> hovering_tool(const ViewModel& view,
                                                               const Tool& tool) const;
   [[nodiscard]] glm::dvec3 on_wheel(glm::dvec2 place_mm) const;

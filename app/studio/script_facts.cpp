@@ -1,7 +1,7 @@
 // Facts that scripts query.
 
+#include "app/studio/script_facts.hpp"
 #include "app/studio/panels/panels.hpp"
-#include "app/studio/script.hpp"
 
 #include <fmt/format.h>
 

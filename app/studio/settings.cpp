@@ -113,6 +113,12 @@ void remember(Settings& settings, const std::filesystem::path& path) {
   put_first(settings.recent, whole_name(path), kMostRecent);
 }
 
+void forget_if_missing(Settings& settings, const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::status(path, ignored).type() == std::filesystem::file_type::not_found)
+    std::erase(settings.recent, whole_name(path));
+}
+
 void remember_process(Settings& settings, const std::filesystem::path& path) {
   settings.process = whole_name(path);
   put_first(settings.processes, settings.process, kMostProcesses);

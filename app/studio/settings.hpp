@@ -49,6 +49,8 @@ struct Settings {
 
 /// Puts a file that was opened or saved first in the recent ones.
 void remember(Settings& settings, const std::filesystem::path& path);
+/// Forgets a recent file that no longer exists.
+void forget_if_missing(Settings& settings, const std::filesystem::path& path);
 /// Selects a custom process file and puts it first in the list.
 void remember_process(Settings& settings, const std::filesystem::path& path);
 

@@ -58,6 +58,7 @@ Result<void> StrokeController::begin_session(const SceneSpec& scene, falcon::Hap
                        ? "The clay has fallen: undo removes the last stroke"
                        : "The clay has fallen: no stroke is possible, but it can be exported");
   view_ = document_.view();
+  begun_ = render::extent_of(view_);
   crown_mm_ = 0.0;
   touched_ = false;
   if (auto started = start_servo(scene, device, settings); !started) return started;
@@ -118,6 +119,7 @@ void StrokeController::release() {
   status_ = live_->status();
   news_.poses = status_.poses;
   news_.ticks = status_.ticks;
+  news_.before = begun_;
   news_.ring_limit = status_.ring_limit;
   servo_ = {servo::LiveMeasures::timing(*live_), servo::LiveMeasures::events(*live_),
             live_->realtime()};

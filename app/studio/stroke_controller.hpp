@@ -22,6 +22,7 @@ struct StrokeNews {
   servo::Ending ending = servo::Ending::none;
   std::size_t poses = 0;    ///< of the stroke that ended
   std::uint64_t ticks = 0;  ///< of the stroke that ended
+  render::Extent before;    ///< of the pot, before that stroke
   bool ring_limit = false;  ///< there is clay above the rim
   bool device_lost = false;
   std::string nothing_cut;  ///< why a needle or a wire went into the clay and cut nothing
@@ -138,6 +139,7 @@ class StrokeController {
   ServoRecord servo_;
   bool touched_ = false;  // the clay, in this stroke
   render::PotView view_;  // during a stroke
+  render::Extent begun_;  // of the pot at its start
   double crown_mm_ = 0.0;
   StrokeNews news_;
   double resisting_rpm_ = 0.0;  // speed of the wheel whose clay resists the mouse; 0: none does

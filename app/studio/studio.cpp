@@ -174,18 +174,22 @@ void Studio::turn_wheel(double elapsed_s) {
 
 namespace {
 
-/// The parts of the window. A part without size has no room, or is closed.
+constexpr ViewRect kAbsent{{0.0f, 0.0f}, {0.0f, 0.0f}};
+
+/// The parts of the window. A part that is absent has no room, or is closed.
 struct Layout {
-  ViewRect strip, context, diagnostics, status, timeline, view;
+  ViewRect strip = kAbsent, context = kAbsent, diagnostics = kAbsent, status = kAbsent,
+           timeline = kAbsent, view = kAbsent;
   bool beside = false;  ///< the context is beside the view, not below it
 };
 
-/// In a narrow window the view has priority, then the tools, then the context. `top`: the height of
-/// the menu.
+/// In a narrow window the view has priority, then the tools, then the context; the diagnostics take
+/// the place of the context while they are open. `top`: the height of the menu.
 Layout layout_of(const ViewModel& model, glm::vec2 size, float top) {
   const float em = ImGui::GetFontSize(), status = status_height();
   const float foot = std::max(top + 1.0f, size.y - status), height = foot - top;
   const float column = std::round(kColumnEm * em);
+  const bool diagnostics = diagnostics_open(model.settings);
   const auto has_room = [&](float beside) { return size.x - beside >= kNarrowestViewEm * em; };
   Layout parts;
   const float left = has_room(strip_width()) ? strip_width() : 0.0f;
@@ -194,14 +198,16 @@ Layout layout_of(const ViewModel& model, glm::vec2 size, float top) {
   parts.strip = {{0.0f, top}, {left, height}};
   parts.status = {{0.0f, size.y - status}, {size.x, status}};
   float below = 0.0f;
+  const bool both = has_room(left + 2.0f * column);
+  ViewRect& first = diagnostics && !both ? parts.diagnostics : parts.context;
   if (parts.beside) {
     right -= column;
-    parts.context = {{right, top}, {column, height}};
-  } else if (below_open(model.settings)) {
+    first = {{right, top}, {column, height}};
+  } else if (diagnostics || below_open(model.settings)) {
     below = std::round(kBelowPart * height);
-    parts.context = {{left, foot - below}, {size.x - left, below}};
+    first = {{left, foot - below}, {size.x - left, below}};
   }
-  if (diagnostics_open(model.settings) && right - left - column > 0.0f) {
+  if (diagnostics && both) {
     right -= column;
     parts.diagnostics = {{right, top}, {column, height}};
   }
@@ -231,6 +237,8 @@ void draw_columns(const ViewModel& model, Actions& actions, const Layout& parts)
 void draw_overlays(const ViewModel& model, Actions& actions, const Layout& parts, bool card) {
   const ViewRect& view = parts.view;
   const ViewRect free{view.corner_px, {view.size_px.x, view.size_px.y - parts.timeline.size_px.y}};
+  // A dialog covers the panels below the view too.
+  const float height = parts.status.corner_px.y - view.corner_px.y;
   draw_target(model, view);
   const float verdict = draw_verdict(model, view);
   draw_marks(model, view, verdict);
@@ -240,7 +248,7 @@ void draw_overlays(const ViewModel& model, Actions& actions, const Layout& parts
   draw_pause(model, view);
   draw_hint(model, actions, free);
   if (card) draw_guide(model, actions, free);
-  draw_dialog(model, actions, view);
+  draw_dialog(model, actions, {view.corner_px, {view.size_px.x, height}});
   draw_banners(model, actions, view, verdict);
 }
 
@@ -251,8 +259,8 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   const Layout parts = layout_of(model, glm::vec2(state_.host.size_px()), top);
   draw_columns(model, actions, parts);
   const bool first = state_.scene.rect().size_px.x <= 1.0f;
-  // Above the context the card would cover the pot.
-  const bool card = parts.beside || !has_size(parts.context);
+  // Above the panels the card would cover the pot.
+  const bool card = parts.beside || !(has_size(parts.context) || has_size(parts.diagnostics));
   place_view(model, parts.view, parts.timeline.size_px.y, card);
   if (first && model.document.has_work()) state_.scene.look(model.stroke.view(), ViewFrom::home);
   draw_overlays(model, actions, parts, card);

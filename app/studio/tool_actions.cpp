@@ -18,7 +18,7 @@ constexpr double kGapShareStep = 0.05;
 void Performer::operator()(const SetToolMode& set) const {
   state.settings.tool.mode = set.mode;
   if (set.mode == ToolMode::pinch && state.document.has_work() && !state.stroke.throwing())
-    state.scene.keep_rim_in_view(state.stroke.view(), set.mode);
+    state.scene.make_room(state.stroke.view(), set.mode);
 }
 
 void Performer::operator()(const StepTool& step) const {

@@ -5,6 +5,7 @@
 #include "app/servo/words.hpp"
 #include "app/studio/app_state.hpp"
 #include "app/studio/fall_show.hpp"
+#include "app/studio/output_dialogs.hpp"
 #include "app/studio/panels/timeline.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@
 namespace clay::studio {
 namespace {
 
-constexpr double kDeviceNoteS = 6.0, kExportNoteS = 6.0, kJournalNoteS = 6.0, kCutNoteS = 8.0;
+constexpr double kDeviceNoteS = 6.0, kJournalNoteS = 6.0, kCutNoteS = 8.0;
 // A homed device reports its state with its first frames.
 constexpr std::uint64_t kTicksUntilHomed = 250;
 
@@ -86,7 +87,7 @@ void update_strokes(AppState& state) {
     report(state, *news.error);
   if (!news.stroke_ended) return;
   if (state.document.has_work() && !state.stroke.throwing())
-    state.scene.keep_rim_in_view(state.stroke.view(), state.settings.tool.mode);
+    state.scene.follow(state.stroke.view(), news.before, state.settings.tool.mode);
   state.log(fmt::format("stroke ended: {} poses, {} ticks", news.poses, news.ticks));
   if (!news.nothing_cut.empty()) note(state, Grade::note, news.nothing_cut, kCutNoteS);
   if (news.ending == servo::Ending::collapsed) {
@@ -220,133 +221,6 @@ void update_thumbs(AppState& state) {
   const auto pot = state.document.pot_at(*missing);
   ui.thumbs[*missing] = pot ? thumb_of(**pot) : render::PotView();
   ui.thumbs_missing = missing + 1 != wanted.end();
-}
-
-/// The pot on the wheel has the problems of the export only if the export changes no wall.
-bool exports_as_thrown(const ExportChoices& choices) {
-  return choices.size == ExportSize::as_thrown && choices.foot_width_mm <= 0.0 &&
-         choices.floor_fillet_mm <= 0.0 && choices.lip_fillet_mm <= 0.0 &&
-         choices.glaze_mm <= 0.0 && choices.drain_mm <= 0.0;
-}
-
-void mark_problems(AppState& state, const Exporter::Outcome& outcome) {
-  state.ui.marks.clear();
-  if (exports_as_thrown(outcome.choices)) state.ui.marks = outcome.done->marks;
-  state.ui.marked = outcome.pot;
-}
-
-std::string result_text(const ExportFigures& figures, std::size_t count) {
-  std::string text = fmt::format("{} file{} written", count, count == 1 ? "" : "s");
-  std::uint64_t bytes = 0;
-  for (const ExportFigures::Mesh& mesh : figures.meshes) bytes += mesh.bytes;
-  if (!figures.meshes.empty())
-    text += fmt::format("; {} triangles, {:.2f} MB of meshes, each proved and read back",
-                        figures.triangles, 1e-6 * static_cast<double>(bytes));
-  return figures.failed > 0 ? fmt::format("{}; {}", text, failed_text(figures.failed)) : text;
-}
-
-/// The library names its rings and a setting that the window does not have.
-std::string problem_of(const Exporter::Outcome& outcome, LengthUnit unit) {
-  const PotForm form = outcome.pot->collapse ? PotForm{} : form_of(outcome.pot->stack);
-  if (!form.parting_mm) return outcome.done.error().message;
-  return "The pot is " + parts_text(form, unit) + ". Only a pot in one part can be exported";
-}
-
-void take_files(AppState& state, Exporter::Outcome outcome) {
-  ExportState& exporting = state.ui.exporting;
-  if (outcome.cancelled) {
-    exporting.result = "Cancelled; no file was written";
-    return state.log("export cancelled");
-  }
-  if (!outcome.done) {
-    exporting.result.clear();
-    exporting.problem = problem_of(outcome, state.settings.unit);
-    return state.log("error: " + exporting.problem);
-  }
-  exporting.written = outcome.paths;
-  exporting.result = result_text(*outcome.done, outcome.paths.size());
-  exporting.grade = outcome.done->failed > 0 ? Grade::warning : Grade::note;
-  if (outcome.done->has_solid) {
-    mark_problems(state, outcome);
-    exporting.preview = std::move(*outcome.done);
-  }
-  for (const std::string& path : outcome.paths) {
-    state.host.file_written(path);
-    state.log("exported: " + path);
-  }
-  if (!state.ui.shows<ExportDialog>()) note(state, exporting.grade, exporting.result, kExportNoteS);
-  state.settings.folder = outcome.choices.folder;
-}
-
-void take_preview(AppState& state, Exporter::Outcome outcome) {
-  ExportState& exporting = state.ui.exporting;
-  exporting.preview.reset();
-  exporting.problem.clear();
-  if (!outcome.done) {
-    exporting.problem = problem_of(outcome, state.settings.unit);
-    exporting.refused = true;
-    return;
-  }
-  mark_problems(state, outcome);
-  exporting.preview = std::move(*outcome.done);
-  state.log(fmt::format("export previewed: {} triangles", exporting.preview->triangles));
-}
-
-/// The choices that change the solid. A name changes some bytes of a file, not what is shown of it.
-ExportChoices solid_choices(ExportChoices choices) {
-  choices.folder.clear();
-  choices.name.clear();
-  choices.section = choices.dxf = choices.pdf = choices.report = choices.pot = false;
-  return choices;
-}
-
-/// While the dialog is open, an export is previewed after every change of the choices or, by an
-/// arm, of the pot.
-void update_export(AppState& state) {
-  ExportState& exporting = state.ui.exporting;
-  auto* dialog = std::get_if<ExportDialog>(&state.ui.dialog);
-  const bool writing = state.exporter.running() == Exporter::Kind::files;
-  const bool stale = dialog != nullptr && (dialog->previewed != solid_choices(exporting.choices) ||
-                                           dialog->pot != state.document.shared_pot());
-  if (stale && !writing) {
-    dialog->previewed = solid_choices(exporting.choices);
-    dialog->pot = state.document.shared_pot();
-    exporting.preview.reset();
-    exporting.problem.clear();
-    exporting.refused = false;
-    if (!exporting.choices.meshes.empty())
-      state.exporter.preview(state.document.shared_pot(), exporting.choices);
-  }
-  if (!state.host.real_time()) state.exporter.wait();  // frames of a script are reproducible
-  auto outcome = state.exporter.take();
-  if (!outcome) return;
-  if (outcome->kind == Exporter::Kind::files)
-    take_files(state, std::move(*outcome));
-  else if (dialog != nullptr)
-    take_preview(state, std::move(*outcome));
-}
-
-void update_picture(AppState& state) {
-  const auto outcome = state.pictures.take();
-  if (!outcome) return;
-  PictureState& pictures = state.ui.pictures;
-  if (outcome->cancelled) {
-    pictures.result = "Cancelled; no file was written";
-    return state.log("picture cancelled");
-  }
-  if (!outcome->bytes) {
-    pictures.problem = outcome->bytes.error().message;
-    return state.log("error: " + pictures.problem);
-  }
-  pictures.written = path_of(outcome->file);
-  pictures.result = fmt::format("{}: {} \xc3\x97 {} pixels, {:.2f} MB",
-                                std::filesystem::path(pictures.written).filename().string(),
-                                outcome->file.look.size.width_px, outcome->file.look.size.height_px,
-                                1e-6 * static_cast<double>(*outcome->bytes));
-  state.host.file_written(pictures.written);
-  state.log("exported: " + pictures.written);
-  if (!state.ui.shows<PictureDialog>()) note(state, Grade::note, pictures.result, kExportNoteS);
-  state.settings.folder = outcome->file.folder;
 }
 
 }  // namespace

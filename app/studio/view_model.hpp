@@ -57,6 +57,10 @@ struct ViewModel {
   [[nodiscard]] bool writing() const { return export_running == Exporter::Kind::files; }
   /// Problems of the last export or preview, if they belong to the pot on screen.
   [[nodiscard]] bool has_marks() const;
+  /// The device that moves the tool.
+  [[nodiscard]] std::string device_name() const {
+    return fingers && !stroke.has_device() ? "Touch screen" : stroke.device_name();
+  }
   /// State and requests of an arm in use; empty without motors.
   [[nodiscard]] std::string arm_text() const;
   /// The guard holds the force at zero until it is re-armed.

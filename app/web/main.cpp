@@ -15,9 +15,11 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace clay::web {
 namespace {
@@ -25,6 +27,7 @@ namespace {
 EM_JS(void, page_log, (const char* text, int size),
       { Module["page"].log(UTF8ToString(text, size)); });
 EM_JS(void, page_fail, (const char* text), { Module["page"].fail(UTF8ToString(text)); });
+EM_JS(bool, page_stores, (), { return Module["page"].stores(); });
 EM_JS(void, page_announce, (const char* text), { Module["page"].announce(UTF8ToString(text)); });
 
 constexpr const char* kCanvas = "#canvas";
@@ -63,6 +66,17 @@ bool create_context() {
   return context > 0 && emscripten_webgl_make_context_current(context) == EMSCRIPTEN_RESULT_SUCCESS;
 }
 
+/// The page keeps works that were saved; other files that were opened only until it is closed.
+void forget_missing(studio::Settings& settings) {
+  const auto missing = [](const std::string& path) {
+    std::error_code ignored;
+    return !std::filesystem::exists(path, ignored);
+  };
+  std::erase_if(settings.recent, missing);
+  std::erase_if(settings.processes, missing);
+  if (settings.process.ends_with(".json") && missing(settings.process)) settings.process.clear();
+}
+
 void begin(std::string_view theme, bool fingers) {
   if (!create_context()) return page_fail("This browser does not offer WebGL 2");
   host = std::make_unique<WebHost>(fingers);
@@ -72,6 +86,7 @@ void begin(std::string_view theme, bool fingers) {
     loaded.settings.theme = theme == "light" ? studio::Theme::light : studio::Theme::dark;
   loaded.settings.folder =
       std::filesystem::path(studio::settings_path().root_path() / "home" / "web_user").string();
+  forget_missing(loaded.settings);
   auto made = studio::Studio::create(*host, loaded.settings, [](std::string_view line) {
     page_log(line.data(), static_cast<int>(line.size()));
   });
@@ -82,7 +97,8 @@ void begin(std::string_view theme, bool fingers) {
     state.settings_file = studio::SettingsFile(studio::settings_path(), state.settings);
   state.document.keep_journals();
   state.devices = std::make_unique<studio::DeviceWatch>(look_for_hid(host->clock()));
-  state.recoverable = history::recoverable();
+  // Where another tab stores the works, they are that tab's, and in use.
+  if (page_stores()) state.recoverable = history::recoverable();
   if (!loaded.note.empty()) state.ui.notices.show(studio::Grade::warning, loaded.note);
   if (!state.recoverable.empty())
     state.log(fmt::format("recovery offered: {}", state.recoverable.size()));

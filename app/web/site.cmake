@@ -1,5 +1,6 @@
 # cmake -DSITE=FOLDER "-DNOTICES=A|B" -P site.cmake: completes the folder of static files. One file
-# with all notices, and the version of the page, a hash of its files, in the service worker.
+# with all notices, and in the service worker the names of the files and the version of the page, a
+# hash of them.
 string(REPLACE "|" ";" NOTICES "${NOTICES}")
 set(whole "")
 foreach(notice IN LISTS NOTICES)
@@ -9,12 +10,15 @@ endforeach()
 file(WRITE ${SITE}/licences.txt "${whole}")
 
 set(hashes "")
-file(GLOB files ${SITE}/*)
-list(SORT files)
-foreach(name IN LISTS files)
-  if(NOT name MATCHES "/offline\\.js$")
-    file(SHA256 ${name} hash)
-    string(APPEND hashes ${hash})
+set(FILES "./")  # index.html
+file(GLOB names RELATIVE ${SITE} ${SITE}/*)
+list(REMOVE_ITEM names offline.js)
+list(SORT names)
+foreach(name IN LISTS names)
+  file(SHA256 ${SITE}/${name} hash)
+  string(APPEND hashes ${hash})
+  if(NOT name STREQUAL index.html)
+    string(APPEND FILES " ${name}")
   endif()
 endforeach()
 string(SHA256 version "${hashes}")

@@ -36,7 +36,7 @@ export async function oddFiles({open, folder, drawings, claystack}) {
   for (const [name, text] of [['empty.pot.json', ''], ['list.pot.json', '[]'], ['picture.png', '\x89PNG'], ['x'.repeat(240) + '.work', '']]) {
     writeFileSync(join(folder, name), text);
     await drop(page, join(folder, name));
-    await page.shows('pot', new RegExp(`/${name}(:\\d+)?: .`));
+    await page.shows('pot', new RegExp(`^${name}(:\\d+)?: .`));
   }
   for (const name of ['-x.stl', '--help.stl', 'dev']) {
     if (name === 'dev') writeFileSync(join(folder, name), '');
@@ -147,6 +147,11 @@ export async function twoTabs({open}) {
   await first.mouse.up();
   await first.says('stroke ended');
   await pause(2000);  // it is stored
+  const late = await open('', context);
+  await late.shows('status', /^Claystack is open in another tab/);
+  assert.deepEqual((await late.announced()).filter(line => line.startsWith('recovery offered')), [],
+    'expected no offer of a work that is open in another tab');
+  await late.close();
   await first.close();
   await second.bringToFront();
   await second.mouse.move(400, 300);
@@ -159,8 +164,28 @@ export async function twoTabs({open}) {
   await third.says('recovered: ');
   await third.click('#words');
   assert.match(await third.$eval('#report-text', element => element.textContent), /Strokes: 1\n/);
-  assert.deepEqual([...first.problems, ...second.problems, ...third.problems], []);
+  assert.deepEqual([...first.problems, ...second.problems, ...late.problems, ...third.problems], []);
   await context.close();
+}
+
+/// A tab that stores nothing asks before it is closed with an unsaved work.
+export async function closedWithoutStorage({open}) {
+  const first = await open();
+  const second = await open('', first.browserContext());
+  await second.shows('status', /^Claystack is open in another tab/);
+  await beginBowl(second);
+  await drag(second);
+  await second.mouse.up();
+  await second.says('stroke ended');
+  let asked = 0;
+  second.on('dialog', dialog => {
+    ++asked;
+    dialog.accept();
+  });
+  await second.close({runBeforeUnload: true});
+  for (let i = 0; i < 50 && asked === 0; ++i) await pause(100);
+  assert.equal(asked, 1, 'expected a question before an unsaved work is lost');
+  await first.browserContext().close();
 }
 
 /// A fault of the program: the page reports that it has stopped.

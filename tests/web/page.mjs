@@ -10,7 +10,7 @@ import {join, resolve} from 'node:path';
 import {inflateRawSync} from 'node:zlib';
 import {beginBowl, choose, chord, downloaded as downloadedIn, drag, drop, launch as launchIn, openPage as openPageIn, pause} from './browser.mjs';
 import {gamepad, pen, saved, spaceMouse} from './devices.mjs';
-import {failing, keysAndButtons, oddFiles, oddLinks, twoTabs, typedByFinger} from './odd_input.mjs';
+import {closedWithoutStorage, failing, keysAndButtons, oddFiles, oddLinks, twoTabs, typedByFinger} from './odd_input.mjs';
 import {serve} from './server.mjs';
 
 const [site, claystack, pictures] = process.argv.slice(2, 5).map(path => resolve(path));
@@ -94,6 +94,7 @@ async function throwAndExport(browser) {
   await picture(page, 'save');
   await page.keyboard.press('Enter');
   await page.says('saved:');
+  await page.shows('pot', /^Saved bowl\.work$/);  // a page has no folders
   const work = await downloaded('bowl.work');
   native('throw', '-q', work, '-o', 'replayed.pot.json');
   assert.ok(readFileSync(pot).equals(readFileSync(join(folder, 'replayed.pot.json'))),
@@ -440,7 +441,7 @@ async function devices(browser) {
 async function odd(browser) {
   const open = async (hash = '', context = null) =>
     openPage(context ?? await browser.createBrowserContext(), kDesktop, hash);
-  for (const test of [oddFiles, oddLinks, keysAndButtons, twoTabs, failing])
+  for (const test of [oddFiles, oddLinks, keysAndButtons, twoTabs, closedWithoutStorage, failing])
     await test({open, folder, drawings, claystack});
   console.log('unusual files, links, keys and a second tab: a message, and no loss');
 }

@@ -47,9 +47,9 @@ void draw_work_settings(const ViewModel& model, Actions& actions) {
   form_row("Process");
   std::string process = settings.process;
   if (choose_process(model, "None", process, actions)) actions.emplace_back(SetProcess{process});
-  form_row("Output folder");
   std::string folder = settings.folder;
-  if (ImGui::InputTextWithHint("##folder", "The current folder", &folder))
+  if (!kInPage) form_row("Output folder");
+  if (!kInPage && ImGui::InputTextWithHint("##folder", "The current folder", &folder))
     actions.emplace_back(SetFolder{folder});
   form_row("First steps");
   bool hints = settings.hints;
@@ -160,8 +160,9 @@ void draw(const SettingsDialog&, const ViewModel& model, Actions& actions, const
   draw_work_settings(model, actions);
   ImGui::Spacing();
   const std::string path = settings_path().string();
-  faint_text(model.colours(),
-             path.empty() ? "Not stored: there is no home folder" : "Stored in " + path);
+  faint_text(model.colours(), path.empty() ? "Not stored: there is no home folder"
+                              : kInPage    ? "Stored in this browser"
+                                           : "Stored in " + path);
   if (ImGui::Button("Close (Esc)")) actions.emplace_back(CloseDialog{});
   ImGui::End();
 }

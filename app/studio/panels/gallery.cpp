@@ -103,7 +103,7 @@ void draw_files(const ViewModel& model, Actions& actions) {
     if (room < ImGui::CalcTextSize(name.c_str()).x) break;
     ImGui::PushID(path.c_str());
     if (ImGui::Button(name.c_str())) actions.emplace_back(OpenFile{path});
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", path.c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", shown_name(path).c_str());
     ImGui::PopID();
   }
 }

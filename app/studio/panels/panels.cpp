@@ -72,8 +72,11 @@ struct UsedArrows {
 UsedArrows draw_recent(const ViewModel& model, Actions& actions) {
   const bool open = ImGui::BeginMenu("Recent", !model.settings.recent.empty());
   if (!open) return {false, ImGui::IsItemFocused() && !model.settings.recent.empty()};
-  for (const std::string& path : model.settings.recent)
-    if (ImGui::MenuItem(path.c_str())) actions.emplace_back(OpenFile{path});
+  for (const std::string& path : model.settings.recent) {
+    ImGui::PushID(path.c_str());
+    if (ImGui::MenuItem(shown_name(path).c_str())) actions.emplace_back(OpenFile{path});
+    ImGui::PopID();
+  }
   ImGui::EndMenu();
   return {true, true};
 }
@@ -170,7 +173,8 @@ void draw_parts(const ViewModel& model, const std::vector<Part>& parts) {
   ImGui::TextUnformatted(document_text(model, room).c_str());
   for (const Part& part : parts) {
     ImGui::SameLine(0.0f, gap);
-    ImGui::TextColored(part.colour, "%s", part.text.c_str());
+    const std::string text = shortened(part.text, ImGui::GetContentRegionAvail().x);
+    ImGui::TextColored(part.colour, "%s", text.c_str());
   }
 }
 
@@ -276,12 +280,12 @@ void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size
   ImGui::Begin("##status", nullptr, kBar);
   const Palette& colours = model.colours();
   const ImVec4 text = ImGui::GetStyleColorVec4(ImGuiCol_Text);
-  std::vector<Part> parts{{model.stroke.device_name(), text}};
-  if (diagnostics_open(model.settings)) add_figures(model, parts);
+  std::vector<Part> parts{{model.device_name(), text}};
   const std::string arm = model.arm_text();
   const bool attention = model.stroke.paused() || model.waits_for_rearm();
   const std::string state = arm.empty() && model.stroke.paused() ? "paused" : arm;
   if (!state.empty()) parts.push_back({state, attention ? colours.warning : text});
+  if (diagnostics_open(model.settings)) add_figures(model, parts);
   draw_parts(model, parts);
   ImGui::End();
   ImGui::PopStyleColor();

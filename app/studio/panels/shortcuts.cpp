@@ -5,7 +5,6 @@
 #include "app/studio/panels/widgets.hpp"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -28,6 +27,13 @@ Section mouse_section() {
            {"Middle or right", "Turn the view"},
            {"Shift+middle or right", "Move the view"},
            {"Wheel", "Zoom"}}};
+}
+
+Section touch_section() {
+  return {"Touch screen",
+          {{"One finger", "Shape the clay"},
+           {"Two fingers", "Turn the view"},
+           {"Spread, pinch", "Zoom"}}};
 }
 
 /// Buttons have the names of an Xbox controller.
@@ -63,8 +69,9 @@ Section section_of(const Menu* menu) {
   return section;
 }
 
-std::vector<Section> all_sections() {
+std::vector<Section> all_sections(bool fingers) {
   std::vector<Section> sections{mouse_section(), gamepad_section()};
+  if (fingers) sections.insert(sections.begin(), touch_section());
   for (const Menu& menu : menus()) sections.push_back(section_of(&menu));
   sections.push_back(section_of(nullptr));
   return sections;
@@ -116,16 +123,16 @@ float widest_of(const std::vector<Section>& column, std::string HelpRow::*part) 
 }
 
 /// As many columns, up to three, as have room.
-const Columns& columns_for(float room_px) {
-  static const std::array kChoices = {columns_of(all_sections(), 1), columns_of(all_sections(), 2),
-                                      columns_of(all_sections(), 3)};
-  for (std::size_t i = kChoices.size() - 1; i > 0; --i) {
+Columns columns_for(float room_px, bool fingers) {
+  const std::vector<Section> sections = all_sections(fingers);
+  for (std::size_t count = 3; count > 1; --count) {
+    Columns columns = columns_of(sections, count);
     float width = 0.0f;
-    for (const std::vector<Section>& column : kChoices[i])
+    for (const std::vector<Section>& column : columns)
       width += widest_of(column, &HelpRow::how) + widest_of(column, &HelpRow::what);
-    if (width + 2.0f * ImGui::GetFontSize() < room_px) return kChoices[i];
+    if (width + 2.0f * ImGui::GetFontSize() < room_px) return columns;
   }
-  return kChoices.front();
+  return columns_of(sections, 1);
 }
 
 }  // namespace
@@ -135,7 +142,7 @@ void draw(const ShortcutsDialog&, const ViewModel& model, Actions& actions, cons
   begin_dialog("##shortcuts", rect, kWideEm);
   dialog_title(model, "Controls");
   begin_body(rect);
-  const Columns& columns = columns_for(ImGui::GetContentRegionAvail().x);
+  const Columns columns = columns_for(ImGui::GetContentRegionAvail().x, model.fingers);
   const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(spacing.x, 0.3f * spacing.y));
   if (ImGui::BeginTable("##keys", static_cast<int>(columns.size()),

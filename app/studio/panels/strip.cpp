@@ -168,9 +168,15 @@ void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, g
     }
     draw_command(kIcons[i], model, actions);
   }
-  const bool below = below_open(model.settings);
-  if (panels && icon_button("Panels", &panels_icon, true, below, "Panels below the view", model))
-    actions.emplace_back(FoldPanel{kBelow, !below});
+  const bool below = below_open(model.settings), diagnostics = diagnostics_open(model.settings);
+  if (panels && icon_button("Panels", &panels_icon, true, below || diagnostics,
+                            "Panels below the view", model)) {
+    // They are in the place of the other panels.
+    if (diagnostics)
+      actions.emplace_back(ToggleDiagnostics{});
+    else
+      actions.emplace_back(FoldPanel{kBelow, !below});
+  }
   ImGui::EndDisabled();
   ImGui::End();
   ImGui::PopStyleVar(3);

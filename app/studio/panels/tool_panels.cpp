@@ -18,12 +18,14 @@ namespace {
 constexpr std::array kShapes = {"Sphere", "Ellipse", "Rib", "Custom"};
 constexpr double kUsualLimitN = 5.0;
 
-const char* help_text(ToolMode mode, bool fallen) {
+/// Fingers hold no keys.
+const char* help_text(ToolMode mode, bool fallen, bool fingers) {
   switch (mode) {
     case ToolMode::press:
-      return "Displaces clay and keeps its volume. Hold Ctrl to trim.";
+      return fingers ? "Displaces clay and keeps its volume."
+                     : "Displaces clay and keeps its volume. Hold Ctrl to trim.";
     case ToolMode::trim:
-      return "Removes clay. Hold Ctrl to press.";
+      return fingers ? "Removes clay." : "Removes clay. Hold Ctrl to press.";
     case ToolMode::pinch:
       return "Presses from both sides of the wall: drag up to pull it.";
     case ToolMode::smooth:
@@ -128,7 +130,7 @@ void draw_shape(const ViewModel& model, ToolChoice tool, Actions& actions) {
 void draw_tool(const ViewModel& model, Actions& actions) {
   const bool held = model.stroke.by_hand();
   const ToolSpec used = model.tool_in_use();
-  faint_text(model.colours(), help_text(used.mode, model.document.fallen()));
+  faint_text(model.colours(), help_text(used.mode, model.document.fallen(), model.fingers));
   if (held) draw_next_tool(model, used);
   if (cuts_level(used.mode)) return;
   ToolChoice tool = model.settings.tool;

@@ -2,6 +2,8 @@
 // Controls that several panels or dialogs use.
 
 #include "app/studio/action.hpp"
+#include "app/studio/page.hpp"
+#include "app/studio/panels/text.hpp"
 #include "app/studio/scene_view.hpp"
 #include "app/studio/units.hpp"
 #include "app/studio/view_model.hpp"
@@ -55,13 +57,6 @@ bool form_slider(const char* label, float& value, float low, float high, const s
 bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
                  const char* none = nullptr);
 
-/// A web page has neither folders nor cairo, and no picture beside its own.
-#ifdef __EMSCRIPTEN__
-inline constexpr bool kInPage = true;
-#else
-inline constexpr bool kInPage = false;
-#endif
-
 /// Lines for the name and the folder of files; a page has downloads only.
 void form_place(std::string& name, std::string& folder, Actions& actions);
 /// A list of clays and glazes; the one that was chosen now, or null.
@@ -70,29 +65,6 @@ void form_place(std::string& name, std::string& folder, Actions& actions);
 /// The pot from the side in a square; the right half is cut open.
 void draw_half_section(const render::PotView& pot, ImVec2 corner, float side,
                        const Palette& colours);
-
-/// A problem that the export found. Its tooltip has the parts in brackets, such as the source of a
-/// limit.
-void problem_text(const std::string& problem, const ImVec4& colour);
-
-/// Lines of at most `width_px`, broken at blanks, but not between a number and its unit. A longer
-/// word stays whole.
-[[nodiscard]] std::string wrapped(std::string_view text, float width_px);
-/// At most this wide: the middle of a longer text is left out, because the end of a file name says
-/// what it is.
-[[nodiscard]] std::string shortened(const std::string& text, float width_px);
-/// To the right edge of the window.
-void wrapped_text(std::string_view text, const ImVec4& colour);
-void wrapped_text(std::string_view text);
-void faint_text(const Palette& colours, const std::string& text);
-/// Name at the left, value at the right edge of the column, below the name if it does not fit
-/// beside.
-void value_row(const Palette& colours, const char* name, const std::string& value);
-
-/// Opacity of the ground of texts over the view.
-inline constexpr float kOverView = 0.82f;
-/// Text on its own background, readable over the view.
-void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImVec4& colour);
 
 /// Begins a window in the middle of the dimmed view, as high as its content. Call ImGui::End() to
 /// end it. `steady_em`: where more or less content must not move its top, its usual height.

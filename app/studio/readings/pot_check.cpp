@@ -175,7 +175,9 @@ render::WallMap wall_map_of(const PotCheck& check) {
   std::vector<float> faces;
   for (const render::RowWall& wall : check.walls)
     faces.insert(faces.end(), {wall.outer_mm, wall.inner_mm});
-  return {check.limit ? check.limit->least_mm() : 0.0, scale_top_mm(std::move(faces))};
+  const double top_mm = scale_top_mm(std::move(faces));
+  if (!check.limit) return {0.0, top_mm};
+  return {check.limit->least_mm(), top_mm, check.limit->min_wall_mm};
 }
 
 std::vector<Stretch> thin_stretches(const PotCheck& check) {

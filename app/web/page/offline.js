@@ -4,9 +4,7 @@
 'use strict';
 
 const kCache = 'claystack @VERSION@';  // of all files: app/web/site.cmake
-const kFiles = ['./', 'style.css', 'devices.js', 'touch.js', 'keys.js', 'page.js', 'worker.js', 'licences.txt',
-  'claystack-page.js',
-  'claystack-page.wasm', 'claystack-page.data', 'claystack.js', 'claystack.wasm'];
+const kFiles = '@FILES@'.split(' ');
 
 async function install() {
   const cache = await caches.open(kCache);

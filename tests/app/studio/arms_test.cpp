@@ -2,7 +2,7 @@
 // clock, with a scripted arm.
 
 #include "app/studio/commands.hpp"
-#include "app/studio/script.hpp"
+#include "app/studio/script_runner.hpp"
 #include "claystack/engine/files.hpp"
 #include "tests/app/servo/live_bench.hpp"
 #include "tests/app/studio/clocked_arm.hpp"

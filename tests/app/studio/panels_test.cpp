@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -343,6 +344,55 @@ TEST_F(Panels, ALongNameLeavesRoomInTheStatusBar) {
   const ImGuiWindow* window = ImGui::FindWindowByName("##status");
   EXPECT_LE(window->ContentSize.x + 2.0f * window->WindowPadding.x, 800.0f);
   EXPECT_GT(window->ContentSize.x, 600.0f) << "no shorter than it must be";
+}
+
+TEST_F(Panels, ANarrowStatusBarCutsNothingOff) {
+  state.settings.open[kDiagnostics] = true;
+  const auto bar = [](const ViewModel& model, Actions&) {
+    draw_status_bar(model, {0.0f, 600.0f}, {320.0f, status_height()});
+  };
+  for (int i = 0; i < 3; ++i) (void)frame(bar);
+  const ImGuiWindow* window = ImGui::FindWindowByName("##status");
+  EXPECT_LE(window->ContentSize.x + 2.0f * window->WindowPadding.x, 320.0f);
+}
+
+TEST_F(Panels, NamesTheDeviceThatMovesTheTool) {
+  EXPECT_EQ(view_model(state).device_name(), "Mouse");
+  host.touched = true;
+  EXPECT_EQ(view_model(state).device_name(), "Touch screen");
+}
+
+TEST_F(Panels, FingersAreNotAskedToHoldKeys) {
+  apply(state, SetToolMode{ToolMode::press});
+  const auto tool = [](const ViewModel& model, Actions& actions) { draw_tool(model, actions); };
+  EXPECT_NE(text_of(tool).find("Ctrl"), std::string::npos) << text_of(tool);
+  host.touched = true;
+  EXPECT_EQ(text_of(tool).find("Ctrl"), std::string::npos) << text_of(tool);
+}
+
+TEST_F(Panels, EachButtonChoosesTheAxisOfItsTitle) {
+  ImportDialog import;
+  import.path = "odd.csv";
+  import.settings.axis = ImportAxis::middle;
+  state.ui.dialog = import;
+  const auto dialog = [](const ViewModel& model, Actions& actions) {
+    draw_dialog(model, actions, kView);
+  };
+  for (int i = 0; i < 3; ++i) (void)frame(dialog);
+  const ImGuiWindow* window = ImGui::FindWindowByName("##import");
+  std::map<ImGuiID, ImportAxis> chosen;  // by the button that was clicked
+  for (float y = window->Pos.y; y < window->Pos.y + 0.5f * window->Size.y; y += 12.0f)
+    for (float x = window->Pos.x; x < window->Pos.x + window->Size.x; x += 24.0f)
+      for (const Action& action : click(dialog, {x, y}))
+        if (const auto* edit = std::get_if<EditImport>(&action);
+            edit != nullptr && edit->settings.axis != ImportAxis::middle)
+          chosen[GImGui->HoveredId] = edit->settings.axis;
+  const ImGuiID row = ImHashStr("##axis", 0, window->ID);
+  const auto button = [&](const char* title) { return ImHashStr(title, 0, row); };
+  EXPECT_EQ(chosen, (std::map<ImGuiID, ImportAxis>{{button("Automatic"), ImportAxis::by_itself},
+                                                   {button("Left end"), ImportAxis::left},
+                                                   {button("Right end"), ImportAxis::right},
+                                                   {button("At"), ImportAxis::at}}));
 }
 
 TEST_F(Panels, ALongRecentNameHidesNoOtherFile) {

@@ -32,7 +32,7 @@ class Look : public test::Window {
     }
     const auto channel = [&](int which) {
       return static_cast<unsigned char>(
-          bytes.at(static_cast<std::size_t>(3 * (y * 960 + x) + which)));
+          bytes.at(static_cast<std::size_t>(3 * (y * width_px + x) + which)));
     };
     return {channel(0), channel(1), channel(2)};
   }
@@ -43,6 +43,7 @@ class Look : public test::Window {
   bool same(const char* a, const char* b) {
     return read_text(folder.file(a)) == read_text(folder.file(b));
   }
+  int width_px = 960;  ///< of the pictures
 
  private:
   std::map<std::string, std::string> read_;
@@ -127,6 +128,29 @@ TEST_F(Look, TheCardOfALessonStandsBelowThePot) {
   EXPECT_FALSE(at("card.png", 330, 300).clay()) << "the card";
   const Colour wheel = at("card.png", 359, 255), card = at("card.png", 359, 300);
   EXPECT_GT(wheel.red, card.red + 60) << "the wheel is in sight";
+}
+
+TEST_F(Look, ALessonHasItsCardInANarrowWindowToo) {
+  width_px = 390;
+  const Ran ran = run("do file.learn_bowl\nwait 1\n" + shot("card.png"), "--size 390x760");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto clay = [&](int from, int to) {
+    int rows = 0;
+    for (int y = from; y < to; y += 8) rows += at("card.png", 150, y).clay() ? 1 : 0;
+    return rows;
+  };
+  EXPECT_GT(clay(40, 400), 3) << "the pot stands above the card";
+  EXPECT_EQ(clay(430, 740), 0);
+}
+
+/// Such as a part of the window that has no room.
+TEST_F(Look, NothingIsInTheCornerOfANarrowView) {
+  width_px = 400;
+  const Ran ran = run(shot("bare.png"), "--size 400x300 --scale 1.5 --theme light");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Colour corner = at("bare.png", 30, 43), beside = at("bare.png", 60, 43);
+  EXPECT_NEAR(corner.red, beside.red, 8);
+  EXPECT_NEAR(corner.blue, beside.blue, 8);
 }
 
 TEST_F(Look, ARoundLumpIsRoundFromAbove) {

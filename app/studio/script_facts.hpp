@@ -1,0 +1,17 @@
+#pragma once
+// Facts about the window, for the scripts' `expect`. docs/studio.md lists them.
+
+#include "app/studio/app_state.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace clay::studio {
+
+/// A fact about the window as text; numbers in the shortest form that reads back. Empty for a name
+/// that is not in docs/studio.md.
+[[nodiscard]] std::optional<std::string> fact(const AppState& state, std::string_view name);
+[[nodiscard]] bool is_fact(std::string_view name);
+
+}  // namespace clay::studio
