@@ -94,7 +94,8 @@ void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckC
                    Verdict& verdict) {
   const auto& process = command.walls.demand().process;
   if (!process) return;
-  std::string passed = fmt::format("{:.1f} x {:.1f} x {:.1f} mm", size.x, size.y, size.z);
+  std::string passed = fmt::format("{} x {} x {} mm", size_text(size.x, 1), size_text(size.y, 1),
+                                   size_text(size.z, 1));
   const auto& largest = process->size;
   const bool fits = !largest || largest->fits(size);
   if (!fits)

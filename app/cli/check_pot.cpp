@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/vec3.hpp>
 #include <utility>
 
 namespace clay::cli {
@@ -33,12 +34,18 @@ std::string failure_text(const Collapse& fall) {
 
 /// The figures that were compared with the limits of the process.
 std::string process_text(const solid::ExportReport& report) {
-  std::string text = fmt::format("{}: {:.1f} mm wide, {:.1f} mm high",
-                                 solid::process_title(report.process.limits->name),
-                                 report.size.diameter_mm, report.size.height_mm);
+  std::string text =
+      fmt::format("{}: {} mm wide, {} mm high", solid::process_title(report.process.limits->name),
+                  size_text(report.size.diameter_mm, 1), size_text(report.size.height_mm, 1));
   if (report.process.overhang)
     text += fmt::format(", largest overhang {:.0f} degrees", report.process.overhang->angle_deg);
   return text;
+}
+
+/// As a file holds it: rounding may close a very thin wall.
+solid::TriangleMesh in_float32(solid::TriangleMesh mesh) {
+  for (glm::dvec3& point : mesh.points) point = glm::vec3(point);
+  return mesh;
 }
 
 void check_solid(const solid::TriangleMesh& mesh, Verdict& verdict) {
@@ -50,7 +57,7 @@ Verdict verdict_on(const solid::ExportReport& report) {
   const solid::Profile& profile = report.section.profile();
   Verdict verdict;
   if (solid::triangle_count(profile, kFewestSegments) <= solid::kMaxTriangles)
-    check_solid(solid::revolve(profile, check_segments(profile)), verdict);
+    check_solid(in_float32(solid::revolve(profile, check_segments(profile))), verdict);
   else
     verdict.examined = false;
   // Facets are slightly wider.

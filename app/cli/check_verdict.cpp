@@ -98,10 +98,10 @@ void print_certificate(const Console& console, const solid::SolidCertificate& ce
 
 void print_wall(const Console& console, const solid::SampledWall& wall) {
   if (!std::isinf(wall.least_mm))
-    console.print(
-        fmt::format("  thinnest sample {:.2f} mm at ({:.6g}, {:.6g}, {:.6g}), {} rays; a sampled "
-                    "value, not a bound",
-                    wall.least_mm, wall.place.x, wall.place.y, wall.place.z, wall.rays));
+    console.print(fmt::format(
+        "  thinnest sample {} mm at ({:.6g}, {:.6g}, {:.6g}), {} rays; a sampled "
+        "value, not a bound",
+        size_text(wall.least_mm, 2), wall.place.x, wall.place.y, wall.place.z, wall.rays));
   if (wall.escaped > 0)
     console.print(fmt::format("  {} of {} passed through an opening", wall.escaped,
                               counted(wall.rays, "ray")));
@@ -312,7 +312,7 @@ void print_verdict(const Console& console, const std::string& file, const Verdic
                     mesh.size_mm.x, mesh.size_mm.y, mesh.size_mm.z, mesh.area_mm2 / 100.0));
   }
   if (verdict.wall_mm)
-    console.print(fmt::format("  minimum wall {:.3f} mm ({})", *verdict.wall_mm,
+    console.print(fmt::format("  minimum wall {} mm ({})", size_text(*verdict.wall_mm, 3),
                               solid::text_of(verdict.wall_parts)));
   if (verdict.wall_sampled) print_wall(console, *verdict.wall_sampled);
   if (verdict.certificate_holds) print_certificate(console, *verdict.certificate);

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -37,18 +38,28 @@ void reserve_standard_streams() noexcept {
       (void)open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
+bool json_errors = false;
+
+/// Formats without an allocation.
+template <class... Values>
+void put_formatted(void (*put)(std::string_view) noexcept, const char* format, Values... values) {
+  std::array<char, 256> text{};
+  const int size = std::snprintf(text.data(), text.size(), format, values...);
+  put({text.data(), static_cast<std::size_t>(size)});
+}
+
 int out_of_memory() noexcept {
-  if (memory_limit() == 0) {
-    put_err("claystack: out of memory; close other programs, or choose a smaller job\n");
-    return kIoFailed;
-  }
-  std::array<char, 160> text{};  // without an allocation
-  const int size = std::snprintf(
-      text.data(), text.size(),
-      "claystack: out of memory, with a limit of %.2g GB; raise --memory, close other programs, or "
-      "choose a smaller job\n",
-      static_cast<double>(memory_limit()) / 1e9);
-  put_err({text.data(), static_cast<std::size_t>(size)});
+  std::array<char, 160> message{"out of memory; close other programs, or choose a smaller job"};
+  if (memory_limit() > 0)
+    (void)std::snprintf(message.data(), message.size(),
+                        "out of memory, with a limit of %.2g GB; raise --memory, close other "
+                        "programs, or choose a smaller job",
+                        static_cast<double>(memory_limit()) / 1e9);
+  put_formatted(put_err, "claystack: %s\n", message.data());
+  if (json_errors && !json_printed())
+    put_formatted(put_out, "{\n  \"error\": \"%s\",\n  \"kind\": \"io\",\n  \"status\": %d\n}\n",
+                  message.data(), static_cast<int>(kIoFailed));
+  (void)flush_out();
   return kIoFailed;
 }
 
@@ -80,14 +91,31 @@ void erase_line() noexcept {
   if (std::exchange(line_shown, false)) write_err(kEraseLine);
 }
 
-int unexpected(const char* what) noexcept {
-  put_err("claystack: unexpected failure: ");
-  put_err(what);
-  put_err("\n");
+/// A name of a file may hold control characters, which would act on the terminal.
+std::string printable(std::string text) {
+  const auto is_control = [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7F; };
+  std::ranges::replace_if(text, is_control, '?');
+  return text;
+}
+
+/// "claystack: MESSAGE" on one line.
+void put_message(std::string message) {
+  std::ranges::replace(message, '\n', '?');
+  put_err("claystack: " + printable(std::move(message)) + "\n");
+}
+
+int unexpected(const char* what) noexcept try {
+  return report({ErrorKind::io, std::string("unexpected failure: ").append(what)});
+} catch (...) {
   return kIoFailed;
 }
 
 }  // namespace
+
+std::string size_text(double size, int decimals) {
+  const bool small = size != 0.0 && std::abs(size) < std::pow(10.0, 1 - decimals);
+  return small ? fmt::format("{:.2g}", size) : fmt::format("{:.{}f}", size, decimals);
+}
 
 void put_out(std::string_view text) noexcept {
   erase_line();
@@ -102,7 +130,7 @@ void put_err(std::string_view text) noexcept {
 }
 
 void Console::print(std::string_view line) const {
-  if (!json && !quiet) put_out(std::string(line) + "\n");
+  if (!json && !quiet) put_out(printable(std::string(line)) + "\n");
 }
 
 void Console::detail(std::string_view line) const {
@@ -110,14 +138,12 @@ void Console::detail(std::string_view line) const {
 }
 
 void Console::warn(std::string_view line) const {
-  put_err(fmt::format("claystack: warning: {}\n", line));
+  put_message(std::string("warning: ").append(line));
 }
 
-void Console::error(std::string_view line) const { put_err(fmt::format("claystack: {}\n", line)); }
+void Console::error(std::string_view line) const { put_message(std::string(line)); }
 
 namespace {
-
-bool json_errors = false;
 
 struct KindText {
   const char* name;
@@ -156,7 +182,7 @@ Json error_json(const Error& error) {
 int report(const Error& error) { return report(error, Json::object()); }
 
 int report(const Error& error, Json fields) {
-  put_err(fmt::format("claystack: {}\n", error.message));
+  put_message(error.message);
   return report_as(error, std::move(fields));
 }
 
@@ -169,7 +195,8 @@ int report(const CLI::App& app, const CLI::ParseError& error) {
   }
   const std::string message = usage_message(app, error);
   const auto parsed = app.get_subcommands();
-  put_err(fmt::format("claystack: {}\nrun {}{} --help for usage\n", message, app.get_name(),
+  put_message(message);
+  put_err(fmt::format("run {}{} --help for usage\n", app.get_name(),
                       parsed.empty() ? "" : " " + parsed.front()->get_name()));
   return report_as({ErrorKind::bad_input, message}, Json::object());
 }

@@ -125,7 +125,7 @@ class Page {
         if (maker["thrown"][field].is_null()) return;
         std::vector<std::string> cells{name};
         for (const auto& state : states)
-          cells.push_back(fixed(number_in(*state.second, field), digits) + unit);
+          cells.push_back(size_text(number_in(*state.second, field), digits) + unit);
         row(cells);
       };
       line("diameter", "diameter_mm", " mm", 1);
@@ -175,7 +175,8 @@ class Page {
              fmt::format("{}, at a height of {:.1f} mm", at_least_mm(thickness_mm, 2), at.y)},
             "td", false);
       if (const auto& limit = report_.walls.limit)
-        row({"required", fmt::format("{:.2f} mm ({})", limit->min_wall_mm, limit->asked_by())},
+        row({"required",
+             fmt::format("{} mm ({})", size_text(limit->min_wall_mm, 2), limit->asked_by())},
             "td", false);
       if (const auto& fairing = report_.section.smoothed.fairing; fairing.length_mm > 0.0)
         row({"fairing",

@@ -116,12 +116,12 @@ void print_summary(const Console& console, const ImportOptions& options, const H
                    const DrawnPot& drawn, const Json& json) {
   console.print(fmt::format("axis at x = {:.3f} mm of the drawing ({})",
                             json["axis_mm"].get<double>(), axis_source(options, section)));
-  console.print(fmt::format("{} of {:.4g} mm: {:.1f} mm high, {:.1f} cm3 of clay ({:.1f} cm3 {})",
-                            counted(json["rings"].get<std::size_t>(), "ring"),
-                            json["ring_height_mm"].get<double>(), json["height_mm"].get<double>(),
-                            json["volume_mm3"].get<double>() / 1e3,
-                            json["drawn_mm3"].get<double>() / 1e3,
-                            options.pot_settings.wall_mm ? "if it were solid" : "in the drawing"));
+  console.print(fmt::format(
+      "{} of {:.4g} mm: {} mm high, {} cm3 of clay ({} cm3 {})",
+      counted(json["rings"].get<std::size_t>(), "ring"), number_in(json, "ring_height_mm"),
+      size_text(number_in(json, "height_mm"), 1), size_text(number_in(json, "volume_mm3") / 1e3, 1),
+      size_text(number_in(json, "drawn_mm3") / 1e3, 1),
+      options.pot_settings.wall_mm ? "if it were solid" : "in the drawing"));
   console.print(text_of(drawn.deviation, "drawing"));
   if (drawn.thinnest)
     console.print(fmt::format(
@@ -228,7 +228,9 @@ void add_import_command(CLI::App& app, Console& console, int& exit) {
 #endif
                )
       ->required();
-  add_file(*command, "-o,--output", options->pot, "NAME.pot.json or NAME.pot.cbor")->required();
+  add_file(*command, "-o,--output", options->pot,
+           "NAME.pot.json or NAME.pot.cbor; or - for .pot.json on standard output")
+      ->required();
   add_drawing_options(command, *options);
   add_pot_options(command, options->pot_settings);
   command->footer(

@@ -133,9 +133,10 @@ void print_summary(const Console& console, const MeshPot& made,
       fmt::format("axis through ({:.3f}, {:.3f}, {:.3f}) mm along ({:.5f}, {:.5f}, {:.5f})", foot.x,
                   foot.y, foot.z, up.x, up.y, up.z));
   console.print(fmt::format(
-      "{} rings of {:.4g} mm: {:.1f} mm high, {:.1f} cm3 of clay{}", stack.size(),
-      stack.ring_height_mm(), stack.height_mm(), stack.volume_mm3() / 1e3,
-      mesh_mm3 ? fmt::format(" ({:.1f} cm3 in the mesh)", *mesh_mm3 / 1e3) : std::string()));
+      "{} of {:.4g} mm: {} mm high, {} cm3 of clay{}", counted(stack.size(), "ring"),
+      stack.ring_height_mm(), size_text(stack.height_mm(), 1),
+      size_text(stack.volume_mm3() / 1e3, 1),
+      mesh_mm3 ? " (" + size_text(*mesh_mm3 / 1e3, 1) + " cm3 in the mesh)" : std::string()));
   console.print(deviation_text(made));
   for (const MeshPart& part : made.parts)
     console.print(fmt::format(

@@ -1,6 +1,8 @@
 #include "app/cli/maker_table.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -48,17 +50,17 @@ const Json& used_state(const Json& numbers) {
   return numbers["thrown"];
 }
 
-std::string size_text(const Json& state) {
-  return fmt::format("{:.1f} mm wide, {:.1f} mm high", number_in(state, "diameter_mm"),
-                     number_in(state, "height_mm"));
+std::string extent_text(const Json& state) {
+  return fmt::format("{} mm wide, {} mm high", size_text(number_in(state, "diameter_mm"), 1),
+                     size_text(number_in(state, "height_mm"), 1));
 }
 
 std::string weight_text(const Json& state) {
-  return fmt::format("{:.0f} g", number_in(state, "weight_g"));
+  return size_text(number_in(state, "weight_g"), 0) + " g";
 }
 
 std::string capacity_text(const Json& state) {
-  return fmt::format("{:.0f} ml", number_in(state, "capacity_ml"));
+  return size_text(number_in(state, "capacity_ml"), 0) + " ml";
 }
 
 std::string capacity_row(const Json& numbers) {
@@ -72,7 +74,7 @@ std::string capacity_row(const Json& numbers) {
   const double line_mm = number_in(numbers, "fill_line_mm");
   if (to_line_ml <= 0.0)
     return to_brim + fmt::format("the fill line, {:g} mm below it, is below the floor", line_mm);
-  return to_brim + fmt::format("{:.0f} ml to {:g} mm below it{}", to_line_ml, line_mm,
+  return to_brim + fmt::format("{} ml to {:g} mm below it{}", size_text(to_line_ml, 0), line_mm,
                                glazed  ? ", glazed"
                                : fired ? ", fired"
                                        : "");
@@ -83,9 +85,9 @@ std::string surface_row(const Json& numbers) {
   const bool fired = !numbers["fired"].is_null();
   const Json& used = fired ? numbers["fired"] : numbers["thrown"];
   if (used["inside_cm2"].is_null()) return {};
-  return fmt::format("{:.0f} cm2 inside, {:.0f} cm2 outside without the foot{}",
-                     number_in(used, "inside_cm2"), number_in(used, "outside_cm2"),
-                     fired ? ", fired" : "");
+  return fmt::format("{} cm2 inside, {} cm2 outside without the foot{}",
+                     size_text(number_in(used, "inside_cm2"), 0),
+                     size_text(number_in(used, "outside_cm2"), 0), fired ? ", fired" : "");
 }
 
 }  // namespace
@@ -133,7 +135,7 @@ void print_maker_table(const Console& console, const Json& numbers, const std::s
     if (!text.empty()) console.print(fmt::format("{:<10}{}", name, text));
   };
   if (!numbers.is_null()) {
-    row("size", by_state(numbers, size_text));
+    row("size", by_state(numbers, extent_text));
     row("weight", by_state(numbers, weight_text, false));
     row("capacity", capacity_row(numbers));
     row("surface", surface_row(numbers));
@@ -143,6 +145,10 @@ void print_maker_table(const Console& console, const Json& numbers, const std::s
 }
 
 std::string at_least_mm(double bound_mm, int digits) {
+  constexpr int kMostDigits = 9;
+  if (bound_mm > 0.0)  // at least two significant digits
+    digits =
+        std::clamp(1 - static_cast<int>(std::floor(std::log10(bound_mm))), digits, kMostDigits);
   const double scale = std::pow(10.0, digits);
   // A bound that prints as itself stays, in spite of its rounding as a double.
   return fmt::format("at least {:.{}f} mm", std::floor(bound_mm * scale * (1.0 + 1e-12)) / scale,

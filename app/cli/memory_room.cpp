@@ -59,9 +59,14 @@ MemoryRoom memory_room() {
 Result<void> expect_room(std::string_view job, std::uint64_t bytes) {
   const MemoryRoom room = memory_room();
   if (bytes <= room.bytes) return {};
-  return failure(ErrorKind::io,
-                 fmt::format("{} needs about {} of memory, found {} available within {}", job,
-                             gigabytes(bytes), gigabytes(room.bytes), room.limit));
+  return failure(ErrorKind::io, lack_of_room(job, bytes, room));
+}
+
+std::string lack_of_room(std::string_view job, std::uint64_t bytes, const MemoryRoom& room) {
+  int digits = 2;
+  while (digits < 10 && gigabytes(bytes, digits) == gigabytes(room.bytes, digits)) ++digits;
+  return fmt::format("{} needs about {} of memory, found {} available within {}", job,
+                     gigabytes(bytes, digits), gigabytes(room.bytes, digits), room.limit);
 }
 
 Result<void> expect_room_to_draw(std::uint64_t pixels) {
@@ -69,8 +74,8 @@ Result<void> expect_room_to_draw(std::uint64_t pixels) {
   return expect_room("drawing", kOfDriver + kOfPixel * pixels);
 }
 
-std::string gigabytes(std::uint64_t bytes) {
-  return fmt::format("{:.2g} GB", static_cast<double>(bytes) / 1e9);
+std::string gigabytes(std::uint64_t bytes, int digits) {
+  return fmt::format("{:.{}g} GB", static_cast<double>(bytes) / 1e9, digits);
 }
 
 }  // namespace clay::cli

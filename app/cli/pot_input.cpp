@@ -115,8 +115,9 @@ std::optional<std::string> mesh_differs(const solid::TriangleMesh& mesh, const P
     return std::nullopt;
   const bool enlarged = alike && up > 1.0;
   return fmt::format(
-      "the mesh is {:.1f} mm wide and {:.1f} mm high, the pot inside {:.1f} mm and {:.1f} mm: {}",
-      sizes.mesh_width_mm, sizes.mesh_height_mm, sizes.pot_width_mm, sizes.pot_height_mm,
+      "the mesh is {} mm wide and {} mm high, the pot inside {} mm and {} mm: {}",
+      size_text(sizes.mesh_width_mm, 1), size_text(sizes.mesh_height_mm, 1),
+      size_text(sizes.pot_width_mm, 1), size_text(sizes.pot_height_mm, 1),
       enlarged ? fmt::format("{:.2f} times the size is more than the shrinkage of a clay needs, so "
                              "another program may have scaled the mesh",
                              up)
@@ -128,10 +129,10 @@ std::optional<std::string> other_size(const solid::TriangleMesh& mesh, const Pot
   if (std::abs(sizes.across() - 1.0) < 0.01 && std::abs(sizes.up() - 1.0) < 0.01)
     return std::nullopt;
   return fmt::format(
-      "{:.1f} mm wide and {:.1f} mm high; the mesh is {:.1f} mm and {:.1f} mm, {:.2f} and {:.2f} "
-      "times as much",
-      sizes.pot_width_mm, sizes.pot_height_mm, sizes.mesh_width_mm, sizes.mesh_height_mm,
-      sizes.across(), sizes.up());
+      "{} mm wide and {} mm high; the mesh is {} mm and {} mm, {:.2f} and {:.2f} times as much",
+      size_text(sizes.pot_width_mm, 1), size_text(sizes.pot_height_mm, 1),
+      size_text(sizes.mesh_width_mm, 1), size_text(sizes.mesh_height_mm, 1), sizes.across(),
+      sizes.up());
 }
 #endif
 

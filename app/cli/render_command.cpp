@@ -89,10 +89,10 @@ void print_picture(const Console& console, const RenderCommand& command, const R
                               text_of(command.turntable_size), done.gif_bytes));
   if (done.map)
     console.print(fmt::format(
-        "walls: dark violet 0 mm to yellow {:g} mm{}; thinnest {:.3f} mm", done.map->top_mm,
-        done.map->limit_mm > 0.0 ? fmt::format(", hatched red below {:.3f} mm", done.map->limit_mm)
+        "walls: dark violet 0 mm to yellow {:g} mm{}; thinnest {} mm", done.map->top_mm,
+        done.map->limit_mm > 0.0 ? fmt::format(", hatched red below {:.4g} mm", done.map->stated_mm)
                                  : std::string(),
-        *done.thinnest_mm));
+        size_text(*done.thinnest_mm, 3)));
   if (done.frame)
     console.print(fmt::format("{:.1f} ms a frame of {}, {:.1f} ms anti-aliased, on {}",
                               done.frame->ms, size, done.frame->anti_aliased_ms, done.renderer));
@@ -148,10 +148,13 @@ void add_render_command(CLI::App& app, Console& console, int& exit) {
   CLI::App* sub =
       app.add_subcommand("render", "Draw a pot without a screen, as a picture or a turntable");
   add_file(*sub, "pot", command->pot,
-           std::string(kPotInputs) + "; for a NAME.scene.json its lump is drawn")
+           std::string(kPotInputs) +
+               ", or - for standard input; for a NAME.scene.json its lump is drawn")
       ->required();
-  add_file(*sub, "-o,--output", command->out, "File for the picture, .png");
-  add_file(*sub, "--turntable", command->turntable, "File for an animation of one turn, .gif");
+  add_file(*sub, "-o,--output", command->out,
+           "File for the picture, .png, or - for standard output");
+  add_file(*sub, "--turntable", command->turntable,
+           "File for an animation of one turn, .gif, or - for standard output");
   sub->add_option("--frames", command->frames_asked, "Number of frames of the turntable")
       ->check(in_whole_range(1, render::kMostFrames))
       ->default_str(std::to_string(command->choices.frames));

@@ -72,7 +72,8 @@ void add_strokes_command(CLI::App& app, Console& console, int& exit) {
   add_file(*command, "scene", options->scene, "NAME.scene.json, or - for standard input")
       ->required();
   add_file(*command, "script", options->script, "NAME.strokes.json (docs/files.md)")->required();
-  add_file(*command, "-o,--output", options->session, "Session file to write, NAME.session")
+  add_file(*command, "-o,--output", options->session,
+           "Session file to write, NAME.session, or - for standard output")
       ->required();
   command->footer(
       "\nExamples:\n"

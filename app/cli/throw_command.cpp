@@ -103,10 +103,12 @@ void add_replay_options(CLI::App& command, ThrowOptions& options) {
   begin_group(command, "Replay");
   add_file(command, "-s,--session", options.replay.session,
            "Poses to play (default: NAME.session beside the scene)");
-  add_file(command, "-o,--output", options.replay.pot,
-           "Pot to write: .pot.json, or .pot.cbor (compact)");
+  add_file(
+      command, "-o,--output", options.replay.pot,
+      "Pot to write: .pot.json, or .pot.cbor (compact); or - for .pot.json on standard output");
   add_file(command, "--from", options.replay.from,
-           "Pot to start from, instead of the scene's lump: " + std::string(kPotInputs));
+           "Pot to start from, instead of the scene's lump: " + std::string(kPotInputs) +
+               ", or - for standard input");
   command.add_option("--at", options.at, "Node of the work (default: the current one)")
       ->check(in_whole_range(0, UINT32_MAX));
   command.add_flag("--list", options.list, "List the strokes of a work, including undone ones");

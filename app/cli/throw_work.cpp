@@ -8,6 +8,7 @@
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/engine/tool_names.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -38,9 +39,9 @@ Json node_json(const history::Work& work, history::NodeId node) {
 /// "* 3 below 1: press sphere, 2.4 s, 451.2 cm3"; the star marks the current node.
 std::string line_of(const Json& node) {
   const std::string star = node["current"].get<bool>() ? "*" : " ";
-  const double cm3 = node["volume_mm3"].get<double>() / 1000.0;
-  if (!node.contains("parent")) return fmt::format("{} 0: initial pot, {:.1f} cm3", star, cm3);
-  return fmt::format("{} {} below {}: {}, {:.2f} s, {:.1f} cm3{}", star,
+  const std::string cm3 = size_text(number_in(node, "volume_mm3") / 1000.0, 1);
+  if (!node.contains("parent")) return fmt::format("{} 0: initial pot, {} cm3", star, cm3);
+  return fmt::format("{} {} below {}: {}, {:.2f} s, {} cm3{}", star,
                      node["node"].get<std::size_t>(), node["parent"].get<std::size_t>(),
                      node["tool"].get<std::string>(), node["seconds"].get<double>(), cm3,
                      node["changed"].get<bool>() ? "" : ", no contact");
@@ -67,9 +68,10 @@ Json pot_json(const Pot& pot) {
 void print_pot(const Console& console, const history::Work& work, history::NodeId node,
                const Json& json) {
   console.print(fmt::format(
-      "node {} of {}: {} rings, {:.1f} mm high, {:.1f} cm3 of clay; volume error: {} quanta", node,
-      work.size() - 1, json["rings"].get<std::size_t>(), json["height_mm"].get<double>(),
-      json["volume_mm3"].get<double>() / 1000.0, json["volume_error_quanta"].dump()));
+      "node {} of {}: {}, {} mm high, {} cm3 of clay; volume error: {} quanta", node,
+      work.size() - 1, counted(json["rings"].get<std::size_t>(), "ring"),
+      size_text(number_in(json, "height_mm"), 1),
+      size_text(number_in(json, "volume_mm3") / 1000.0, 1), json["volume_error_quanta"].dump()));
 }
 
 }  // namespace

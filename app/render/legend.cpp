@@ -132,7 +132,8 @@ class Legend {
     }
     if (map_.limit_mm > 0.0) {
       texts_.push_back({pad(), level(0.0) + 1.6 * em_, "Too thin:"});
-      texts_.push_back({pad(), level(0.0) + 2.9 * em_, fmt::format("below {:.2f}", map_.limit_mm)});
+      texts_.push_back(
+          {pad(), level(0.0) + 2.9 * em_, fmt::format("below {:.4g}", map_.stated_mm)});
     }
     for (const Text& text : texts_) {
       cairo_text_extents_t size{};

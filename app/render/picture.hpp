@@ -85,6 +85,8 @@ enum class Cut { none, half, quarter };
 struct WallMap {
   double limit_mm = 0.0;
   double top_mm = 10.0;
+  /// The limit in words: as the user or the process states it, without the tolerance on it.
+  double stated_mm = limit_mm;
   friend bool operator==(const WallMap&, const WallMap&) = default;
 };
 

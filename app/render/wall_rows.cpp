@@ -57,7 +57,9 @@ Result<MappedWalls> map_walls(const Pot& pot, const solid::WallDemand& demand, s
 Result<MappedWalls> show_walls(const Pot& pot, const solid::WallDemand& demand, Picture& picture) {
   return map_walls(pot, demand, picture.pot.rows.size()).map([&](MappedWalls walls) {
     picture.pot.wall_mm = walls.rows;
-    picture.wall_map = WallMap{walls.limit ? walls.limit->least_mm() : 0.0, kFileMapTopMm};
+    picture.wall_map = WallMap{0.0, kFileMapTopMm};
+    if (walls.limit)
+      picture.wall_map = WallMap{walls.limit->least_mm(), kFileMapTopMm, walls.limit->min_wall_mm};
     return walls;
   });
 }

@@ -1,6 +1,8 @@
 // Valid but large meshes: they give a verdict or are refused in advance, for any memory limit.
 
+#include "app/cli/memory_room.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/schema_check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -139,9 +141,10 @@ TEST(MemoryLimit, EndsWorkThatGrowsBeyondIt) {
   // The estimate does not cover what an export makes of the pot.
   const ScratchFolder folder;
   write_text(folder.file("tall.pot.json"), tall_pot(600'000));
-  const Ran run = claystack("export -q --memory 85MiB " + folder.file("tall.pot.json") + " " +
+  const Ran run = claystack("export --json --memory 85MiB " + folder.file("tall.pot.json") + " " +
                             folder.file("tall.obj"));
   EXPECT_EQ(run.status, 3) << run.err;
+  EXPECT_EQ(violation(load_schema("error"), run.json()), "");
   EXPECT_NE(run.err.find("out of memory, with a limit of 0.089 GB"), std::string::npos) << run.err;
   EXPECT_FALSE(std::filesystem::exists(folder.file("tall.obj")));
 }
@@ -226,6 +229,14 @@ TEST(MemoryLimit, RefusesTheWheelAndThePotOfMoreRingsThanFit) {
   EXPECT_NE(pot.err.find("tall.pot.json: writing the pot needs about 0.18 GB"), std::string::npos)
       << pot.err;
   EXPECT_FALSE(std::filesystem::exists(folder.file("tall.pot.json")));
+}
+
+TEST(MemoryLimit, StatesTwoFiguresThatDiffer) {
+  EXPECT_EQ(cli::lack_of_room("drawing", 3'000'000'000, {1'200'000'000, "the limit --memory"}),
+            "drawing needs about 3 GB of memory, found 1.2 GB available within the limit --memory");
+  EXPECT_EQ(cli::lack_of_room("drawing", 1'634'000'000, {1'629'000'000, "the limit --memory"}),
+            "drawing needs about 1.634 GB of memory, found 1.629 GB available within the limit "
+            "--memory");
 }
 
 TEST(MemoryLimit, IsAnOptionOfEveryCommand) {

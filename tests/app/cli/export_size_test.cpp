@@ -1,5 +1,6 @@
 // Options of `claystack export` that change the size: shrinkage, goals, fill line.
 
+#include "claystack/engine/files.hpp"
 #include "tests/app/cli/thrown_bowl.hpp"
 
 #include <gtest/gtest.h>
@@ -97,6 +98,29 @@ TEST_F(ExportSize, SaysThatAFillLineIsBelowTheFloor) {
                           "the pot, found one 300 mm below the brim\n"),
             std::string::npos)
       << goal.err;
+}
+
+// A solid cylinder: pi 0.2^2 0.3 mm3 = 3.8e-5 cm3, 1.9 g/cm3; pi 0.4 0.3 + pi 0.2^2 mm2 outside.
+TEST(SmallPot, HasASizeAndAWeight) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("bead.pot.json");
+  Pot bead;
+  bead.stack = ClayStack::cylinder(30, 0.01, 0.2, 0.0, 30).value();
+  bead.ledger.initial = bead.stack.volume();
+  bead.density_g_cm3 = 1.9;
+  write_text(file, write_pot(bead, PotEncoding::json));
+  const Ran run =
+      claystack("export " + file + " " + folder.file("bead.stl") + " --tolerance 0.001");
+  for (const char* row : {"size      0.4 mm wide, 0.3 mm high\n", "weight    7.2e-05 g\n",
+                          "surface   0 cm2 inside, 0.005 cm2 outside without the foot\n"})
+    EXPECT_NE(run.out.find(row), std::string::npos) << run.out << run.err;
+  const std::string mesh = folder.file("bead.stl");
+  const Ran checked = claystack("check --process fdm " + mesh);
+  EXPECT_NE(checked.out.find(": 0.4 x 0.4 x 0.3 mm"), std::string::npos) << checked.out;
+  const Ran made = claystack("import " + mesh + " -o " + folder.file("again.pot.json"));
+  EXPECT_NE(made.out.find(" 0.3 mm high, 3.8e-05 cm3 of clay (3.8e-05 cm3 in the mesh)\n"),
+            std::string::npos)
+      << made.out << made.err;
 }
 
 }  // namespace

@@ -133,6 +133,25 @@ TEST(WallVerdict, AWallDrawnAtTheLimitPasses) {
   }
 }
 
+// Inside and outside differ by the smallest step of a pot file; float32 has no such step.
+TEST(WallVerdict, OfALipThatNoMeshFileCanHoldIsTheSameOfCheckAndExport) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("cup.pot.json"), stl = folder.file("cup.stl");
+  const Quanta outer2 = quanta_from_radius(30.0);
+  std::vector<Ring> rings(100, {outer2, quanta_from_radius(27.0)});
+  for (std::size_t i = 0; i < 6; ++i) rings[i].inner2 = 0;
+  for (std::size_t i = 95; i < 100; ++i) rings[i].inner2 = outer2 - 1;
+  Pot cup;
+  cup.stack = ClayStack::from_rings(1.0, rings, 0, rings.size()).value();
+  cup.ledger.initial = cup.stack.volume();
+  write_text(pot, write_pot(cup, PotEncoding::json));
+  const Ran exported = claystack("export " + pot + " " + stl), checked = claystack("check " + pot);
+  EXPECT_EQ(exported.status, 1);
+  EXPECT_NE(exported.err.find("mm is too thin for a mesh file"), std::string::npos) << exported.err;
+  EXPECT_EQ(checked.status, 1) << checked.out;
+  EXPECT_NE(checked.out.find("no process allows less than"), std::string::npos) << checked.out;
+}
+
 // A lip that tapers to 0.23 mm.
 TEST(WallVerdict, OfAMeshWithACertificateIsThatOfTheCertificate) {
   const ScratchFolder folder;

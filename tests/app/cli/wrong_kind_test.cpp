@@ -36,6 +36,12 @@ TEST(WrongKind, IsNamedInTheMessage) {
        ": expected a scene (.scene.json), found a stroke script"},
       {"import " + pot + " -o " + folder.file("y.pot.json"),
        pot + ": expected a drawing (.svg, .dxf, .csv) or a mesh, found a pot"},
+      {"check " + stl + " --process " + scene,
+       scene + ": expected a process (.process.json), found a scene"},
+      {"export " + pot + " " + folder.file("x.stl") + " --process " + pot,
+       pot + ": expected a process (.process.json), found a pot"},
+      {"check " + stl + " --certificate " + pot,
+       pot + ": expected a certificate (.certificate.json), found a pot"},
       {"batch " + scene, scene + ": expected jobs (.jsonl), found a scene"},
       {"check " + session, "the file is a session"}};
   for (const Case& c : cases) {

@@ -1,4 +1,5 @@
 #include "app/render/legend.hpp"
+#include "app/render/pot_picture.hpp"
 #include "app/render/wall_rows.hpp"
 #include "tests/app/render/drawn.hpp"
 
@@ -187,6 +188,24 @@ TEST(WallMap, LegendMatchesTheColourScale) {
   EXPECT_GT(std::ssize(red), height / 10);  // the stripes take the rest
   EXPECT_NEAR(red.front(), top + 0.8 * height, 8.0);
   EXPECT_LE(red.back(), rows.back());
+}
+
+// A wall passes that is 0.1 % below the limit; the legend states the limit.
+TEST(WallMap, LegendStatesTheLimitWithoutItsTolerance) {
+  Pot pot;
+  pot.stack = ClayStack::cylinder(50, 1.0, 40.0, 30.0, 50).value();
+  solid::WallDemand demand;
+  demand.min_wall_mm = 6.0;
+  render::Picture picture = render::picture_of(pot, {});
+  ASSERT_TRUE(render::show_walls(pot, demand, picture));
+  EXPECT_LT(picture.wall_map->limit_mm, 6.0);
+  const auto legend_of = [](const render::WallMap& map) {
+    render::Image image = plain(640, 440, 255);
+    render::draw_legend(map, render::Theme::light, image);
+    return image;
+  };
+  // At this size, no row of the scale lies between the two.
+  EXPECT_EQ(legend_of(*picture.wall_map), legend_of({6.0, 10.0}));
 }
 
 TEST(WallMap, LegendHasSmoothLettersAndStaysAtTheLeft) {
