@@ -34,7 +34,9 @@ std::optional<std::string_view> XmlElement::value_of(std::string_view attribute)
 
 struct XmlReader::Parser {
   explicit Parser(XmlReader& owner) : reader(owner) {
-    xmlInitParser();
+    // Two threads read parts of a 3MF: one of them initialises libxml2, the other waits for it.
+    static const bool initialised = (xmlInitParser(), true);
+    (void)initialised;
     xmlSAXHandler events{};
     events.initialized = XML_SAX2_MAGIC;
     events.startElementNs = &begin;

@@ -80,7 +80,7 @@ bool placed_wall(const ExportReport& report) {
 /// Without a requested limit, a wall below the limit of every process still gets a warning.
 std::optional<std::string> below_each_process(const ExportReport& report) {
   const double smallest = smallest_allowed_wall_mm(), thinnest = report.thinnest_mm();
-  const bool measured = report.walls.min_wall_mm > 0.0 || report.has_solid();
+  const bool measured = report.walls.min_wall_mm > 0.0 || placed_wall(report) || report.has_solid();
   if (report.walls.limit || !measured || thinnest >= smallest) return std::nullopt;
   const std::string place =
       placed_wall(report) ? fmt::format(" at a height of {:.1f} mm", report.walls.thinnest.from.y)

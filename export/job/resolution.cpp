@@ -3,6 +3,7 @@
 #include "claystack/export/job.hpp"
 #include "claystack/export/solid.hpp"
 #include "core/text.hpp"
+#include "export/formats/mesh_limits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +55,13 @@ Result<void> check_triangles(std::size_t triangles, std::size_t segments,
                  "expected a mesh of at most " + std::to_string(kMaxTriangles) +
                      " triangles, but " + std::to_string(segments) + " segments make " +
                      std::to_string(triangles) + "; use a larger tolerance or fewer segments");
+}
+
+Result<void> check_height(double height_mm) {
+  if (height_mm <= double{kMaxCoordinateMm}) return {};
+  return failure(ErrorKind::bad_input,
+                 "height: expected at most " + nine_digit_text(double{kMaxCoordinateMm}) +
+                     " mm for a mesh, found " + nine_digit_text(height_mm) + " mm");
 }
 
 double vertex_error_mm(double tolerance_mm, double wall_mm, const std::optional<WallLimit>& limit) {

@@ -21,6 +21,10 @@ Result<std::size_t> choose_segments(const Profile& profile, double tolerance_mm,
 Result<void> check_triangles(std::size_t triangles, std::size_t segments,
                              const ExportOptions& options);
 
+/// An error if a mesh of that height has coordinates that no reader of meshes accepts. Radii are
+/// far below that limit.
+Result<void> check_height(double height_mm);
+
 /// How far the vertices of a file may lie from their places [mm]: the tolerance, or less if a wall
 /// that meets its limit would not meet it in the file. `wall_mm`: lower bound of the wall before
 /// its vertices, on both sides of it, are moved.

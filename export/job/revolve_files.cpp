@@ -2,6 +2,7 @@
 
 #include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
+#include "claystack/export/walls.hpp"
 #include "core/parallel_parts.hpp"
 #include "export/formats/draco_bits.hpp"
 #include "export/formats/file_sizes.hpp"
@@ -19,6 +20,8 @@
 #include "export/proof/rounded_claims.hpp"
 #include "export/proof/verify_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -31,6 +34,19 @@ Result<void> check_sound(const TriangleMesh& mesh, const std::string& name) {
   const MeshReport report = completed_check(mesh);
   if (report.sound()) return {};
   return failure(ErrorKind::unsound, name + ": found " + describe(report.problems.front()));
+}
+
+/// What float32 cannot represent: usually the thinnest wall.
+std::string lost_part(const Profile& profile, double rounding_mm) {
+  constexpr double kThin = 8.0;  // roundings: both faces move, in two directions
+  const Wall wall = min_wall(profile);
+  const std::string part =
+      wall.thickness_mm < kThin * rounding_mm
+          ? fmt::format("the wall of {:.2g} mm at a height of {:.1f} mm is too thin",
+                        wall.thickness_mm, wall.from.y)
+          : std::string("a part of the pot is too small");
+  return fmt::format("{} for a mesh file, whose points are rounded by up to {:.2g} mm (float32): ",
+                     part, rounding_mm);
 }
 
 /// Mesh, encoder and text at their peak, for each triangle; measured on a vase of 2.3 and 4.6
@@ -102,9 +118,11 @@ Result<Proof> RevolveFiles::prove_rounded(MeshFormat format, double rounding_mm)
   if (!exact) {
     TriangleMesh rounded = mesh();
     for (glm::dvec3& point : rounded.points) point = held_point(point, format);
-    exact = stages_.run("exact_test", [&] {
-      return check_sound(rounded,
-                         in_metres ? "the pot in float32 of metres" : "the pot in float32");
+    exact = stages_.run("exact_test", [&]() -> Result<void> {
+      const MeshReport report = completed_check(rounded);
+      if (report.sound()) return {};
+      return failure(ErrorKind::unsound,
+                     lost_part(claims_.profile, rounding_mm) + describe(report.problems.front()));
     });
   }
   return exact->map([] { return Proof::exact_test; });
@@ -170,20 +188,10 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
   const double allowed = std::max(options_.tolerance_mm, float_rounding_mm(rule_));
   const double safe = std::min(allowed, claims_.margins.safe_rounding_mm());
   const double kept = vertex_error_mm(safe, claims_.wall_lower_mm, walls_of_pot_.limit);
-  const TriangleMesh& solid = mesh();
-  const auto encode = [&](const DracoSettings& settings) {
-    return stages_.run(stage_name("encode", format), [&]() -> Result<std::string> {
-      const DracoClaims claims = draco_claims(settings.max_error_mm);
-      if (format == MeshFormat::drc) return encode_drc(solid, settings, &claims);
-      FileContents contents = contents_of(format);
-      contents.draco = settings;
-      return encode_glb(solid, contents);
-    });
-  };
   DracoSettings settings;
   for (const double error_mm : {kept, safe}) {
     settings.max_error_mm = error_mm;
-    if (const auto covered = encode(settings))
+    if (const auto covered = encode_on_grid(format, settings))
       return certify_bytes(format, error_mm, Proof::margins, *covered, store);
   }
 
@@ -202,10 +210,10 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
     });
   };
   return encode_on_finer_grids(
-             least_draco_bits(solid),
+             least_draco_bits(mesh()),
              [&](int bits) {
                settings.min_bits = bits;
-               return encode(settings);
+               return encode_on_grid(format, settings);
              },
              judge)
       .and_then([&](const std::string& bytes) {
@@ -213,6 +221,17 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
           return certified(format, farthest_mm, Proof::exact_test, bytes, store);
         });
       });
+}
+
+Result<std::string> RevolveFiles::encode_on_grid(MeshFormat format, const DracoSettings& settings) {
+  const TriangleMesh& solid = mesh();
+  return stages_.run(stage_name("encode", format), [&]() -> Result<std::string> {
+    const DracoClaims claims = draco_claims(settings.max_error_mm);
+    if (format == MeshFormat::drc) return encode_drc(solid, settings, &claims);
+    FileContents contents = contents_of(format);
+    contents.draco = settings;
+    return encode_glb(solid, contents);
+  });
 }
 
 /// The package carries a certificate of its model part, which the part itself cannot hold.

@@ -44,6 +44,7 @@ class RevolveFiles {
   Result<FileReport> write_whole(MeshFormat format, FileStore& store);
   /// DRC and GLB.
   Result<FileReport> write_on_grid(MeshFormat format, FileStore& store);
+  Result<std::string> encode_on_grid(MeshFormat format, const DracoSettings& settings);
   Result<FileReport> write_3mf(FileStore& store);
   Result<std::string> proved_package(const ModelPart& model, FileContents contents,
                                      double rounding_mm);

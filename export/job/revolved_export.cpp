@@ -56,7 +56,10 @@ class RevolvedExport {
         stages_(report_.stages, progress) {}
 
   Result<ExportReport> run() {
-    return named(take_section().and_then([&] { return design(); }), options_.source)
+    const auto fits = outputs_.empty() ? Result<void>() : check_height(stack_.height_mm());
+    const auto designed =
+        fits.and_then([&] { return take_section(); }).and_then([&] { return design(); });
+    return named(designed, options_.source)
         .and_then([&](Design design) { return write_all(std::move(design)); })
         .map([&] { return std::move(report_); });
   }

@@ -2,6 +2,7 @@
 
 #include "claystack/export/solid.hpp"
 #include "claystack/version.hpp"
+#include "core/text.hpp"
 #include "export/formats/mesh_limits.hpp"
 #include "export/proof/certificate_json.hpp"
 
@@ -159,6 +160,9 @@ Result<SolidCertificate> parse_certificate(std::string_view bytes, std::string_v
       .map([&](SolidCertificate certificate) {
         certificate.profile = std::move(profile);
         return certificate;
+      })
+      .map_error([&](Error error) {
+        return kind_error(std::move(error), bytes, name, "a certificate (.certificate.json)");
       });
 }
 

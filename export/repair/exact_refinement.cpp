@@ -28,9 +28,10 @@ namespace {
 
 using Point2 = ExactKernel::Point_2;
 using Number = ExactKernel::FT;
-/// Of a vertex in the soup.
-struct Number32 {
-  std::uint32_t is = UINT32_MAX;  ///< that value: not known
+constexpr std::uint32_t kUnknown = UINT32_MAX;
+/// The vertex of the soup at a vertex of the triangulation.
+struct SoupVertex {
+  std::uint32_t number = kUnknown;
 };
 /// The sheets that cover a face.
 struct Cover {
@@ -38,7 +39,7 @@ struct Cover {
   bool known = false;
   std::array<int, 3> steps{};  ///< how many more lie on the other side of each edge
 };
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Number32, ExactKernel>;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<SoupVertex, ExactKernel>;
 using FaceBase = CGAL::Triangulation_face_base_with_info_2<
     Cover, ExactKernel, CGAL::Constrained_triangulation_face_base_2<ExactKernel>>;
 using Planar = CGAL::Constrained_Delaunay_triangulation_2<
@@ -222,19 +223,20 @@ class Refinement {
     const std::uint32_t first = sheet.triangles.front();
     const Projection projection(corner(first, 0), corner(first, 1), corner(first, 2));
     const SheetLines drawn = lines_on(sheet, known);
-    std::vector<std::pair<Point2, Number32>> points;
+    std::vector<std::pair<Point2, SoupVertex>> points;
     for (const std::uint32_t v : drawn.vertices)
-      points.emplace_back(projection.flat(result_.point(v)), Number32{v});
+      points.emplace_back(projection.flat(result_.point(v)), SoupVertex{v});
     Planar plane;
     plane.insert(points.begin(), points.end());
     std::unordered_map<std::uint32_t, PlanarVertex> at;
-    for (const auto v : plane.finite_vertex_handles()) at.emplace(v->info().is, v);
+    for (const auto v : plane.finite_vertex_handles()) at.emplace(v->info().number, v);
     for (const auto& [a, b] : drawn.lines) {
       stop_if_cancelled();
       plane.insert_constraint(at.at(a), at.at(b));
     }
     for (const auto v : plane.finite_vertex_handles())
-      if (v->info().is == UINT32_MAX) v->info().is = known.number_of(projection.lifted(v->point()));
+      if (v->info().number == kUnknown)
+        v->info().number = known.number_of(projection.lifted(v->point()));
     for (const Side& side : outer_sides(sheet))
       note_side(plane, at.at(side.low), at.at(side.high), side.sheets);
     cover_faces(plane);
@@ -347,8 +349,8 @@ class Refinement {
     for (const auto face : plane.finite_face_handles()) {
       const int sheets = face->info().sheets;
       if (sheets == 0) continue;
-      Triangle triangle{face->vertex(0)->info().is, face->vertex(1)->info().is,
-                        face->vertex(2)->info().is};
+      Triangle triangle{face->vertex(0)->info().number, face->vertex(1)->info().number,
+                        face->vertex(2)->info().number};
       if (sheets < 0) std::swap(triangle[1], triangle[2]);
       result_.triangles.push_back(triangle);
       result_.sheets.push_back(std::abs(sheets));

@@ -182,7 +182,10 @@ Result<ProcessLimits> parse_process(std::string_view bytes, std::string_view fil
   return LocatedJson::from_json(text, file_name, kMaxValues)
       .and_then(
           [](const LocatedJson& document) { return ObjectReader::read(document, ProcessLimits{}); })
-      .map([](ProcessLimits process) { return with_names({std::move(process)}).front(); });
+      .map([](ProcessLimits process) { return with_names({std::move(process)}).front(); })
+      .map_error([&](Error error) {
+        return kind_error(std::move(error), text, file_name, "a process (.process.json)");
+      });
 }
 
 Result<ProcessLimits> read_process(const std::string& name) {

@@ -230,7 +230,7 @@ TEST(RunExport, WallsLostInFloat32AreRefusedWithThePlace) {
   const Pot pot = pot_of(stack_of(5.0, {{73.0, 73.0 - 1e-6}}));
   ASSERT_TRUE(certify(profile_of(pot.stack)->profile));
   EXPECT_TRUE(refused(exported(pot, {MeshFormat::stl_binary}, {}), ErrorKind::unsound,
-                      "in float32: found"));
+                      "the wall of 1e-06 mm at a height of"));
 }
 
 TEST(RunExport, StepsBelowFloat32AreLevelledAndKeepTheVolume) {
@@ -403,6 +403,23 @@ TEST(RunExport, OnlyAMeshIsRefusedForItsTriangles) {
   ASSERT_TRUE(drawn) << drawn.error().message;
   EXPECT_GT(drawn->size.triangles, kMaxTriangles);
   EXPECT_FALSE(drawing_svg(*drawn, options).empty());
+}
+
+TEST(RunExport, RefusesAMeshThatNoReaderAccepts) {
+  // Readers accept coordinates within 1 km.
+  ExportOptions options;
+  options.segments = 8;
+  const auto needle = [](std::size_t rings) {
+    return pot_of(stack_of(1000.0, std::vector<shapes::Radii>(rings, {5000.0, 0.0})));
+  };
+  for (const MeshFormat format : {MeshFormat::stl_binary, MeshFormat::obj}) {
+    const auto highest = exported(needle(1000), {format}, options);
+    ASSERT_TRUE(highest) << highest.error().message;
+    EXPECT_TRUE(decode_mesh(highest->files[0], format, "file"));
+    EXPECT_TRUE(refused(exported(needle(1001), {format}, options), ErrorKind::bad_input,
+                        "height: expected at most 1000000 mm for a mesh, found 1001000 mm"));
+  }
+  EXPECT_TRUE(run_export(needle(1001), {}, options));
 }
 
 }  // namespace

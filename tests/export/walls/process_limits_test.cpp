@@ -82,8 +82,8 @@ TEST(ProcessLimits, ErrorsNameTheField) {
   expect("2.5", "\"thick\"", "walls[0].min_wall_mm: expected a number");
   expect("600", "200", "w.json:3: walls[1]: expected a size that is larger");
   expect("\"source\"", "\"sauce\"", "walls[0]: expected a field \"source\", found none");
-  expect("process-1", "pot-1",
-         "schema: expected \"claystack-process-1\", found \"claystack-pot-1\"");
+  expect("process-1", "process-2",
+         "schema: expected \"claystack-process-1\", found \"claystack-process-2\"");
   expect("\"walls\": [", "\"walls\": [], \"x\": [", "walls: expected at least one wall");
   expect("\"name\"", "\"x\": 1, \"name\"", "unknown field \"x\"");
   expect("}]}", "}", "w.json:3: syntax error");
@@ -101,6 +101,7 @@ TEST(ProcessLimits, ErrorsNameTheKindOfAnotherFile) {
   expect("radius, height\n10, 0",
          "expected a JSON object, found text that begins with 'radius, height'");
   expect(std::string(84, '\0'), "expected a JSON object, found binary data");
+  expect("{\"schema\": \"claystack-pot-1\"}", "expected a process (.process.json), found a pot");
   std::string marked = "\xEF\xBB\xBF";
   marked += kWorkshop;
   EXPECT_TRUE(parse_process(marked, "w.json"));
