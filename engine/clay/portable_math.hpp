@@ -6,8 +6,8 @@
 
 namespace clay {
 
-/// exp(x) for x >= 0, 1 / exp(x) to 1e-11: the series of exp(x / 128)
-/// to the fifth power, squared seven times. No branch, no division; +inf where x is large.
+/// exp(x) for x >= 0, such that 1 / exp(x) is right to 1e-11: the series of exp(x / 128) to the
+/// fifth power, squared seven times. No branch, no division; +inf where x is large.
 [[nodiscard]] inline double exp_of(double x) noexcept {
   const double z = x * (1.0 / 128.0);
   const double e =

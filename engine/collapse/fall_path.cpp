@@ -14,9 +14,9 @@ namespace clay {
 namespace {
 
 constexpr double kStepsPerReach = 400.0;
-constexpr double kLeastStep =
-    1e-4;  ///< of a step: the depth by which a face may enter the clay it meets
-constexpr std::size_t kMaxFrames = 20000;  ///< far above the number that any collapse has needed
+// Part of a step: the depth by which a face may enter the clay it meets.
+constexpr double kLeastStep = 1e-4;
+constexpr std::size_t kMaxFrames = 20000;  // far above the number that any collapse has needed
 
 double weight_of(const FallenBody& body, double density_g_cm3) noexcept {
   return 1e-6 * density_g_cm3 * body.volume_mm3() * kStandardGravity;
@@ -50,7 +50,7 @@ class Fall {
 
   std::vector<FallFrame> run() {
     if (body_.empty()) return {FallFrame{}};
-    keep();
+    add_frame();
     turn_about_hip();
     settle_freely();
     roll();
@@ -58,18 +58,19 @@ class Fall {
   }
 
  private:
-  struct Slid {
+  /// The pose after some time on a course, and the course as seen from there.
+  struct Arrival {
     PlanePose pose;
     Course course;
   };
 
-  [[nodiscard]] Slid slid(const Course& course, double time) const noexcept {
+  [[nodiscard]] Arrival arrival(const Course& course, double time) const noexcept {
     const double turn = course.omega * time;
     // Along the chord: sin(turn)/turn and (1 - cos(turn))/turn.
     const double half = 0.5 * turn;
     const double chord =
         std::abs(half) > 1e-4 ? cos_sin(half).sine / half : 1.0 - half * half / 6.0;
-    Slid result{pose_, {turned(course.velocity, turn), course.omega}};
+    Arrival result{pose_, {turned(course.velocity, turn), course.omega}};
     result.pose.centre_mm += chord * time * turned(course.velocity, half);
     result.pose.angle_rad += turn;
     return result;
@@ -80,7 +81,7 @@ class Fall {
   }
 
   double net_after(const Course& course, double time) {
-    const Slid there = slid(course, time);
+    const Arrival there = arrival(course, time);
     power_.place(there.pose);
     return power_.net(there.course.twist(body_.gyration_mm()));
   }
@@ -89,12 +90,12 @@ class Fall {
   /// gains no more power. Returns false at the wheel.
   bool advance(const Course& course, double time) {
     bool free = true;
-    if (height(slid(course, time).pose) < 0.0) {
+    if (height(arrival(course, time).pose) < 0.0) {
       free = false;
       double low = 0.0, high = time;
       while (high - low > 1e-12 * time) {
         const double middle = 0.5 * (low + high);
-        (height(slid(course, middle).pose) < 0.0 ? high : low) = middle;
+        (height(arrival(course, middle).pose) < 0.0 ? high : low) = middle;
       }
       time = low;
     }
@@ -112,7 +113,7 @@ class Fall {
   }
 
   void commit(const Course& course, double time) {
-    const Slid there = slid(course, time);
+    const Arrival there = arrival(course, time);
     move_to(there.pose, course.twist(body_.gyration_mm()), there.course.twist(body_.gyration_mm()),
             time);
   }
@@ -127,7 +128,7 @@ class Fall {
     const double fallen_mm = pose_.centre_mm.y - pose.centre_mm.y;
     plastic_mj_ += weight_n_ * std::min(0.5 * time * (before + after), fallen_mm);
     pose_ = pose;
-    keep();
+    add_frame();
   }
 
   [[nodiscard]] double fastest(const Course& course) const noexcept {
@@ -137,7 +138,7 @@ class Fall {
   /// Rotates toward the axis, where the centre of mass is.
   void turn_about_hip() {
     const glm::dvec2 pivot = plane_.pivot_mm;
-    while (!spent()) {
+    while (!out_of_frames()) {
       const glm::dvec2 arm = pose_.centre_mm - pivot;
       const Course course{{-arm.y, arm.x}, 1.0};
       power_.place(pose_);
@@ -150,7 +151,7 @@ class Fall {
   }
 
   void settle_freely() {
-    while (!on_wheel_ && !spent()) {
+    while (!on_wheel_ && !out_of_frames()) {
       power_.place(pose_);
       const Twist u = power_.steepest();
       if (u == Twist{0.0}) return;
@@ -163,7 +164,7 @@ class Fall {
   void roll() {
     if (!on_wheel_) return;
     pose_.centre_mm.y = -body_.lowest(pose_.angle_rad).y;
-    while (!spent() && (roll_step(1.0) || roll_step(-1.0))) continue;
+    while (!out_of_frames() && (roll_step(1.0) || roll_step(-1.0))) continue;
   }
 
   /// Rotates about the contact that remains: the one that a slightly larger angle would make the
@@ -205,9 +206,9 @@ class Fall {
     return true;
   }
 
-  [[nodiscard]] bool spent() const noexcept { return frames_.size() >= kMaxFrames; }
+  [[nodiscard]] bool out_of_frames() const noexcept { return frames_.size() >= kMaxFrames; }
 
-  void keep() {
+  void add_frame() {
     const glm::dvec2 arm = glm::dvec2{0.0, body_.centre_height_mm()} - plane_.pivot_mm;
     const glm::dvec2 shift = pose_.centre_mm - plane_.pivot_mm - turned(arm, pose_.angle_rad);
     frames_.push_back({pose_.angle_rad,

@@ -12,10 +12,9 @@ namespace clay {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::size_t kBands = 96;   ///< limit of groups of rings, each sampled as one
-constexpr double kWallCells = 32.0;  ///< cells per reach, up a wall
-constexpr double kTreadCells =
-    128.0;  ///< cells per reach, along a tread: a rim may rest on its edge
+constexpr std::size_t kBands = 96;  // limit of groups of rings, each sampled as one
+// Cells per reach, up a wall and along a tread. More along a tread: a rim may rest on its edge.
+constexpr double kWallCells = 32.0, kTreadCells = 128.0;
 
 double top_of(const ClayStack& stack, std::size_t ring) noexcept {
   return stack.ring_height_mm() * static_cast<double>(ring + 1);

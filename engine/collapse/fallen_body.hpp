@@ -65,8 +65,8 @@ class FallenBody {
   double centre_height_mm_ = 0.0;
   double gyration_mm_ = 0.0;
   double reach_mm_ = 0.0;
-  std::vector<glm::dvec2>
-      hull_;  ///< right half, from the bottom up, relative to the centre of mass
+  /// Right half, from the bottom up, relative to the centre of mass.
+  std::vector<glm::dvec2> hull_;
   std::vector<SurfaceStrip> surface_;
 };
 

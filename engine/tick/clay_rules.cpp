@@ -24,10 +24,10 @@ constexpr bool kOneToolBand = (rules & (kShift | kHeave | kSmear)) != 0;
 template <unsigned rules>
 constexpr bool kTwoToolBand = (rules & (kShift | kHeave | kSmear)) != 0 || !(rules & kLift);
 
-/// Rings that the flow may change.
+/// Sets the rings that the flow may change.
 template <unsigned rules>
-void reach_of(const RulePress& press, const ClayStack& stack, std::span<const ToolRemoval> removals,
-              RuleWork& work) noexcept {
+void set_flow_range(const RulePress& press, const ClayStack& stack,
+                    std::span<const ToolRemoval> removals, RuleWork& work) noexcept {
   const Contact& contact = removals.front().contact;
   const bool lifts = (rules & kLift) && removals.size() == 2;
   double low_mm = 1e300, high_mm = -1e300;
@@ -96,7 +96,7 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
   } else {
     Contact& contact = removals[0].contact;
     if ((rules & kShift) && !press.trim)
-      bend_wall(plan, press.motion, stack, contact, work.bands[0], work.walls, work.gives,
+      bend_wall(plan, press.motion, stack, contact, work.bands[0], work.walls, work.give_sums,
                 work.shift);
     squeeze_out(squeeze, stack, contact, removals[0].removed);
   }
@@ -110,7 +110,7 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
     work.finger = {};
     if (!two && !press.trim) work.finger = finger_of(plan, press.tool, stack, removals[0].contact);
   }
-  reach_of<rules>(press, stack, removals, work);
+  set_flow_range<rules>(press, stack, removals, work);
 }
 
 /// The part of an amount that flows up, continuous in the speed. In turns: in each period the clay
@@ -297,7 +297,7 @@ void yield_to_sponge(const RulePress& press, const ClayStack& stack,
     for (std::size_t k = slice.begin; k < slice.end; ++k) slice.rows.give[k] = 0.0;
   });
   work.bands[0] = band_of(press.plan.tool, stack, press.tool.hip_mm.y, contact);
-  reach_of<kSmear | kLift>(press, stack, removals, work);
+  set_flow_range<kSmear | kLift>(press, stack, removals, work);
 }
 
 Flow smooth_clay(const RulePress& press, std::span<const ToolRemoval> removals, RuleWork& work,
@@ -337,7 +337,7 @@ void RuleWork::reserve(const Tool& tool, const ClayStack& stack) {
   shoulders = shoulders_of(tool);
   const std::size_t contacts = most_contacts(tool, stack.ring_height_mm(), stack.max_rings());
   over.reserve(contacts);
-  gives.resize(sums_for(contacts));
+  give_sums.resize(sums_for(contacts));
   shift.reserve(static_cast<std::size_t>(std::min(rings, static_cast<double>(stack.max_rings()))));
 }
 

@@ -30,7 +30,7 @@ struct RuleWork {
   WallRadii walls;
   Shift shift;
   PushOver over;                             ///< of a pinch
-  std::vector<double> gives;                 ///< for sums over the give of one tool's rings
+  std::vector<double> give_sums;             ///< scratch of `bend_wall`
   std::array<Band, 2> bands;                 ///< of each tool
   Shoulders shoulders;                       ///< of the tool
   std::array<std::array<Cone, 2>, 2> cones;  ///< of each tool: at its lower end, at its upper end

@@ -267,12 +267,12 @@ template <Model model>
 void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm,
                   Contact& contact, const glm::dvec3& moved_mm, HandAt hand) noexcept {
   contact.rings.clear();
-  if (!candidates<model>(tool, stack, hip_mm.y, contact)) return;
   const double d = std::sqrt(hip_mm.x * hip_mm.x + hip_mm.z * hip_mm.z);
   contact.axis_distance_mm = d;
   contact.radial_x = d > 0.0 ? hip_mm.x / d : 0.0;
   contact.radial_z = d > 0.0 ? hip_mm.z / d : 0.0;
   contact.side = side_at(ring_about(tool, stack, hip_mm.y, d, hand), d);
+  if (!candidates<model>(tool, stack, hip_mm.y, contact)) return;
   const double x = hip_mm.x - moved_mm.x, z = hip_mm.z - moved_mm.z;
   const double way = std::sqrt(x * x + z * z) - d;
   contact.approach_mm = contact.side == Side::compressive ? way : -way;
@@ -285,8 +285,6 @@ void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_
                 Contact& outer, Contact& inner, const glm::dvec3& moved_mm) noexcept {
   outer.rings.clear();
   inner.rings.clear();
-  if (!candidates<model>(tool, stack, hip_mm.y, outer)) return;
-  candidates<model>(tool, stack, hip_mm.y, inner);
   const double d = std::sqrt(hip_mm.x * hip_mm.x + hip_mm.z * hip_mm.z);
   const double radial_x = d > 0.0 ? hip_mm.x / d : 0.0, radial_z = d > 0.0 ? hip_mm.z / d : 0.0;
   const double reach = 0.5 * gap_mm + tool.widest();
@@ -298,9 +296,11 @@ void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_
   inner.side = Side::expansive;
   inner.approach_mm = -inner.approach_mm;
   outer.rise_mm = inner.rise_mm = moved_mm.y;
+  if (!candidates<model>(tool, stack, hip_mm.y, outer)) return;
+  candidates<model>(tool, stack, hip_mm.y, inner);
   touch_rings<model>(tool, stack, hip_mm.y, outer);
   touch_rings<model>(tool, stack, hip_mm.y, inner);
-  // A depth alone does not tell a tool that is through the wall from one that is past it.
+  // The depth is above 0 even if the tool is past the wall and clear of the ring.
   drop_if(outer, [&](const RingContact& touch) {
     const Ring& ring = stack.rings()[touch.ring];
     return 2.0 * outer.axis_distance_mm + touch.depth_mm - ring.outer_mm() <= ring.inner_mm();

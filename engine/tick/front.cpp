@@ -69,7 +69,7 @@ bool find_lead(const StepPlan& plan, const ClayStack& stack, double hip_y, doubl
   const Ring& ring = stack.rings()[ahead];
   lead.ahead_mm = depth_of(ring, plan.tool.radius(end_t), contact);
   if (!(lead.ahead_mm > 0.0)) return false;
-  lead.wall_mm = ring.outer_mm() - ring.inner_mm();
+  lead.wall_mm = wall_mm(ring);
   lead.decay = plan.removal.rate_per_s * dt_s / std::abs(contact.rise_mm);
   return lead.wall_mm > plan.removal.min_wall_mm;
 }
@@ -145,7 +145,7 @@ double depth_at_end(const Tool& tool, const ClayStack& stack, double hip_y, cons
     if (contact.edge_end[k] == (level >= size ? 0 : upper ? 1 : -1))
       return contact.edges[k].depth_mm;
   if (level >= size || !contact.rings.has(ring)) return 0.0;
-  // The ring's depth is that in the middle of what the tool covers of it.
+  // The ring's depth was measured in the middle of the part that the tool covers.
   const double low = std::max(static_cast<double>(ring) * h - hip_y, tool.low());
   const double high = std::min(static_cast<double>(ring + 1) * h - hip_y, tool.high());
   const double depth = contact.rings.get(ring).depth_mm;

@@ -10,23 +10,23 @@
 namespace clay {
 namespace {
 
-constexpr double kSteepest = 0.5;  // of a growth over the way along the wall
+constexpr double kSteepest = 0.5;  // steepest slope: change of thickness over height
 constexpr std::size_t kRows = 64;
-// A share fills at most the first part of a bore, as it was before the shift, which leaves at least
-// a quarter of the bore. It goes to no ring beyond the second part of the largest radius.
-constexpr float kMostOfBore = 0.2f, kMostOfRadius = 0.999f;
+// A share fills at most this part of r^2, as it was before the shift, which leaves a quarter of it.
+constexpr float kMostOfBore = 0.2f;
+// Rings beyond this part of the largest radius get no share.
+constexpr float kMostOfRadius = 0.999f;
 
-// Filling x of r^2, x <= r^2 / 2, moves the surface of a bore of radius r by at most this times x /
-// r.
+// If r^2 loses x <= r^2 / 2, r becomes smaller by at most this times x / r: 2 - sqrt(2).
 constexpr double kBoreMoves = 0.586;
 
 /// The shares of a heap for some neighbouring rings.
 struct Block {
   static constexpr std::size_t kAll = kRows + kWidestFloats;
-  alignas(kPackBytes) double outside_to[kAll],
-      inside_to[kAll];                         ///< whole quanta that lie up to a ring's lower face
+  /// The part of the heap up to the lower face of each ring [whole quanta].
+  alignas(kPackBytes) double outside_to[kAll], inside_to[kAll];
   alignas(kPackBytes) RawRings<kAll> changes;  ///< of R^2 and r^2, by a ring's share
-  alignas(kPackBytes) float clear[kAll];       ///< of the tool [mm]
+  alignas(kPackBytes) float clear[kAll];       ///< distance from the surface to the tool [mm]
   float lack[kAll];                            ///< above 0: does not take its share
   std::size_t first_lack, lacks_end;           ///< outside of these rings all take their shares
 };
@@ -59,7 +59,7 @@ struct Rows {
 /// from its own end, so that rounding cannot make it fall.
 struct Way {
   float start, step;       ///< of the faces, in parts of the reach: below 0 downward
-  float first, last;       ///< face of the block and its last one, counted from that of `start`
+  float first, last;       ///< first and last face of the block, counted from the face of `start`
   double outside, inside;  ///< below 0 downward
 
   /// Of the 2 n faces from the block's k-th on.
@@ -78,8 +78,8 @@ struct Way {
   }
 };
 
-/// Each ring's share, the difference of its two faces, and which rings do not take it: without a
-/// root, by what is more than each surface moves.
+/// Each ring's share, the difference of its two faces, and which rings do not take it. An upper
+/// bound of the motion of each surface decides this without a root.
 template <std::size_t n>
 CLAYSTACK_INLINE inline void divide(Block& b, const Rows& rows, std::size_t count,
                                     const Way& way) noexcept {
@@ -157,7 +157,7 @@ class Heaving {
     Quanta inside = 0, outside = 0;
   };
   [[nodiscard]] Quanta carried() const noexcept { return carry_.inside + carry_.outside; }
-  /// Rings to the end of the reach; where something is carried, to that of twice the reach.
+  /// Rings to the end of the reach; if clay is carried, to the end of twice the reach.
   [[nodiscard]] std::size_t rings_to_end(std::size_t ring) const noexcept {
     const double x = way_to(ring), most = (carried() > 0 ? 2.0 : 1.0) / per_reach_;
     return x < most ? static_cast<std::size_t>((most - x) / h_) + 1 : 0;
@@ -324,7 +324,7 @@ class Heaving {
 
 double heave_reach(const Tool& tool, const ClayStack& stack, const Band& band) noexcept {
   const Ring& ring = stack.rings()[std::min(band.ring, stack.size() - 1)];
-  const double wall = ring.outer_mm() - ring.inner_mm(), width = 2.0 * tool.widest();
+  const double wall = wall_mm(ring), width = 2.0 * tool.widest();
   const double reach = 0.8 * (band.height_mm() + std::min(wall, width));
   return std::min(std::max(reach, stack.ring_height_mm()), kLongestShellMm);
 }

@@ -31,9 +31,9 @@ inline constexpr double kLeastBoreMm = 0.1;
 /// Lays clay beside the band: up to a distance x the share t^3 (10 - 15 t + 6 t^2), t = x / reach,
 /// which begins and ends with slope 0. A ring becomes at most h/2 thicker than its thinner
 /// neighbour, a slope that a tool of any size leaves. Rings below 0.085 mm are compared with the
-/// ring 0.17 mm away, by half of that distance. No ring grows into the tool;
-/// clay that a ring cannot take goes to the next. Returns the clay that found no place within the
-/// reach. The caller counts the placed clay (`StackWriter::gain`).
+/// ring 0.17 mm away, by half of that distance. No ring grows into the tool of this contact. Clay
+/// that a ring cannot take goes to the next ones, as far as twice the reach. Returns the clay that
+/// found no place. The caller counts the placed clay (`StackWriter::gain`).
 Quanta heave(const Tool& tool, const ClayStack& stack, WallRadii& walls, double hip_y,
              const Contact& contact, const Band& band, const Heap& heap,
              StackWriter& writer) noexcept;

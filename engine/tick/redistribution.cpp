@@ -15,13 +15,14 @@ constexpr int kShareBits = 30;
 // A tick has a bounded length; the crown holds what is left for the next one.
 constexpr std::size_t kMostGrowthPerTick = 64;
 
-// Of a rim's thickness over its height.
+// How fast a thick rim tapers: loss of thickness over height.
 constexpr double kTaper = 0.5;
 
 constexpr double kHighestLipMm = 12.0;  // bounds what a tick moves
-// A lip is rounded, relative to the wall: at the rim, and half of its height below.
+// A lip is rounded: its largest thickness at the rim and half-way down, relative to the wall below.
 constexpr double kThinRim = 0.7, kThinLip = 0.93;
-constexpr int kLipPasses = 4;  // from the rim down to where the wall is as thick as deep
+// Steps of the search from the rim down for the wall that is twice as thick as the lip is high.
+constexpr int kLipPasses = 4;
 
 WideQuanta take(std::span<const ToolRemoval> removals, ClayStack& stack) noexcept {
   StackWriter writer(stack);
@@ -173,15 +174,15 @@ Ring copied_rim(const ClayStack& stack) noexcept {
   const double below = std::clamp(wall / h + 0.5, 1.0, static_cast<double>(rings.size()) - 1.0);
   const Ring& old = rings[rings.size() - 1 - static_cast<std::size_t>(below)];
   if (old.inner2 == 0) return top;
-  const double thinner = wall - (old.outer_mm() - old.inner_mm());
+  const double thinner = wall - wall_mm(old);
   if (!(thinner > 0.0)) return top;
   const double by = 0.5 * std::min(thinner, kTaper * h);
   return {quanta_from_radius(outer - by), quanta_from_radius(inner + by)};
 }
 
-/// Where a lip begins that is thinner than the wall below it; it rises and sinks unchanged. It is
-/// as high as that wall is thick, and begins above the tools and above the bottom of the bore. The
-/// stack's size where there is none, or where a tool stands beside it.
+/// The lowest ring of a lip: the rounded rim of a wall, which rises and sinks unchanged. A lip is
+/// half as high as the wall below it is thick, and begins above the tools and above the bottom of
+/// the bore. The stack's size if there is none, or if a tool stands beside it.
 std::size_t lip_of(const ClayStack& stack, const Tool& tool, double hip_y,
                    std::span<const ToolRemoval> removals) noexcept {
   const auto rings = stack.rings();
@@ -271,8 +272,8 @@ Flow trim_clay(std::span<const ToolRemoval> removals, ClayStack& stack, Ledger& 
   Flow flow;
   flow.lowest = removals.front().contact.bottom;
   flow.highest = removals.front().contact.top;
-  grow<model>(flow, stack, ledger, rim,
-              writer);  // a thinner top ring may be worth less than the excess
+  // A thinner top ring may hold less than the excess.
+  grow<model>(flow, stack, ledger, rim, writer);
   return flow;
 }
 
@@ -298,8 +299,9 @@ void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const To
   Ledger none;
   grow<Model::conserving>(flow, stack, none, writer, rim, [&] {
     const auto rings = stack.rings();
-    // The wall below a lip holds more than the top ring.
-    if (rim == nullptr && stack.crown() >= rings.back().volume())
+    // The wall below a lip holds more than the top ring. The lip rises into a new ring's place.
+    if (rim == nullptr && stack.crown() >= rings.back().volume() &&
+        beside_tools(rings.back(), stack, plan, hip_y, removals) == rings.back())
       if (const std::size_t lip = lip_of(stack, plan.tool, hip_y, removals); lip < rings.size())
         return Growth{rings[lip - 1], lip};
     const Ring top = rim != nullptr ? next_ring(rings.back(), rim) : copied_rim(stack);

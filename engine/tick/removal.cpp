@@ -130,12 +130,12 @@ struct Squeezed {
   alignas(kPackBytes) double near[kRows], eps[kRows];
   Quanta removed[kRows];
 
-  void load(const Squeeze& squeeze, std::span<const Ring> all,
+  void load(const Squeeze& rules, std::span<const Ring> all,
             const TouchedRings::Slice& slice) noexcept {
     const std::size_t count = slice.size();
     Ring* const rings = raw.data();
     std::copy_n(&all[slice.ring], count, rings);
-    if (squeeze.shift != nullptr) squeeze.shift->move(slice.ring, {rings, count});
+    if (rules.shift != nullptr) rules.shift->move(slice.ring, {rings, count});
     for (std::size_t k = count; k < in_packs_of(count); ++k) rings[k] = rings[count - 1];
   }
 };
@@ -183,22 +183,22 @@ CLAYSTACK_INLINE inline bool take_rows(Squeezed& s, std::size_t count, bool outs
 }
 
 /// Of a slice: squeezes out the clay that has given way and was not moved.
-void squeeze(const Squeeze& squeeze, std::span<const Ring> rings, bool outside,
-             const TouchedRings::Slice& slice, Quanta* removed) noexcept {
+void squeeze_slice(const Squeeze& rules, std::span<const Ring> rings, bool outside,
+                   const TouchedRings::Slice& slice, Quanta* removed) noexcept {
   const std::size_t count = slice.size();
   Squeezed s;
-  s.load(squeeze, rings, slice);
+  s.load(rules, rings, slice);
   const Ring* const shifted = s.raw.data();
-  const bool on_floor = !outside && (squeeze.from_below || slice.ring < squeeze.floor_rings);
+  const bool on_floor = !outside && (rules.from_below || slice.ring < rules.floor_rings);
   bool fits = false;
-  in_packs([=, to = &s, of = &slice, min_wall = squeeze.min_wall_mm, smallest = kSmallestOuter2,
+  in_packs([=, to = &s, of = &slice, min_wall = rules.min_wall_mm, smallest = kSmallestOuter2,
             ok = &fits](auto n) CLAYSTACK_INLINE {
     squeeze_rows<n>(*to, *of, outside, min_wall);
     if (!on_floor) *ok = take_rows<n>(*to, count, outside, smallest);
   });
   // On the floor row by row: a ring without a bore stays closed.
   for (std::size_t k = 0; on_floor && k < count; ++k)
-    if (shifted[k].inner2 == 0 && squeeze.of_floor(slice.ring + k, rings))
+    if (shifted[k].inner2 == 0 && rules.of_floor(slice.ring + k, rings))
       slice.rows.depth[slice.begin + k] += std::exchange(s.eps[k], 0.0);
   for (std::size_t k = 0; k < count && !fits; ++k)
     s.removed[k] = outside ? take_outside(shifted[k], s.near[k], s.eps[k])
@@ -257,7 +257,8 @@ void squeeze_out(const Squeeze& rules, const ClayStack& stack, Contact& contact,
   const bool outside = contact.side == Side::compressive;
   removed.resize(contact.rings.size());
   contact.rings.each_slice([&](const TouchedRings::Slice& slice) {
-    squeeze(rules, stack.rings(), outside, slice, &removed[slice.ring - contact.rings.from()]);
+    squeeze_slice(rules, stack.rings(), outside, slice,
+                  &removed[slice.ring - contact.rings.from()]);
   });
 }
 
@@ -277,8 +278,8 @@ void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, doub
   const std::size_t end = std::max(out.to(), in.to());
   for (std::size_t i = first; i < end; ++i) {
     Ring ring = rules != nullptr ? rules->ring(i, stack.rings()) : stack.rings()[i];
-    auto eps = pinch_ring<model>(plan, ring.outer_mm() - ring.inner_mm(), least_wall, fraction,
-                                 dt_s, {out.get(i), in.get(i)});
+    auto eps =
+        pinch_ring<model>(plan, wall_mm(ring), least_wall, fraction, dt_s, {out.get(i), in.get(i)});
     if (rules != nullptr && ring.inner2 == 0 && rules->of_floor(i, stack.rings())) eps[1] = 0.0;
     if (out.has(i)) {
       Quanta& removed = outer.removed[i - out.from()];

@@ -27,7 +27,7 @@ struct ToolRemoval {
 ///
 /// `paper`: eps = k (R - r).
 /// `conserving`: as yielding.hpp says, never past the tool's surface and never through the minimum
-/// wall. Sets the contact's depths to the rest. Two half steps remove the same as one step.
+/// wall. Sets the contact's depths to the rest.
 template <Model model>
 void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
                      std::vector<Quanta>& removed) noexcept;

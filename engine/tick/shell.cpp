@@ -92,6 +92,24 @@ void stops_of(const Ring* rings, std::size_t count, double per_stop, double* sto
   });
 }
 
+/// Whether nothing holds the wall within `most`, decided without a look at each of its rings: ring
+/// `first` and those above or below it, of which `there` are in the stack. May return false where
+/// nothing holds it, but not for most walls. `free_length` sees two rings less.
+bool surely_free(const ClayStack& stack, WallRadii& walls, std::size_t first, std::size_t there,
+                 bool up, double most, double per_stop, bool needs_foot) noexcept {
+  const double h = stack.ring_height_mm();
+  const auto wanted = static_cast<std::size_t>(most / h) + 3;
+  const std::size_t seen = std::min(wanted, there);
+  if (!up && seen < wanted) return false;  // the wheel holds it
+  const std::size_t from = up ? first : first + 1 - seen;
+  walls.cover(stack, from, from + seen);
+  if (all_pliant(walls.outer(from), walls.inner(from), seen)) return true;
+  const Stiffness stiffness = stiffness_of(walls.outer(from), walls.inner(from), seen);
+  if (needs_foot && stiffness.most >= 1.0f) return false;
+  // Far enough from a stop for sums of any order.
+  return static_cast<double>(stiffness.sum) * h * per_stop < 0.99;
+}
+
 /// How far the wall is free to bend from an end of the band: to the floor, to a solid part, or
 /// farther than `most`. `foot_mm`: the top of the first solid ring below, if there is one.
 double free_length(const ClayStack& stack, WallRadii& walls, double end_mm, bool up, double most,
@@ -101,17 +119,7 @@ double free_length(const ClayStack& stack, WallRadii& walls, double end_mm, bool
   const double level = std::clamp(end_mm / h, 0.0, static_cast<double>(rings.size()));
   const std::size_t first = std::min(static_cast<std::size_t>(level), rings.size() - 1);
   const std::size_t there = up ? rings.size() - first : first + 1;
-  // Most walls have no stop there. The loop below sees two rings less; it decides near a stop.
-  const auto rings_seen = static_cast<std::size_t>(most / h) + 3;
-  if (const std::size_t seen = std::min(rings_seen, there); up || seen == rings_seen) {
-    const std::size_t from = up ? first : first + 1 - seen;
-    walls.cover(stack, from, from + seen);
-    if (all_pliant(walls.outer(from), walls.inner(from), seen)) return most;
-    const Stiffness stiffness = stiffness_of(walls.outer(from), walls.inner(from), seen);
-    const bool solid = foot_mm != nullptr && stiffness.most >= 1.0f;
-    // Far enough from a stop for sums of any order.
-    if (static_cast<double>(stiffness.sum) * h * per_stop < 0.99 && !solid) return most;
-  }
+  if (surely_free(stack, walls, first, there, up, most, per_stop, foot_mm != nullptr)) return most;
   const double within = level - static_cast<double>(first);
   double piece = h * (up ? 1.0 - within : within);  // of the ring that the end lies in
   alignas(kPackBytes) double stops[kRows];

@@ -17,12 +17,18 @@ inline constexpr double kLongestShellMm = 35.0;
 /// A motion that is slower than this has no direction: clay flows to both sides of it.
 inline constexpr double kSlowMmS = 5.0;
 
+/// The cubic from (0, 0) to (1, 1) with slope 0 at both ends.
+template <class Number>
+[[nodiscard]] CLAYSTACK_INLINE inline Number smooth(Number t) noexcept {
+  return t * t * (3.0f - 2.0f * t);
+}
+
 /// How the wall moves about a band. u(x) = share * give * tent(x), x the distance from the peak:
 ///
-///     below  trail_below * S(1 - x / below_mm)
-///     above  trail_above * S(1 - turn x / above_mm), and for turn <= 0: 1 - turn x / above_mm
+///     below  trail_below * smooth(1 - x / below_mm)
+///     above  trail_above * smooth(1 - turn x / above_mm), and for turn <= 0: 1 - turn x / above_mm
 ///
-/// with S(t) = t^2 (3 - 2t), from 0 to 1. Near the peak the two trails blend.
+/// Near the peak the two trails blend.
 struct Shell {
   double share = 0.0;  ///< of the give: the wall moves by it instead of being squeezed
   double below_mm = 1.0, above_mm = 1.0;        ///< where the wall stands still again
@@ -35,7 +41,7 @@ struct Shell {
   /// Less than 1 where the solid clay below holds the wall.
   [[nodiscard]] double hold(double up_mm) const noexcept {
     const double t = (up_mm - foot_mm) / root_mm;
-    return t > 0.0 ? (t < 1.0 ? t * t * (3.0 - 2.0 * t) : 1.0) : 0.0;
+    return t > 0.0 ? (t < 1.0 ? smooth(t) : 1.0) : 0.0;
   }
 };
 
@@ -43,9 +49,8 @@ struct Shell {
 void hold_foot(const Shell& shell, double ring_height_mm, std::size_t first,
                std::span<float> by_mm) noexcept;
 
-/// By how much a ring may move as part of a shell: 0 where it is solid or nearly so (r < 0.2 R),
-/// 1 from r = 0.4 R. Its hoops are no longer thin there.
-/// `bore2`: (r / R)^2.
+/// The part of a shell's motion that a ring follows: 0 if it is solid or nearly so (r < 0.2 R), as
+/// it has no thin hoops then; 1 from r = 0.4 R on. `bore2`: (r / R)^2.
 template <class Number>
 [[nodiscard]] CLAYSTACK_INLINE inline Number pliancy(Number bore2) noexcept {
   constexpr float kStiff = 0.04f, kThin = 0.15625f;

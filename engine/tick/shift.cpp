@@ -20,11 +20,6 @@ constexpr float kRounding = 1e-6f;
 constexpr float kLargest2 = static_cast<float>(kMaxRadiusMm * kMaxRadiusMm) * (1.0f - kRounding);
 constexpr float kMost = static_cast<float>(kMostLaneQuanta * kMm2PerQuantum);  // for conversions
 
-template <class Number>
-CLAYSTACK_INLINE inline Number smooth(Number t) noexcept {
-  return t * t * (3.0f - 2.0f * t);
-}
-
 /// How far R^2 and r^2 of some rings go down, where the wall is pushed in by u.
 template <class F>
 CLAYSTACK_INLINE inline F pushed_in(F outer, F inner, F u) noexcept {
@@ -45,7 +40,8 @@ CLAYSTACK_INLINE inline F pushed_out(F outer, F inner, F u, float per_min_wall) 
 // How far rings move, in three short loops: with one long chain of operations the processor works
 // on few rows at once.
 
-/// Less where the wall is not thin. `rises`: thickness over the middle radius, times half.
+/// Less where the wall is not thin. `rises`: (R^2 - r^2) / (R^2 + r^2); times the change of R^2 it
+/// is the clay of the hoop strain.
 template <std::size_t n>
 CLAYSTACK_INLINE inline void soften(const float* outers, const float* inners, std::size_t count,
                                     float* by, float* rises) noexcept {

@@ -139,8 +139,8 @@ class Smear {
     writer_.smear(first, first + stride, {whole, count}, outside_);
   }
 
-  /// Into what the sponge touches, clay goes only until it is as deep there as where it came from:
-  /// the overlap loses energy.
+  /// A ring that the sponge touches gets clay only until the sponge is as deep in it as in the ring
+  /// that gives the clay: the overlap loses energy.
   void level(const Places& p, std::size_t apart, std::span<double> amounts) const noexcept {
     for (std::size_t k = 0; k < amounts.size(); ++k) {
       const bool up = amounts[k] > 0.0;

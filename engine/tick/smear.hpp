@@ -8,8 +8,7 @@
 namespace clay {
 
 struct Smearing {
-  double surface_per_s =
-      0.0;  ///< speed of a surface of radius 1 under the tool: 2 pi turns a second
+  double surface_per_s = 0.0;  ///< speed of a surface of radius 1 under the tool: 2 pi x turns/s
   double yield_depth_mm = 0.25;
   double min_wall_mm = 0.0;
   /// A sponge also evens out the surface it touches: from deeper places to less deep ones.

@@ -32,10 +32,10 @@ class StabilityWatch {
   void move_to(const ClayStack& stack, std::size_t highest) noexcept;
 
   /// After it, with `highest` as given to move_to: the ring of greatest stress among those above
-  /// the threshold, if any, or a lower one that has parted from the ring above it; the result of
-  /// check_all, if that found none before the flow. Reads the rings of the flow and the new ones.
-  /// If clay has come on top from far below, it also reads the suspect stretches of the others, in
-  /// which the weight below them would be too much for their thinnest ring.
+  /// the threshold, if any, or a lower ring that has parted from the ring above it. Finds the same
+  /// stress as check_all, if that found none before the flow. Reads the rings of the flow and the
+  /// new ones. If clay has come on top from far below, it also reads the stretches whose thinnest
+  /// ring could not carry the weight above the lower end of the stretch.
   [[nodiscard]] std::optional<Failure> check(const StabilityPlan& plan, const ClayStack& stack,
                                              const Flow& flow) noexcept;
 

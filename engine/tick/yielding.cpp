@@ -12,7 +12,7 @@ namespace {
 /// How a tool comes to each of some rings.
 struct Approach {
   using Row = std::array<double, Yielding::kMost>;
-  Row advance;  ///< of the depth, what the tool has gone in the clay [mm]
+  Row advance;  ///< part of the depth that the tool has gone in the clay [mm]
   Row pace;     ///< wall times depth at which the clay yields as fast as the tool comes [mm^2]
   Row time;     ///< in which the tool is nearer than the knee, times kappa / knee [1/mm]
   Row at_most;  ///< that gives way [mm]

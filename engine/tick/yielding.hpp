@@ -43,8 +43,9 @@ struct Yielding {
 ///
 /// Deeper than the yield depth the wall falls as exp(-kappa t); nearer to the surface depth
 /// and wall fall together, a logistic curve about the depth at which the clay gives way as fast as
-/// the tool comes. For a tool that stands still both are exact, so two half steps equal one step;
-/// for a moving one, the wall during the step is replaced by its mean.
+/// the tool comes. For a tool that stands still both are exact, so two half steps equal one step,
+/// but for the series that gives the time between the two parts. For a moving tool the wall during
+/// the step is replaced by its mean.
 void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept;
 
 }  // namespace clay

@@ -115,9 +115,11 @@ std::uint32_t deform(WheelState& s, const ToolState& tool,
   return settle_flow<stages>(s, flow, tool);
 }
 
-/// Clay that a tool prevented from rising becomes rings after the tool has left.
+/// Clay that a tool prevented from rising becomes rings after the tool has left. A tool above the
+/// rim keeps its room, although it touches no ring.
 template <unsigned stages>
-std::uint32_t raise_crown(WheelState& s, const ToolState& tool) noexcept {
+std::uint32_t raise_crown(WheelState& s, const ToolState& tool,
+                          std::span<const ToolRemoval> removals) noexcept {
   if (s.stack.crown() < s.stack.rings().back().volume()) return 0;
   Flow flow;
   flow.lowest = flow.highest = s.stack.size() - 1;
@@ -125,7 +127,7 @@ std::uint32_t raise_crown(WheelState& s, const ToolState& tool) noexcept {
   Rim* const rim = (s.plan.clay.rules & kRim) ? nullptr : &s.rim;
   {
     StackWriter writer(s.stack);
-    grow_rim(flow, s.plan, tool.hip_mm.y, {}, s.stack, rim, writer);
+    grow_rim(flow, s.plan, tool.hip_mm.y, removals, s.stack, rim, writer);
   }
   return settle_flow<stages>(s, flow, tool);
 }
@@ -190,7 +192,7 @@ StepReport tick(WheelState& s, const Pose& pose) noexcept {
   const bool touches = rings_of(removals) > 0;
   if constexpr (stages & kRules) follow(s.motion, tool);
   if constexpr (stages & kRules)
-    if (!touches) report.flags |= raise_crown<stages>(s, tool);
+    if (!touches) report.flags |= raise_crown<stages>(s, tool, removals);
   const int parts = touches || s.touching ? parts_of<kModel<stages>>(tool) : 1;
   s.touching = touches;
   tool.dt_s /= parts;

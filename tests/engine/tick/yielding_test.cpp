@@ -59,6 +59,34 @@ RC_GTEST_PROP(Yielding, SolvesTheEquationOfAToolAtRest, ()) {
   RC_ASSERT(std::abs(found.wall - found.depth - (at.wall - at.depth)) < 1e-12);
 }
 
+/// A tool at rest in closed form: an exponential to the yield depth, then a logistic curve.
+Press exact_at_rest(const Press& at, double dt_s) {
+  const double kappa = kYieldingPlan.rate_per_s, delta = kYieldingPlan.yield_depth_mm;
+  const double behind = at.wall - at.depth, knee = std::min(at.depth, delta);
+  const double until_knee_s = std::log(at.wall / (behind + knee)) / kappa;
+  if (until_knee_s >= dt_s) {
+    const double wall = at.wall * std::exp(-kappa * dt_s);
+    return {wall, wall - behind};
+  }
+  const double decay = std::exp(-kappa * behind * (dt_s - until_knee_s) / delta);
+  const double depth = behind * knee * decay / (behind + knee * (1.0 - decay));
+  return {behind + depth, depth};
+}
+
+/// The bounds of docs/model.md: the series for the time until the knee loses digits in a long tick.
+TEST(Yielding, FollowsTheClosedFormOfAToolAtRest) {
+  const auto expect_near = [](double dt_s, double bound_mm) {
+    for (double wall = 1.0; wall <= 40.0; wall += 0.5)
+      for (double depth = 0.01; depth < wall - kYieldingPlan.min_wall_mm; depth += 0.1)
+        ASSERT_NEAR(yielded({wall, depth}, 0.0, dt_s).depth,
+                    exact_at_rest({wall, depth}, dt_s).depth, bound_mm)
+            << wall << " " << depth;
+  };
+  expect_near(0.001, 1e-9);
+  expect_near(0.004, 1e-6);
+  expect_near(0.05, 0.04);
+}
+
 RC_GTEST_PROP(Yielding, TwoHalfStepsEqualOneStep, ()) {
   auto random = *samples::random_engine();
   const Press at{2.0 + 8.0 * samples::uniform(random), 0.25 * samples::uniform(random)};

@@ -278,6 +278,30 @@ TEST(ClayRules, ASavedPotContinuesWithTheSameBits) {
   }
 }
 
+/// A rib above a wall of 5 mm, whose crown holds clay for three rings of 0.2 mm.
+TEST(ClayRules, NoRingRisesIntoAToolAboveTheRim) {
+  SceneSpec scene = cylinder_scene({});
+  scene.tool.shape = RibSpec{20.0, 6.0};
+  const Ring ring{quanta_from_radius(45.0), quanta_from_radius(40.0)};
+  const std::vector<Ring> rings(100, ring);
+  Pot pot = Wheel::build(scene).value().pot();
+  pot.stack = ClayStack::from_rings(kH, rings, 3 * ring.volume()).value();
+  pot.ledger = {};
+  pot.ledger.initial = pot.stack.volume();
+  // The rib ends in the upper half of the top ring, and just above that ring.
+  for (const double clear_mm : {-0.05, 0.05})
+    for (const double gap_mm : {0.0, 2.0}) {
+      Wheel wheel = Wheel::build(scene, pot).value();
+      for (const std::int64_t ms : {1, 2}) {
+        const Pose pose{1000 * ms, {44.0, 30.0 + clear_mm, 0.0}, false, gap_mm};
+        EXPECT_EQ(wheel.step(pose).flags & kGrew, 0u) << clear_mm << " " << gap_mm;
+      }
+      wheel.step({3000, {80.0, 60.0, 0.0}});
+      EXPECT_EQ(wheel.stack().size(), 103u) << clear_mm << " " << gap_mm;
+      expect_balanced(wheel);
+    }
+}
+
 TEST(ClayRules, PaperModelHasNoRules) {
   SceneSpec scene = small_scene();
   scene.model = Model::paper;

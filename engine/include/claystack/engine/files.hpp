@@ -147,9 +147,9 @@ struct WorkReading {
 };
 
 /// Strict: errors read "NAME:LINE: what was expected, what was found". An unfinished last line is
-/// dropped and reported; a damaged line anywhere is an error. More than kMaxPoses
-/// are refused before the first is read. Uses the memory of the poses and of one
-/// line.
+/// dropped and reported; a damaged line anywhere is an error. A file that announces more than
+/// kMaxPoses poses is refused before the first of them is read. Uses the memory of the poses and of
+/// one line.
 Result<WorkReading> parse_work(std::string_view text, std::string_view name);
 /// For the remains of a crash: reads up to the first damaged line, or to kMaxPoses. Fails only if
 /// the root cannot be read.

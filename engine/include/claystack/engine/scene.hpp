@@ -80,8 +80,8 @@ struct ToolSpec {
   friend bool operator==(const ToolSpec&, const ToolSpec&) = default;
 };
 
-/// Equations (3), (4): clay yields at rate (R - r), and less where the tool is less than
-/// `yield_depth_mm` deep; in `paper` by k (R - r) per tick.
+/// Equations (3), (4): clay yields at the speed `rate_per_s` (R - r), and slower where the tool is
+/// less than `yield_depth_mm` deep; in `paper` by k (R - r) per tick.
 struct RemovalSpec {
   double rate_per_s = 20.0;
   double yield_depth_mm = 0.25;  ///< conserving: depth of the tool in the clay for the full rate

@@ -80,7 +80,7 @@ struct RibProfile {
 /// Monotone cubic (Fritsch and Carlson, SIAM J. Numer. Anal. 17(2) 1980): no overshoot, so f stays
 /// between its samples.
 struct SampledProfile {
-  std::vector<double> t, f, slopes;
+  std::vector<double> t, f, slopes;  ///< samples [mm], and f' at each of them
   [[nodiscard]] double radius(double at) const noexcept;
   [[nodiscard]] double slope(double at) const noexcept;
   /// Around t; the turn is the mean over the height, because f'' jumps at each sample.

@@ -47,11 +47,11 @@ class Wheel {
  public:
   /// Puts the scene's lump on the wheel. Refuses a lump that cannot carry itself.
   static Result<Wheel> build(const SceneSpec& scene);
-  /// Puts an existing pot on the wheel instead of the lump, to continue throwing: apart from tool
-  /// motion in free air, the bits are the same as if it had never been taken off. Height and number
-  /// of rings are the pot's; growth stops at lump.max_rings, or at the pot's own limit if that is
-  /// 0. Refuses a model or density other than the scene's, and a pot that has collapsed, that is
-  /// rounded (its clay is not the counted clay), or that cannot carry itself.
+  /// Continues an existing pot. If the first pose repeats the last one, the bits are as if it had
+  /// never been taken off; but without clay rules, clay flows up until the tool rises or sinks.
+  /// Growth stops at lump.max_rings, or at the pot's own limit if that is 0; the lump's other sizes
+  /// are not used. Refuses a model or density other than the scene's, and a pot that has collapsed,
+  /// is rounded (its clay is not the counted clay), or cannot carry itself.
   static Result<Wheel> build(const SceneSpec& scene, const Pot& start);
   Wheel(Wheel&&) noexcept;
   Wheel& operator=(Wheel&&) noexcept;
