@@ -1,9 +1,9 @@
 #include "export/formats/text_scanner.hpp"
 
-#include "core/text.hpp"
-
 #include "core/cancel.hpp"
+#include "core/lower_case.hpp"
 #include "core/number_parsing.hpp"
+#include "core/text.hpp"
 #include "export/formats/character_set.hpp"
 #include "export/formats/mesh_limits.hpp"
 
@@ -44,7 +44,9 @@ std::optional<float> parse_float(std::string_view word) noexcept {
 }
 
 /// Also removes the control characters of terminals.
-std::string quoted(std::string_view text) { return "'" + shown(text) + "'"; }
+std::string quoted(std::string_view text) {
+  return std::string("'").append(shown(text)).append("'");
+}
 
 std::string shown_word(std::string_view word) {
   return word.empty() ? "the end of the line or file" : quoted(word);
@@ -58,7 +60,7 @@ std::string stray_lines_note(std::size_t first_line, std::size_t count, std::str
 
 bool equal_ignoring_case(std::string_view word, std::string_view lower) noexcept {
   return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
-                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+                    [](char a, char b) { return lower_case(a) == b; });
 }
 
 TextScanner::TextScanner(ByteStream& text, std::string_view name, LineRule rule,

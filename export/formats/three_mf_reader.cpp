@@ -1,5 +1,6 @@
 #include "claystack/export/formats.hpp"
 #include "core/base64.hpp"
+#include "core/lower_case.hpp"
 #include "export/formats/mesh_limits.hpp"
 #include "export/formats/stated_sizes.hpp"
 #include "export/formats/three_mf.hpp"
@@ -46,12 +47,8 @@ Result<void> each_element(const ZipPackage& package, std::string_view path, std:
 
 bool ends_like(std::string_view path, std::string_view ending) {
   return path.size() > ending.size() && path[path.size() - ending.size() - 1] == '.' &&
-         std::ranges::equal(path.substr(path.size() - ending.size()), ending, [](char a, char b) {
-           const auto low = [](char c) {
-             return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-           };
-           return low(a) == low(b);
-         });
+         std::ranges::equal(path.substr(path.size() - ending.size()), ending,
+                            [](char a, char b) { return lower_case(a) == lower_case(b); });
 }
 
 /// The path of the start part, which must be one model of the type that the package states.

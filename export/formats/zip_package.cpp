@@ -1,6 +1,7 @@
 #include "export/formats/zip_package.hpp"
 
 #include "core/cancel.hpp"
+#include "core/lower_case.hpp"
 #include "core/text.hpp"
 #include "export/formats/mesh_limits.hpp"
 
@@ -71,10 +72,7 @@ constexpr std::size_t kMostShown = 80;  // of a path in a message
 /// Lower case without a leading slash: part names of packages ignore case.
 std::string key_of(std::string_view path) {
   if (path.starts_with('/')) path.remove_prefix(1);
-  std::string key(path);
-  for (char& c : key)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return key;
+  return lower_case(path);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "claystack/export/job.hpp"
 
+#include "core/size_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -85,8 +87,8 @@ std::optional<std::string> below_each_process(const ExportReport& report) {
   const std::string place =
       placed_wall(report) ? fmt::format(" at a height of {:.1f} mm", report.walls.thinnest.from.y)
                           : "";
-  return fmt::format("thin wall: {:.3f} mm{}; no process allows less than {:g} mm", thinnest, place,
-                     smallest);
+  return fmt::format("thin wall: {} mm{}; no process allows less than {:g} mm",
+                     bound_text(thinnest, 3), place, smallest);
 }
 
 /// For a fallen pot the cavities of the union: the parts may enclose one together, or fill one.

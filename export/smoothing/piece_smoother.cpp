@@ -23,6 +23,10 @@ namespace {
 /// Of the minimum wall with chords, where no requested limit depends on it: a tooth of the noise is
 /// far below it, a lip or a flange whose shape changes a little is above.
 constexpr double kLeastOfChords = 0.5;
+/// Of the tolerance, and of the limit: by so much may a wall become thinner where no minimum is
+/// requested. Otherwise a wall of even thickness could keep all its rings, because the line from a
+/// corner leans a little.
+constexpr double kSlack = 1e-3;
 /// Covers the allowance of a limit, so that whatever passes with chords passes.
 constexpr double kMeetsLimit = 0.99;
 
@@ -40,6 +44,9 @@ class PieceSmoother {
         // Never 0, so that the guard finds and corrects walls that would meet.
         limit_(options.min_wall_mm ? std::max(*options.min_wall_mm, piece.least_step_mm)
                                    : least_own_wall_mm(piece)),
+        slack_mm_(options.mode == Smoothing::fair && !options.min_wall_mm
+                      ? kSlack * std::min(options.tolerance_mm, limit_)
+                      : 0.0),
         own_walls_(piece, limit_),
         plan_(piece, fairing_length_mm(piece, options),
               options.mode == Smoothing::fair ? options.tolerance_mm : 0.0),
@@ -93,13 +100,14 @@ class PieceSmoother {
   /// True if the guard found walls too thin and could undo some smoothing there.
   bool guard_found_more() {
     const WallGauge gauge(piece_, lines_);
-    if (!gauge.thinner_than(limit_)) return false;
+    if (!gauge.thinner_than(limit_ - slack_mm_)) return false;
     const RingFlags suspects = gauge.rings_near_thin(limit_);
     const std::vector<double> now = gauge.by_ring_mm(limit_, suspects);
     const std::vector<double>& own = own_walls_.by_ring_mm(suspects);
     std::vector<ThinRing> thin;
     for (std::size_t i = 0; i < piece_.size(); ++i)
-      if (suspects[i] != 0 && now[i] < own[i] * kWallRounding) thin.push_back({i, now[i]});
+      if (suspects[i] != 0 && now[i] < own[i] * kWallRounding - slack_mm_)
+        thin.push_back({i, now[i]});
     return (options_.mode == Smoothing::fair && (plan_.refine(thin) || plan_.use_chords(thin))) ||
            plan_.keep_steps(thin);
   }
@@ -193,7 +201,7 @@ class PieceSmoother {
 
   const PieceWalls& piece_;
   const SmoothingOptions& options_;
-  double limit_;
+  double limit_, slack_mm_;
   OwnWalls own_walls_;
   SmoothingPlan plan_;
   VolumeCorrection correction_;

@@ -1,5 +1,6 @@
 #include "export/walls/part_names.hpp"
 
+#include "core/size_text.hpp"
 #include "export/walls/tangent_ball.hpp"
 
 #include <fmt/format.h>
@@ -110,8 +111,8 @@ std::vector<PartWall> walls_by_part(const Profile& profile, const std::vector<Wa
 std::string text_of(const std::vector<PartWall>& parts) {
   std::string text;
   for (const auto& [part, thickness_mm, at] : parts)
-    text += fmt::format("{}{} {:.3f} mm at a height of {:.1f} mm", text.empty() ? "" : ", ",
-                        name_of(part), thickness_mm, at.y);
+    text += fmt::format("{}{} {} mm at a height of {:.1f} mm", text.empty() ? "" : ", ",
+                        name_of(part), bound_text(thickness_mm, 3), at.y);
   return text;
 }
 

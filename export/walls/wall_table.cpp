@@ -1,6 +1,7 @@
 // Walls in words: the table of a section, and its faults.
 
 #include "claystack/export/walls.hpp"
+#include "core/size_text.hpp"
 #include "export/walls/part_names.hpp"
 
 #include <fmt/format.h>
@@ -54,14 +55,11 @@ std::string text_of(const Stretch& stretch) {
 }  // namespace
 
 std::string wall_text(double thinnest_mm, const WallLimit& limit) {
-  // Enough digits to distinguish a thinner wall from its limit.
-  const double below_mm = limit.min_wall_mm - thinnest_mm;
-  const bool fails = !limit.met_by(thinnest_mm);
-  int digits = 3;
-  while (below_mm > 0.0 && digits < 9 && below_mm < std::pow(10.0, -digits)) ++digits;
-  return fmt::format("{:.{}f} mm, expected at least {:.{}f} mm ({}){}", thinnest_mm, digits,
-                     limit.min_wall_mm, digits, limit.asked_by(),
-                     below_mm > 0.0 && !fails ? "; within the allowance" : "");
+  const bool below = thinnest_mm < limit.min_wall_mm;
+  const int decimals = below ? decimals_apart(thinnest_mm, limit.min_wall_mm, 3) : 3;
+  return fmt::format("{} mm, expected at least {} mm ({}){}", bound_text(thinnest_mm, decimals),
+                     size_text(limit.min_wall_mm, decimals), limit.asked_by(),
+                     below && limit.met_by(thinnest_mm) ? "; within the allowance" : "");
 }
 
 std::string thin_wall_text(const Profile& profile, double thinnest_mm, const WallLimit& limit) {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace clay::solid {
 namespace {
@@ -38,6 +39,34 @@ TEST(ProfileSmoothing, AStraightPotStaysARectangle) {
     EXPECT_NEAR(made.section.profile.pieces[0][0].rho, 40.0, 1e-9);
     EXPECT_NEAR(made.section.profile.pieces[0][3].rho, 30.0, 1e-9);
     EXPECT_TRUE(made.guard.empty());
+  }
+}
+
+/// A mug whose wall has the same thickness from the floor to the rim, above a foot that is rounded
+/// by a parabola; each ring has the clay of its part. The line of the wall begins in the rounding,
+/// and so leans a little.
+TEST(ProfileSmoothing, AnEvenWallAboveARoundedFootKeepsFewVertices) {
+  constexpr int kRings = 3120, kParts = 32;
+  constexpr double kHeightMm = 100.0, kFloorMm = 10.0, kRoundMm = 6.0;
+  const auto outer_mm = [](double up) {
+    const double left = 1.0 - std::sqrt(std::min(up / kRoundMm, 1.0));
+    return 42.0 - 4.0 * left * left;
+  };
+  std::vector<Radii> radii;
+  for (int i = 0; i < kRings; ++i) {
+    double squares = 0.0;
+    for (int part = 0; part < kParts; ++part)
+      squares += std::pow(outer_mm((i + (part + 0.5) / kParts) * kHeightMm / kRings), 2.0);
+    radii.push_back({std::sqrt(squares / kParts), i * kHeightMm < kFloorMm * kRings ? 0.0 : 36.0});
+  }
+  SmoothingOptions options = options_for(Smoothing::fair);
+  options.smooth_length_mm = 0.0;
+  for (int percent = 80; percent <= 120; ++percent) {
+    const double size = 0.01 * percent;
+    std::vector<Radii> scaled = radii;
+    for (Radii& ring : scaled) ring = {size * ring.outer_mm, size * ring.inner_mm};
+    const SmoothedProfile made = smooth(stack_of(size * kHeightMm / kRings, scaled), options);
+    EXPECT_LE(made.section.profile.pieces.at(0).size(), 60u) << percent << " %";
   }
 }
 

@@ -110,8 +110,9 @@ RC_GTEST_PROP(SmoothingPromises, TheMinimumWallIsAtLeastTheLimitOrThatOfTheSteps
     const double least = std::min({options.min_wall_mm.value_or(1e300), guarded, defined});
     const Wall found = min_wall({{made.section.profile.pieces[k]}});
     if (found.compact) continue;  // a lump without a wall
-    const double slack =
-        2.0 * made.taken_mm + made.overshoot_mm * 1e-9 + static_cast<double>(largest) * 0x1p-19;
+    const double slack = 2.0 * made.taken_mm + made.overshoot_mm * 1e-9 +
+                         static_cast<double>(largest) * 0x1p-19 +
+                         shapes::wall_slack_mm(options, options.tolerance_mm);
     RC_ASSERT(found.thickness_mm >= least * (1 - 1e-8) - slack);
   }
 }
@@ -194,7 +195,8 @@ Real thinned_mm(const ClayStack& stack, const SmoothingOptions& options,
     }
     for (std::size_t i = 0; i < own.size(); ++i) {
       const bool solid = stack.rings()[first + i].inner2 == 0;
-      const Real slack = (solid ? 2 : 1) * made.taken_mm + (tiny_steps ? largest * 0x1p-20L : 0);
+      const Real slack = (solid ? 2 : 1) * made.taken_mm + (tiny_steps ? largest * 0x1p-20L : 0) +
+                         shapes::wall_slack_mm(options, static_cast<double>(limit));
       thinned = std::max(thinned, std::min(limit, own[i]) * (1 - 2e-9L) - slack - 1e-13L - now[i]);
     }
   }

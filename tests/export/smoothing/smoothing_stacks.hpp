@@ -5,6 +5,7 @@
 #include "tests/engine/clay/stack_samples.hpp"
 #include "tests/export/solid/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -54,6 +55,12 @@ inline SmoothingOptions options_for(Smoothing mode, double tolerance_mm = 0.02) 
   options.mode = mode;
   options.tolerance_mm = tolerance_mm;
   return options;
+}
+
+/// By how much `fair` may thin walls at the limit, where that is the thinnest wall of the piece.
+inline double wall_slack_mm(const SmoothingOptions& options, double limit_mm) {
+  if (options.mode != Smoothing::fair || options.min_wall_mm) return 0.0;
+  return 1e-3 * std::min(options.tolerance_mm, limit_mm);
 }
 
 /// What `fair` may move a wall to keep the volume.

@@ -131,6 +131,21 @@ TEST(WallParts, TheUpwardFaceOfALipIsNoFloor) {
   EXPECT_EQ(text.find("floor"), std::string::npos) << text;
 }
 
+TEST(WallText, IsALowerBoundThatDiffersFromAHigherLimit) {
+  const auto text = [](double thinnest_mm, double limit_mm) {
+    const std::string full = wall_text(thinnest_mm, {1e9, limit_mm, "test", {}});
+    return full.substr(0, full.find(" ("));
+  };
+  EXPECT_EQ(text(4.5379, 3.0), "4.537 mm, expected at least 3.000 mm");
+  EXPECT_EQ(text(2.99998, 3.0), "2.99998 mm, expected at least 3.00000 mm");
+  EXPECT_EQ(text(0.00034, 0.001), "0.00034 mm, expected at least 0.001 mm");
+}
+
+TEST(WallParts, AThinPartKeepsItsDigits) {
+  EXPECT_EQ(text_of({{WallPart::lip, 0.00034, {10.0, 25.0}}}),
+            "lip 0.00034 mm at a height of 25.0 mm");
+}
+
 RC_GTEST_PROP(WallField, ConvergesToTheMinimumWall, ()) {
   auto random = *samples::random_engine();
   // Walls that change slowly, without sharp edges.

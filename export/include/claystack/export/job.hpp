@@ -73,7 +73,8 @@ struct GoalReport {
   MetGoal met;
 };
 
-/// Scales a standing pot until its smoothed section meets the goal within 1e-6. Errors: `bad_input`
+/// Scales a standing pot until its smoothed section meets the goal within 1e-6, or within 1e-3
+/// where a figure jumps over it because the smoothing changes with the size. Errors: `bad_input`
 /// for goals that are missing, contradict each other or cannot be met (no floor, nothing to hold);
 /// `unsound`, with the reason, if a wall of the result is below the limit of the options.
 Result<GoalReport> scaled_to(const Pot& pot, const Goal& goal, const ExportOptions& options);
