@@ -31,11 +31,12 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "throw pots on a virtual wheel and export files that print
  Claystack throws a pot from a recorded session, from strokes or by hand with
  a haptic arm, and exports it as a solid that is proved closed: 3MF, STL, OBJ,
- PLY, GLB or Draco. It also imports drawings, checks and repairs any mesh, and
+ PLY, GLB, Draco or STEP. It also imports drawings, checks and repairs any mesh, and
  draws pictures without a screen.")
 # The libraries of OpenGL are opened at run time, where dpkg-shlibdeps cannot see them.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1, libgl1-mesa-dri")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS claystack-studio)
+# The pages link to the headers and example programs.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "claystack-studio, libclaystack-dev")
 
 set(CPACK_DEBIAN_STUDIO_PACKAGE_NAME claystack-studio)
 set(CPACK_DEBIAN_STUDIO_PACKAGE_SECTION graphics)

@@ -50,16 +50,32 @@ endif()
 install(DIRECTORY samples/ DESTINATION ${claystack_data}/samples COMPONENT program
   FILES_MATCHING
   PATTERN "*.json" PATTERN "*.jsonl" PATTERN "*.session" PATTERN "*.work" PATTERN "*.svg" PATTERN "*.dxf"
-  PATTERN "*.csv" PATTERN "*.script" PATTERN "sha256sums"
-  PATTERN "consumer" EXCLUDE PATTERN "python" EXCLUDE PATTERN "replay" EXCLUDE)
-if(CLAYSTACK_PYTHON)
-  install(DIRECTORY samples/python/ COMPONENT python
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-claystack/examples)
-endif()
+  PATTERN "*.csv" PATTERN "*.script" PATTERN "*.py" PATTERN "sha256sums"
+  PATTERN "consumer" EXCLUDE PATTERN "replay" EXCLUDE)
 install(DIRECTORY samples/consumer/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libclaystack-dev/examples COMPONENT dev)
-install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/claystack COMPONENT program)
+
+# The pages, with links between installed files.
+set(claystack_doc ${CMAKE_INSTALL_FULL_DATADIR}/doc/claystack)
+file(RELATIVE_PATH to_samples ${claystack_doc} ${CMAKE_INSTALL_FULL_DATADIR}/claystack/samples)
+file(RELATIVE_PATH to_headers ${claystack_doc} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+file(GLOB doc_pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} *.md docs/*.md)
+set(installed_pages ${doc_pages})
+list(TRANSFORM doc_pages PREPEND ${PROJECT_SOURCE_DIR}/)
+list(TRANSFORM installed_pages PREPEND ${claystack_share}/pages/)
+set(links_script ${PROJECT_SOURCE_DIR}/cmake/InstalledPages.cmake)
+add_custom_command(OUTPUT ${installed_pages}
+  COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DOUTPUT=${claystack_share}/pages
+          -DSAMPLES=${to_samples} -DEXAMPLES=../libclaystack-dev/examples -DHEADERS=${to_headers}
+          -P ${links_script}
+  DEPENDS ${doc_pages} ${links_script} VERBATIM)
+add_custom_target(pages ALL DEPENDS ${installed_pages})
+if(TARGET manual)
+  add_dependencies(manual pages)
+endif()
+install(DIRECTORY ${claystack_share}/pages/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/claystack
+  COMPONENT program OPTIONAL)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/claystack/docs COMPONENT program
-  FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
+  FILES_MATCHING PATTERN "*.svg" PATTERN "*.png")
 
 if(CLAYSTACK_STUDIO)
   set(desktop ${PROJECT_SOURCE_DIR}/app/desktop)

@@ -1,6 +1,7 @@
 # cmake -DSOURCE=... -DBUILD=... -DWORK=... [-DCXX=...] -P consumer.cmake: installs, then builds
-# separate programs against the installed copy with CMake and with pkg-config. Then installs the
-# engine alone, which must not need heavy libraries.
+# separate programs against the installed copy with CMake and with pkg-config. The links of the
+# installed pages must lead to installed files. Then installs the engine alone, which must not need
+# heavy libraries.
 
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
@@ -11,6 +12,8 @@ file(REMOVE_RECURSE ${WORK}/full ${WORK}/engine)
 
 # All components, from the build under test.
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/full)
+find_program(PYTHON3 python3 REQUIRED)
+run(${PYTHON3} ${SOURCE}/tests/docs.py --links ${WORK}/full/share/doc)
 run(${CMAKE_COMMAND} -S ${SOURCE}/samples/consumer -B ${WORK}/consumer -G Ninja
   -DCMAKE_PREFIX_PATH=${WORK}/full -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${WORK}/consumer)

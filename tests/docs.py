@@ -4,7 +4,10 @@
 Lines have at most 100 columns. Links lead to a file and a heading. The files, rooms, presets, build
 options and options of commands that the pages name exist. The programs of the pages are those of
 samples/consumer. The commands of the maker's guide work as pasted, and print the numbers that the
-page states."""
+page states.
+
+docs.py --links FOLDER: only the links, of the pages in a folder, such as those of an installed
+copy."""
 
 import functools
 import json
@@ -148,16 +151,31 @@ def differences_of_the_guide(program):
     yield from (f"the guide has no command: {start}" for start, _, _ in stated)
 
 
-def main():
-    program = str(pathlib.Path(sys.argv[1]).resolve())
-    faults = [*missing_rooms()]
+def faults_of_links(folder):
+    pages = sorted(folder.rglob("*.md"))
+    if not pages:
+        yield f"there are no pages in {folder}"
+    for page in pages:
+        yield from (f"{page.relative_to(folder)}: {fault}" for fault in broken_links(page, page.read_text()))
+
+
+def faults_of_the_tree(program):
+    yield from missing_rooms()
     for page in PAGES:
         text = page.read_text()
         for fault in [*long_lines(text), *broken_links(page, text), *missing_files(text), *unknown_options(text, program),
                       *unknown_build_names(text), *untested_programs(text)]:
-            faults.append(f"{page.relative_to(ROOT)}: {fault}")
-    faults += [f"docs/makers-guide.md: {fault}" for fault in differences_of_the_guide(program)]
-    print("\n".join(faults) or f"{len(PAGES)} pages agree with the tree and the program")
+            yield f"{page.relative_to(ROOT)}: {fault}"
+    yield from (f"docs/makers-guide.md: {fault}" for fault in differences_of_the_guide(program))
+
+
+def main():
+    if sys.argv[1] == "--links":
+        faults, agreement = [*faults_of_links(pathlib.Path(sys.argv[2]))], "all links lead to files"
+    else:
+        faults = [*faults_of_the_tree(str(pathlib.Path(sys.argv[1]).resolve()))]
+        agreement = f"{len(PAGES)} pages agree with the tree and the program"
+    print("\n".join(faults) or agreement)
     return 1 if faults else 0
 
 

@@ -4,6 +4,7 @@
 #include "core/file_reader.hpp"
 #include "core/json/located_json.hpp"
 #include "core/system_calls.hpp"
+#include "core/text.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -102,11 +103,11 @@ Result<void> ResultFile::read_done() {
 
 Result<void> ResultFile::read_line(std::string_view line, std::size_t number) {
   const auto document = LocatedJson::from_json(line, path_, SIZE_MAX, number);
-  if (!document) return tl::make_unexpected(document.error());
+  if (!document || !is_result(document->root()))
+    return failure(ErrorKind::bad_input,
+                   fmt::format("{}:{}: expected a result of claystack batch, found {}", path_,
+                               number, line.empty() ? "an empty line" : kind_of_file(line)));
   const Json& one = document->root();
-  if (!is_result(one))
-    return tl::make_unexpected(
-        document->error_at({}, "expected a result of claystack batch, found something else"));
   const auto status = one.at("status").get<int>();
   if (status == kDone || status == kUnsound)
     done_[key_of(one.at("run"), one.at("id").get<std::string>())] = status;
@@ -119,7 +120,7 @@ Result<void> ResultFile::remove_unfinished(std::string_view rest, std::uint64_t 
   const std::string begin = fmt::format(R"({{"schema":"{}",)", kBatchSchema);
   if (!rest.starts_with(begin) && !begin.starts_with(rest))
     return failure(ErrorKind::bad_input,
-                   path_ + ": expected results of claystack batch, found something else");
+                   path_ + ": expected a result of claystack batch, found " + kind_of_file(rest));
   if (::ftruncate(descriptor_, static_cast<off_t>(size - rest.size())) != 0)
     return io_failure("cannot remove the unfinished last line");
   return {};

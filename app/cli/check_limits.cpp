@@ -1,6 +1,7 @@
 // The limits on a mesh that are not about its soundness: its walls, its size, its undersides.
 
 #include "app/cli/check.hpp"
+#include "core/size_text.hpp"
 #include "core/text.hpp"
 
 #include "claystack/export/repair.hpp"

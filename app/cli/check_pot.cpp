@@ -5,6 +5,7 @@
 #include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
 #include "claystack/export/walls.hpp"
+#include "core/size_text.hpp"
 
 #include <fmt/format.h>
 

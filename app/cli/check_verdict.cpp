@@ -1,5 +1,6 @@
 #include "app/cli/check.hpp"
 #include "app/cli/export_json.hpp"
+#include "core/size_text.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>

@@ -5,6 +5,8 @@
 #include "claystack/export/job.hpp"
 #endif
 
+#include "core/size_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,11 +56,13 @@ void print_collapse(const Console& console, const Json& summary) {
   if (!summary["collapsed"].get<bool>()) return;
   const Json& fall = summary["collapse"];
   const auto ring = fall["ring"].get<std::size_t>();
+  const auto carried = fall["stress_kpa"].get<double>(), most = fall["threshold_kpa"].get<double>();
+  const int decimals = decimals_apart(carried, most, 3);
   const std::string reason =
       fall["parted"].get<bool>()
           ? fmt::format("ring {} no longer touches the ring above it", ring)
-          : fmt::format("ring {} carried {:.3f} kPa, more than the limit of {:.3f} kPa", ring,
-                        fall["stress_kpa"].get<double>(), fall["threshold_kpa"].get<double>());
+          : fmt::format("ring {} carried {:.{}f} kPa, more than the limit of {:.{}f} kPa", ring,
+                        carried, decimals, most, decimals);
   console.print(
       fmt::format("collapsed: {}; the part above came to rest, tilted by {:.0f} degrees; it lost "
                   "{:.1f} mJ of energy, {:.1f} mJ of that by deforming the clay below",

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -111,11 +110,6 @@ int unexpected(const char* what) noexcept try {
 }
 
 }  // namespace
-
-std::string size_text(double size, int decimals) {
-  const bool small = size != 0.0 && std::abs(size) < std::pow(10.0, 1 - decimals);
-  return small ? fmt::format("{:.2g}", size) : fmt::format("{:.{}f}", size, decimals);
-}
 
 void put_out(std::string_view text) noexcept {
   erase_line();

@@ -26,10 +26,6 @@ bool flush_out() noexcept;
 /// Writes text to standard error, unbuffered. Never throws; failures are ignored.
 void put_err(std::string_view text) noexcept;
 
-/// A size for people: with this many decimals, and a small one with two significant digits, so that
-/// nothing is "0.0 mm" wide.
-[[nodiscard]] std::string size_text(double size, int decimals);
-
 struct Console {
   bool json = false;          ///< data as JSON on stdout
   bool quiet = false;         ///< no progress, no summary: errors and requested data only

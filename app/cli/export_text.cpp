@@ -2,6 +2,7 @@
 
 #include "app/cli/export_figures.hpp"
 #include "app/cli/maker_table.hpp"
+#include "core/size_text.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>
@@ -90,10 +91,11 @@ void print_smoothing(const Console& console, const ExportReport& report) {
         first->from_mm, first->to_mm, first->smoothed_mm));
   }
   if (report.walls.as_steps_mm)
-    console.warn(fmt::format(
-        "exact smoothing gives a wall of {:.3f} mm at height {:.1f} mm, where the "
-        "unsmoothed wall is at least {:.3f} mm; --smooth none keeps the steps",
-        report.walls.min_wall_mm, report.walls.thinnest.from.y, *report.walls.as_steps_mm));
+    console.warn(
+        fmt::format("exact smoothing gives a wall of {} mm at height {:.1f} mm, where the "
+                    "unsmoothed wall is at least {} mm; --smooth none keeps the steps",
+                    bound_text(report.walls.min_wall_mm, 3), report.walls.thinnest.from.y,
+                    bound_text(*report.walls.as_steps_mm, 3)));
   if (report.section.smoothed.taken_mm >= kLeastShownMm)
     console.warn(
         fmt::format("smoothing may have thinned walls by {:.2g} mm, because no other clay "
@@ -120,10 +122,10 @@ void print_solid(const Console& console, const ExportReport& report) {
       report.size.triangles, counted(report.size.shells, "shell")));
   console.detail(
       fmt::format("volume {:.3f} cm3, relative difference {}to the counted clay {:.1e}; minimum "
-                  "wall {:.2f} mm at {}; chordal error {:.3g} mm",
+                  "wall {} mm at {}; chordal error {:.3g} mm",
                   report.volume.solid_mm3 / 1000.0, report.collapsed ? "with overlap " : "",
-                  report.volume.error_relative, report.thinnest_mm(), thinnest_height(report),
-                  report.size.chordal_error_mm));
+                  report.volume.error_relative, bound_text(report.thinnest_mm(), 2),
+                  thinnest_height(report), report.size.chordal_error_mm));
   if (!report.walls.parts.empty())
     console.detail("thinnest places: " + solid::text_of(report.walls.parts));
   print_shrinkage(console, report);

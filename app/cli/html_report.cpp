@@ -4,6 +4,7 @@
 #include "app/cli/maker_table.hpp"
 #include "app/cli/wall_map_figure.hpp"
 #include "core/base64.hpp"
+#include "core/size_text.hpp"
 #include "core/svg_writer.hpp"
 #include "core/text.hpp"
 

@@ -12,6 +12,7 @@
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
+#include "core/size_text.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>

@@ -4,11 +4,13 @@
 #include "app/cli/mesh_input.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
+#include "app/import/mesh_warnings.hpp"
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/export/formats.hpp"
 #include "claystack/export/proof.hpp"
+#include "core/size_text.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>
@@ -32,49 +34,6 @@ constexpr std::uint64_t kImportBytesPerTriangle = 100;
 constexpr const char* kScaleHint = "; --height MM scales it";
 
 Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
-/// Of a mesh that is not closed or not oriented outward.
-std::vector<std::string> warnings_about(const solid::MeshEnclosure& found) {
-  const auto at = [](const glm::dvec3& p) {
-    return fmt::format("the first at ({}, {}, {}) mm", nine_digit_text(p.x), nine_digit_text(p.y),
-                       nine_digit_text(p.z));
-  };
-  std::vector<std::string> warnings;
-  if (found.open_edges > 0)
-    warnings.push_back(
-        fmt::format("expected a closed mesh, found {}, {}; an open mesh has no volume, and a "
-                    "surface without thickness becomes solid clay: check --repair --thicken MM "
-                    "gives it walls",
-                    counted(found.open_edges, "open edge"), at(found.open_at)));
-  if (found.flipped_edges > 0)
-    warnings.push_back(
-        fmt::format("expected triangles that all face outward, found {} between triangles of "
-                    "opposite orientation, {}; the mesh has no volume",
-                    counted(found.flipped_edges, "edge"), at(found.flipped_at)));
-  if (found.inward())
-    warnings.emplace_back(
-        "expected triangles that face outward, found them facing inward: read as reversed");
-  return warnings;
-}
-
-/// Of the noise of the mesh, and of rings that are farther from the section than they were to be.
-std::vector<std::string> warnings_about(const MeshPot& made, bool rings_asked) {
-  std::vector<std::string> warnings;
-  if (made.noise_mm > 0.0)
-    warnings.push_back(fmt::format(
-        "expected points on a surface of revolution, found noise of about {:.3f} mm (standard "
-        "deviation): faces that rise by less are made level, and the rings may deviate by {:.3f} "
-        "mm",
-        made.noise_mm, made.aimed_mm));
-  if (!rings_asked && made.off_mm > made.aimed_mm)
-    warnings.push_back(
-        fmt::format("expected rings within {:.3f} mm of the section, found {:.3f} mm; rings "
-                    "lower than {:.4g} mm are not closer: smooth the mesh, or set the height with "
-                    "--ring-height",
-                    made.aimed_mm, made.off_mm, made.pot.stack.ring_height_mm()));
-  if (const auto gap = gap_warning(made.pot.stack)) warnings.push_back(*gap + " (--ring-height)");
-  return warnings;
-}
 
 Json summary(const std::string& name, const solid::TriangleMesh& mesh,
              const std::optional<double>& mesh_mm3, const MeshPot& made,
@@ -150,10 +109,8 @@ void print_summary(const Console& console, const MeshPot& made,
 std::vector<std::string> all_warnings(const std::string& path, const MeshPotSettings& settings,
                                       const MeshPot& made, const solid::MeshEnclosure& enclosure,
                                       const std::optional<std::string>& doubt) {
-  std::vector<std::string> warnings;
-  for (const auto& found :
-       {warnings_about(enclosure), warnings_about(made, settings.rings.ring_height_mm.has_value())})
-    for (const std::string& warning : found) warnings.push_back(path + ": " + warning);
+  std::vector<std::string> warnings = mesh_warnings(made, enclosure, settings.rings);
+  for (std::string& warning : warnings) warning = path + ": " + warning;
   constexpr double kUsualPotMm = 10.0;
   if (settings.height_mm && *settings.height_mm < kUsualPotMm)
     warnings.push_back(

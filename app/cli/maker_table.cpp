@@ -1,9 +1,9 @@
 #include "app/cli/maker_table.hpp"
 
+#include "core/size_text.hpp"
+
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace clay::cli {
@@ -144,15 +144,8 @@ void print_maker_table(const Console& console, const Json& numbers, const std::s
   row("verdict", verdict);
 }
 
-std::string at_least_mm(double bound_mm, int digits) {
-  constexpr int kMostDigits = 9;
-  if (bound_mm > 0.0)  // at least two significant digits
-    digits =
-        std::clamp(1 - static_cast<int>(std::floor(std::log10(bound_mm))), digits, kMostDigits);
-  const double scale = std::pow(10.0, digits);
-  // A bound that prints as itself stays, in spite of its rounding as a double.
-  return fmt::format("at least {:.{}f} mm", std::floor(bound_mm * scale * (1.0 + 1e-12)) / scale,
-                     digits);
+std::string at_least_mm(double bound_mm, int decimals) {
+  return "at least " + bound_text(bound_mm, decimals) + " mm";
 }
 
 }  // namespace clay::cli

@@ -22,6 +22,6 @@ void print_maker_table(const Console& console, const Json& numbers, const std::s
                        const std::string& verdict);
 
 /// "at least 4.97 mm", rounded down.
-[[nodiscard]] std::string at_least_mm(double bound_mm, int digits);
+[[nodiscard]] std::string at_least_mm(double bound_mm, int decimals);
 
 }  // namespace clay::cli

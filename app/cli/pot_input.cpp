@@ -2,6 +2,7 @@
 
 #include "app/cli/memory_room.hpp"
 #include "claystack/core/atomic_file.hpp"
+#include "core/size_text.hpp"
 #include "core/text.hpp"
 #ifdef CLAYSTACK_EXPORT
 #include "claystack/engine/clay.hpp"

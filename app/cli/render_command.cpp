@@ -4,6 +4,7 @@
 #include "app/cli/render_job.hpp"
 #include "app/cli/usage.hpp"
 #include "core/number_parsing.hpp"
+#include "core/size_text.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>

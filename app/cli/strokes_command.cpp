@@ -54,7 +54,7 @@ Result<void> make_session(const StrokesOptions& options, Console console) {
   auto poses = poses_of(options, scene);
   if (!poses) return tl::make_unexpected(poses.error());
   const std::size_t count = poses->size();
-  const double seconds = count > 0 ? 1e-6 * static_cast<double>(poses->back().time_us) : 0.0;
+  const double seconds = count > 0 ? static_cast<double>(poses->back().time_us) / 1e6 : 0.0;
   const Session session{scene.name, hash_of(scene), std::move(*poses), false};
   if (auto done = publish(options.session, write_session(session)); !done) return done;
   console.print(fmt::format("session: {}, {:.1f} s, {} poses", options.session, seconds, count));
@@ -71,7 +71,7 @@ void add_strokes_command(CLI::App& app, Console& console, int& exit) {
       "strokes", "Make a session from a stroke script, with a simulated hand on the scene's wheel");
   add_file(*command, "scene", options->scene, "NAME.scene.json, or - for standard input")
       ->required();
-  add_file(*command, "script", options->script, "NAME.strokes.json (docs/files.md)")->required();
+  add_file(*command, "script", options->script, "NAME.strokes.json; docs/files.md")->required();
   add_file(*command, "-o,--output", options->session,
            "Session file to write, NAME.session, or - for standard output")
       ->required();

@@ -55,6 +55,16 @@ std::string unknown_argument(const CLI::App& command, std::string_view word) {
   return fmt::format("unknown option {}{}", word, suggestion(option, names));
 }
 
+/// "expected pot (NAME.pot.json or - for standard input), found none": of an argument without
+/// dashes the first clause of its help.
+std::string missing(const CLI::App& command, const std::string& name) {
+  const CLI::Option* option = command.get_option_no_throw(name);
+  if (!option || !option->get_positional()) return fmt::format("expected {}, found none", name);
+  const std::string help = option->get_description();
+  return fmt::format("expected {} ({}), found none", name,
+                     help.substr(0, help.find_first_of(":;")));
+}
+
 /// "Could not convert: --at = abc" of the parser.
 std::string not_a_number(std::string_view text) {
   const std::string_view rest = after(text, ": ");
@@ -79,7 +89,7 @@ std::string message_of(const CLI::App& app, const CLI::ParseError& error) {
         return unknown_argument(command_of(app), word);
       if (app.get_require_subcommand_min() > 0 && app.get_subcommands().empty())
         return "expected a command, found none";
-      return fmt::format("expected {}, found none", before(text, " is required"));
+      return missing(command_of(app), std::string(before(text, " is required")));
     case CLI::ExitCodes::ExtrasError:
       return unknown_argument(command_of(app), unknown_word(command_of(app)));
     case CLI::ExitCodes::ConversionError:

@@ -11,16 +11,16 @@
 
 namespace clay::importing {
 
-/// Where the pot's axis is in the drawing.
+/// Where the pot's axis is in the drawing: as asked for, and, in a HalfSection, as it was found.
 enum class AxisRule {
-  by_itself,  ///< the file's zero if it has one; the axis line of the drawing; the mirror line of
-              ///< a symmetric drawing; a straight edge at the right end if there is none at the
-              ///< left; otherwise the left end
-  left,       ///< the left end of the drawing
-  middle,     ///< the middle between its ends; the left half is ignored
+  by_itself,  ///< only asked for: the file's zero if it has one, which gives `at`; otherwise the
+              ///< first that fits of `line`, `middle`, `right` and `left`
+  left,       ///< the left end of the drawing; by itself: what remains
+  middle,     ///< the middle between its ends; by itself: the mirror line of a symmetric drawing.
+              ///< The left half is ignored
   at,         ///< HalfSectionSettings::axis_mm
-  right,      ///< of a result: the right end, a straight edge of outlines drawn left of it
-  line,       ///< of a result: a straight vertical line that no other line meets at its ends
+  right,      ///< the right end; by itself: a straight edge of outlines drawn left of it
+  line,       ///< only found: a straight vertical line that no other line meets at its ends
 };
 
 struct HalfSectionSettings {

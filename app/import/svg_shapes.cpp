@@ -11,7 +11,6 @@
 #include <array>
 #include <iterator>
 #include <map>
-#include <new>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -19,10 +18,8 @@
 namespace clay::importing {
 namespace {
 
-constexpr int kDeepest = 200;                        // elements within elements
-constexpr std::size_t kMostElements = 200'000;       // counted again at each use
-constexpr std::size_t kMostCopied = 2 * kMostBytes;  // bytes of attributes, again at each use
-constexpr std::string_view kSvgSpace = "http://www.w3.org/2000/svg";
+constexpr int kDeepest = 200;                   // elements within elements
+constexpr std::size_t kMostElements = 200'000;  // counted again at each use
 
 /// The attributes that are the geometry of a shape. Without a needed one it draws nothing, as a
 /// path whose nodes were deleted.
@@ -57,13 +54,6 @@ bool of_svg(const xmlNode* node) {
   return node->type == XML_ELEMENT_NODE && (node->ns == nullptr || address_of(node) == kSvgSpace);
 }
 
-/// A number with a unit of a length on paper. Programs differ in the length of a px.
-bool has_unit(std::string_view length) {
-  constexpr std::array<std::string_view, 6> kUnits = {"mm", "cm", "in", "pt", "pc", "q"};
-  return !length.empty() && length.find_first_of("+-.0123456789") == 0 &&
-         std::ranges::any_of(kUnits, [&](auto unit) { return ends_ignoring_case(length, unit); });
-}
-
 /// Properties that children inherit from their parents.
 struct Inherited {
   bool visible = true;
@@ -76,11 +66,11 @@ struct Inherited {
 class Copier {
  public:
   Copier(xmlDoc& drawing, const std::string& layer, const std::string& name)
-      : name_(name), layer_(layer), result_(xmlNewDoc(nullptr), &xmlFreeDoc) {
+      : name_(name), layer_(layer) {
     index(xmlDocGetRootElement(&drawing));
   }
 
-  Result<SvgShapes> copy(xmlNode* root) {
+  Result<SvgShapes> shapes(xmlNode* root) {
     Inherited page;
     page.in_layer = layer_.empty();
     auto done = element(root, nullptr, page);
@@ -89,7 +79,7 @@ class Copier {
     if (!layer_.empty() && !found_layer_)
       return failure(ErrorKind::bad_input, fmt::format("{}: expected a layer \"{}\", found {}",
                                                        name_, shown(layer_), layer_names()));
-    return SvgShapes{std::move(result_), std::move(notes_), unit_stated_};
+    return SvgShapes{copy_.take(), std::move(notes_), copy_.unit_stated()};
   }
 
  private:
@@ -157,7 +147,7 @@ class Copier {
       const auto functions = svg_transform(*transform, value(SvgProperty::transform_origin));
       if (!functions) return refusal(node, functions.error().message);
       if (parent == nullptr) return viewport(node, node, parent, state, *functions);
-      parent = transformed(node, parent, *functions);
+      parent = copy_.add_group(node, parent, *functions);
     }
     if (kind == "use") return use(node, parent, state);
     if (kind == "svg") return viewport(node, node, parent, state);
@@ -174,9 +164,9 @@ class Copier {
       return !value.empty() && value != "auto" && value != "none";
     });
     if (!drawn) return;
-    xmlNode* copied = add(node, parent, name_of(node));
+    xmlNode* copied = copy_.add(node, parent, name_of(node));
     for (const auto* attributes : {&geometry.needed, &geometry.others})
-      for (const char* attribute : *attributes) copy_attribute(node, copied, attribute);
+      for (const char* attribute : *attributes) copy_.copy_attribute(node, copied, attribute);
   }
 
   Result<void> count(xmlNode* node) {
@@ -188,10 +178,10 @@ class Copier {
 
   /// Refuses the drawing if an attribute was left out because of their limit.
   [[nodiscard]] Result<void> check_copied() const {
-    if (left_out_of_ == nullptr) return {};
-    return refusal(left_out_of_,
+    if (copy_.left_out_of() == nullptr) return {};
+    return refusal(copy_.left_out_of(),
                    fmt::format("expected attributes of at most {} MiB with all uses, found more",
-                               kMostCopied >> 20));
+                               SvgCopy::kMostBytesOfAttributes >> 20));
   }
 
   /// `on`: the value that switches on; null: every value but "none" does.
@@ -245,8 +235,8 @@ class Copier {
       return refusal(node, fmt::format("use: expected an element that does not use itself, found "
                                        "{} -> {}",
                                        shortened(again, used_.end()), shown(href)));
-    xmlNode* place = add(node, parent, "svg");
-    for (const char* attribute : {"x", "y"}) copy_attribute(node, place, attribute);
+    xmlNode* place = copy_.add(node, parent, "svg");
+    for (const char* attribute : {"x", "y"}) copy_.copy_attribute(node, place, attribute);
     const std::string_view kind = name_of(target->second);
     used_.push_back(href);
     auto done = kind != "symbol" && kind != "svg" ? element(target->second, place, state)
@@ -265,78 +255,23 @@ class Copier {
     return end - begin > kMost ? text + " -> ..." : text;
   }
 
-  xmlNode* transformed(const xmlNode* source, xmlNode* parent, const std::string& functions) {
-    xmlNode* group = add(source, parent, "g");
-    set(group, "transform", functions);
-    return group;
-  }
-
   /// The content of an svg or a symbol; the size is that of `sized`, if it has one. `functions`:
   /// the transform of the page, which applies to all that is on it.
   Result<void> viewport(xmlNode* node, xmlNode* sized, xmlNode* parent, const Inherited& state,
                         const std::string& functions = {}) {
     if (state.depth + 1 > kDeepest)
       return refusal(node, fmt::format("expected elements at most {} deep, found more", kDeepest));
-    xmlNode* copied = add(node, parent, "svg");
-    for (const char* attribute : kViewport) copy_attribute(node, copied, attribute);
+    xmlNode* copied = copy_.add(node, parent, "svg");
+    for (const char* attribute : kViewport) copy_.copy_attribute(node, copied, attribute);
     for (const char* attribute : {"width", "height"}) {
       if (sized != node && !svg_attribute(sized, attribute).empty())
-        set(copied, attribute, svg_attribute(sized, attribute));
+        copy_.set(copied, attribute, svg_attribute(sized, attribute));
     }
-    if (parent == nullptr) size_page(copied);
-    if (!functions.empty()) copied = transformed(node, copied, functions);
+    if (parent == nullptr) copy_.size_page(copied);
+    if (!functions.empty()) copied = copy_.add_group(node, copied, functions);
     Inherited inside = state;
     ++inside.depth;
     return children(node, copied, inside);
-  }
-
-  /// A page in percent has no absolute size. A missing width or height, or both, is taken from its
-  /// view box.
-  void size_page(xmlNode* page) {
-    for (const char* attribute : {"width", "height"})
-      if (svg_attribute(page, attribute).ends_with('%'))
-        xmlUnsetProp(page, reinterpret_cast<const xmlChar*>(attribute));
-    const std::string width = svg_attribute(page, "width"), height = svg_attribute(page, "height");
-    const auto box = svg_numbers(svg_attribute(page, "viewBox"));
-    if (box.size() != 4 || !(box[2] > 0.0 && box[3] > 0.0)) return;
-    if (width.empty() && height.empty()) {
-      set(page, "width", number_text(box[2]));
-      set(page, "height", number_text(box[3]));
-    }
-    if (width.empty() && !height.empty()) set(page, "width", svg_scaled(height, box[2] / box[3]));
-    if (height.empty() && !width.empty()) set(page, "height", svg_scaled(width, box[3] / box[2]));
-  }
-
-  xmlNode* add(const xmlNode* source, xmlNode* parent, std::string_view kind) {
-    xmlNode* node =
-        xmlNewDocNode(result_.get(), nullptr,
-                      reinterpret_cast<const xmlChar*>(std::string(kind).c_str()), nullptr);
-    if (node == nullptr) throw std::bad_alloc();
-    node->line = source->line;
-    if (parent == nullptr) {
-      xmlDocSetRootElement(result_.get(), node);
-      space_ = xmlNewNs(node, reinterpret_cast<const xmlChar*>(kSvgSpace.data()), nullptr);
-    } else {
-      xmlAddChild(parent, node);
-    }
-    xmlSetNs(node, space_);
-    return node;
-  }
-
-  void set(xmlNode* node, const char* attribute, const std::string& value) {
-    if ((copied_ += value.size()) > kMostCopied) {
-      if (left_out_of_ == nullptr) left_out_of_ = node;
-      return;
-    }
-    const xmlAttr* added = xmlSetProp(node, reinterpret_cast<const xmlChar*>(attribute),
-                                      reinterpret_cast<const xmlChar*>(value.c_str()));
-    if (added == nullptr || (added->children == nullptr && !value.empty())) throw std::bad_alloc();
-  }
-
-  void copy_attribute(xmlNode* from, xmlNode* to, const char* attribute) {
-    const std::string value = svg_attribute(from, attribute);
-    if (!value.empty() && value != "auto") set(to, attribute, value);
-    unit_stated_ = unit_stated_ || has_unit(value);
   }
 
   [[nodiscard]] tl::unexpected<Error> refusal(const xmlNode* node,
@@ -347,17 +282,15 @@ class Copier {
 
   const std::string& name_;
   const std::string& layer_;
-  XmlDocument result_;
-  xmlNs* space_ = nullptr;  ///< of the result
+  SvgCopy copy_;
   SvgStyles styles_;
   std::map<std::string, xmlNode*> ids_;
   std::vector<std::string> used_;          ///< the references within which the element is
   std::set<std::string> layers_, groups_;  ///< names of layers of Inkscape, and of other groups
-  bool found_layer_ = false, unit_stated_ = false;
+  bool found_layer_ = false;
   std::vector<std::string> notes_;
   std::set<std::string_view> noted_;  // kinds that have a note
-  std::size_t count_ = 0, copied_ = 0;
-  const xmlNode* left_out_of_ = nullptr;  ///< of the result: the first that lacks an attribute
+  std::size_t count_ = 0;
 };
 
 }  // namespace
@@ -368,7 +301,7 @@ Result<SvgShapes> svg_shapes(xmlDoc& drawing, const std::string& layer, const st
     return failure(ErrorKind::bad_input,
                    fmt::format("{}:{}: expected an SVG drawing, found the element \"{}\"", name,
                                xmlGetLineNo(root), shown(name_of(root))));
-  return Copier(drawing, layer, name).copy(root);
+  return Copier(drawing, layer, name).shapes(root);
 }
 
 }  // namespace clay::importing

@@ -2,17 +2,13 @@
 // The visible parts of an SVG drawing, as a plain drawing: groups and shapes with their geometry
 // alone.
 
+#include "app/import/svg_copy.hpp"
 #include "claystack/core/result.hpp"
 
-#include <libxml/tree.h>
-
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace clay::importing {
-
-using XmlDocument = std::unique_ptr<xmlDoc, decltype(&xmlFreeDoc)>;
 
 struct SvgShapes {
   XmlDocument document;

@@ -1,25 +1,18 @@
 // The part of the Python package in C++: values and arrays. claystack/__init__.py makes dataclasses
 // of them.
 
-#include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
-#include "app/cli/session_check.hpp"
-#include "app/import/drawn_pot.hpp"
-#include "app/import/mesh_pot.hpp"
+#include "app/python/made_pot.hpp"
 #include "claystack/core/atomic_file.hpp"
-#include "claystack/engine/files.hpp"
-#include "claystack/engine/wheel.hpp"
 #include "claystack/export/formats.hpp"
 #include "claystack/export/job.hpp"
 #include "claystack/export/proof.hpp"
 #include "claystack/version.hpp"
-#include "core/text.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <cmath>
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -93,80 +86,8 @@ py::array quanta_of(const std::shared_ptr<Pot>& pot) {
                py::cast(pot));
 }
 
-std::shared_ptr<Pot> read_pot(const std::string& path) {
-  return std::make_shared<Pot>(value_of(cli::read_pot(path)));
-}
-
-void write_pot(const Pot& pot, const std::string& path) {
-  const auto encoding = cli::pot_encoding_of(path);
-  if (!encoding)
-    throw Failed{
-        {ErrorKind::bad_input, path + ": expected a name that ends in .pot.json or .pot.cbor"}};
-  value_of(publish(path, clay::write_pot(pot, *encoding)));
-}
-
-/// A pot, and what the command line warns of when it makes it.
-struct MadePot {
-  std::shared_ptr<Pot> pot;
-  std::vector<std::string> warnings;
-};
-
-MadePot throw_pot(const std::string& scene_path, const std::string& session_path) {
-  const SceneSpec scene = value_of(read_file(scene_path).and_then([&](const std::string& text) {
-    return parse_scene(text, scene_path);
-  }));
-  const Session session =
-      value_of(read_file(session_path, kMaxSessionBytes).and_then([&](const std::string& text) {
-        return parse_session(text, session_path);
-      }));
-  const cli::ReplayFiles files{session_path, scene_path, {}};
-  value_of(cli::check_gaps(session, scene, files));
-  Wheel wheel = value_of(Wheel::build(scene).map_error([&](Error error) {
-    return Error{error.kind, scene_path + ": " + error.message};
-  }));
-  std::size_t refused = 0;
-  bool ring_limit = false;
-  for (const Pose& pose : session.poses) {
-    const auto flags = wheel.step(pose).flags;
-    refused += (flags & kRefused) != 0;
-    ring_limit = ring_limit || (flags & kRingLimit) != 0;
-  }
-  std::vector<std::string> warnings = cli::session_warnings(session, scene, files);
-  for (std::string& warning : cli::replay_warnings(refused, ring_limit))
-    warnings.push_back(std::move(warning));
-  return {std::make_shared<Pot>(wheel.pot()), std::move(warnings)};
-}
-
-/// One ring from its radii; `number` is its place in the stack, for the message.
-Ring ring_of(std::size_t number, double outer_mm, double inner_mm) {
-  const auto refuse = [&](const std::string& problem) {
-    throw Failed{{ErrorKind::bad_input, "ring " + std::to_string(number) + ": " + problem}};
-  };
-  for (const double radius : {outer_mm, inner_mm})
-    if (!(radius >= 0.0 && radius <= kMaxRadiusMm))
-      refuse("expected radii from 0 to 5000 mm, found " + number_text(radius));
-  if (!(inner_mm < outer_mm))
-    refuse("expected an inner radius below the outer one of " + number_text(outer_mm) +
-           " mm, found " + number_text(inner_mm));
-  return {quanta_from_radius(outer_mm), quanta_from_radius(inner_mm)};
-}
-
-std::shared_ptr<Pot> stacked(double ring_height_mm, const std::vector<double>& outer_mm,
-                             const std::vector<double>& inner_mm, double density_g_cm3) {
-  if (outer_mm.empty())
-    throw Failed{{ErrorKind::bad_input, "outer_mm: expected one ring or more, found none"}};
-  if (outer_mm.size() != inner_mm.size())
-    throw Failed{{ErrorKind::bad_input, "inner_mm: expected one radius for each of outer_mm"}};
-  std::vector<Ring> rings;
-  for (std::size_t i = 0; i < outer_mm.size(); ++i)
-    rings.push_back(ring_of(i, outer_mm[i], inner_mm[i]));
-  const std::size_t count = rings.size();
-  ClayStack stack = value_of(ClayStack::from_rings(ring_height_mm, std::move(rings), 0, count));
-  const Ledger ledger{.initial = stack.recount()};
-  const Pot pot{std::move(stack), ledger, Model::conserving, density_g_cm3, {}, {}};
-  // The reader of pots has the ranges, such as that of the density.
-  return std::make_shared<Pot>(
-      value_of(parse_pot(clay::write_pot(pot, PotEncoding::cbor), "stack")));
+std::shared_ptr<Pot> shared(Result<Pot> pot) {
+  return std::make_shared<Pot>(value_of(std::move(pot)));
 }
 
 struct ExportSettings {
@@ -291,43 +212,17 @@ py::dict check_mesh(const solid::TriangleMesh& mesh) {
   return dict;
 }
 
-MadePot pot_of_mesh(const std::string& path, solid::MeshFormat format) {
-  const std::string bytes = value_of(read_file(path));
-  solid::TriangleMesh mesh = value_of(solid::decode_mesh(bytes, format, path));
-  importing::MeshPot made = value_of(importing::mesh_pot(std::move(mesh), {}, path));
-  std::vector<std::string> warnings;
-  if (!made.parts.empty())
-    warnings.push_back(path +
-                       ": not of revolution, left out: " + counted(made.parts.size(), "part"));
-  return {std::make_shared<Pot>(std::move(made.pot)), std::move(warnings)};
-}
-
-MadePot pot_of_drawing(const std::string& path) {
-  const std::string bytes = value_of(read_file(path));
-  importing::HalfSection section = value_of(importing::read_half_section(bytes, path, {}, {}));
-  importing::DrawnPot drawn = value_of(importing::drawn_pot(section, {}, path));
-  return {std::make_shared<Pot>(std::move(drawn.pot)), std::move(section.notes)};
-}
-
-MadePot import_pot(const std::string& path) {
-  const auto format = solid::mesh_format_of(path);
-  MadePot made = format ? pot_of_mesh(path, *format) : pot_of_drawing(path);
-  if (const auto gap = importing::gap_warning(made.pot->stack))
-    made.warnings.push_back(path + ": " + *gap);
-  return made;
-}
-
 /// Calls `make`, while other threads of Python run; returns the pot, and a list of the warnings.
 template <class Make>
 py::tuple with_warnings(const Make& make) {
   MadePot made;
   {
     py::gil_scoped_release others_run;
-    made = make();
+    made = value_of(make());
   }
   py::list warnings;
   for (const std::string& warning : made.warnings) warnings.append(text_of(warning));
-  return py::make_tuple(made.pot, warnings);
+  return py::make_tuple(std::make_shared<Pot>(std::move(made.pot)), warnings);
 }
 
 void add_types(py::module_& module) {
@@ -353,13 +248,23 @@ void add_types(py::module_& module) {
 
 void add_functions(py::module_& module) {
   const auto released = py::call_guard<py::gil_scoped_release>();
-  module.def("read_pot", &read_pot, released);
-  module.def("write_pot", &write_pot, released);
+  module.def(
+      "read_pot", [](const std::string& path) { return shared(cli::read_pot(path)); }, released);
+  module.def(
+      "write_pot",
+      [](const Pot& pot, const std::string& path) { value_of(write_named_pot(pot, path)); },
+      released);
   module.def("throw_pot", [](const std::string& scene, const std::string& session) {
     return with_warnings([&] { return throw_pot(scene, session); });
   });
-  module.def("stacked", &stacked, py::arg("ring_height_mm"), py::arg("outer_mm"),
-             py::arg("inner_mm"), py::arg("density_g_cm3"));
+  module.def(
+      "stacked",
+      [](double ring_height_mm, const std::vector<double>& outer_mm,
+         const std::vector<double>& inner_mm, double density_g_cm3) {
+        return shared(stacked(ring_height_mm, outer_mm, inner_mm, density_g_cm3));
+      },
+      py::arg("ring_height_mm"), py::arg("outer_mm"), py::arg("inner_mm"),
+      py::arg("density_g_cm3"));
   module.def("export_pot", &export_pot);
   module.def("mesh_of", &mesh_of);
   module.def("read_mesh", &read_mesh);

@@ -304,10 +304,12 @@ TEST_F(Batch, RefusesAResultFileOfAnotherKind) {
   write_jobs({thrown("a.pot.json")});
   // With and without a line feed at the end, as JSON on one line and meshes have none.
   for (const std::string other : {"{\"other\": 1}\n", "{\"other\": 1}", "solid of bytes",
-                                  "{\"schema\":\"claystack-scene-1\",\"lump\":{}}"}) {
+                                  "{\"schema\":\"claystack-scene-1\",\"lump\":{}}", "# Pots\n"}) {
     write_text(folder.file("results.jsonl"), other);
     const Ran ran = run("-o " + folder.file("results.jsonl"));
     EXPECT_EQ(ran.status, 2) << other;
+    EXPECT_NE(ran.err.find("expected a result"), std::string::npos) << ran.err;
+    EXPECT_EQ(ran.err.find("syntax"), std::string::npos) << ran.err;
     EXPECT_EQ(read_text(folder.file("results.jsonl")), other);
   }
 }

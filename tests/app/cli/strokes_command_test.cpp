@@ -30,6 +30,16 @@ TEST(StrokesCommand, MakesTheSampleSessionAgain) {
   EXPECT_EQ(made.json().at("poses").get<std::size_t>(), parse_session(text, "c")->poses.size());
 }
 
+TEST(StrokesCommand, PrintsTheSecondsOfWholeMicroseconds) {
+  const ScratchFolder folder;
+  const auto made =
+      claystack("strokes --json " + sample("bottle.scene.json") + " " +
+                sample("strokes/bottle.strokes.json") + " -o " + folder.file("b.session"));
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::string seconds = made.json().at("seconds").dump();
+  EXPECT_LE(seconds.size(), std::string("100.000001").size()) << seconds;
+}
+
 TEST(StrokesCommand, NamesTheFileAndThePlaceOfAFault) {
   const ScratchFolder folder;
   test::write_text(folder.file("s.strokes.json"),

@@ -184,6 +184,25 @@ TEST(Throw, ReportsACollapse) {
   EXPECT_GT(fall.at("energy_lost_mj"), fall.at("plastic_work_mj"));
 }
 
+/// The stress grows from tick to tick, so a limit just below that of the fall gives the same fall.
+TEST(Throw, AStressBarelyAboveItsLimitPrintsDifferently) {
+  const ScratchFolder folder;
+  auto scene = nlohmann::json::parse(read_text(sample("collapse.scene.json")));
+  const auto fall =
+      claystack("throw --json " + sample("collapse.scene.json")).json().at("collapse");
+  scene["stability"]["max_stress_kpa"] = fall.at("stress_kpa").get<double>() - 1e-6;
+  write_text(folder.file("near.scene.json"), scene.dump());
+  const std::string near =
+      claystack("throw " + folder.file("near.scene.json") + " -s " + sample("collapse.session"))
+          .out;
+  const auto after = [&](const std::string& mark) {
+    const auto at = near.find(mark);
+    return at == std::string::npos ? 0.0 : std::stod(near.substr(at + mark.size()));
+  };
+  EXPECT_GT(after("carried "), after("more than the limit of ")) << near;
+  EXPECT_GT(after("more than the limit of "), 0.0) << near;
+}
+
 TEST(Throw, APotGoesOnWithoutItsScene) {
   const ScratchFolder folder;
   const std::string scene = sample("bowl.scene.json"), once = folder.file("once.pot.json");

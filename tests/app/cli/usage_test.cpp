@@ -101,7 +101,10 @@ TEST(Usage, ErrorsNameTheOptionTheExpectedAndTheFound) {
   } cases[] = {
       {"--versoin", "unknown option --versoin; did you mean --version?"},
       {"", "expected a command, found none\nrun claystack --help for usage\n"},
-      {"export", "expected pot, found none\nrun claystack export --help for usage\n"},
+      {"export",
+       "expected pot (NAME.pot.json, .pot.cbor, or a .3mf by Claystack, or - for standard input), "
+       "found none\nrun claystack export --help for usage\n"},
+      {"strokes a.scene.json", "expected script (NAME.strokes.json), found none\n"},
       {"import a.svg", "expected --output, found none"},
       {"export a b --segments 2", "--segments: expected a whole number from 3 to 1048576, found 2"},
       {"export a b --smooth soft", "--smooth: expected fair, exact or none, found soft"},

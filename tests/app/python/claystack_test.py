@@ -196,6 +196,18 @@ class Package(unittest.TestCase):
         self.assertIn("cup.svg: expected a page with a size in mm", str(warned.warning))
         self.assertEqual(warned.filename, __file__)
 
+    def test_warns_of_an_open_mesh_as_the_command_line_does(self):
+        whole = claystack.mesh(claystack.stack(2.0, [40.0] * 20, [0.0] * 3 + [34.0] * 17))
+        with open(self.file("open.obj"), "w", encoding="utf-8") as file:
+            file.writelines(f"v {x} {y} {z}\n" for x, y, z in whole.points)
+            file.writelines(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in whole.triangles[1:])
+        with self.assertWarns(UserWarning) as warned:
+            claystack.import_pot(self.file("open.obj"))
+        # A missing triangle leaves three edges with one triangle each.
+        self.assertIn("open.obj: expected a closed mesh, found 3 open edges", str(warned.warning))
+        command = self.run_program("import", self.file("open.obj"), "-o", self.file("open.pot.json"))
+        self.assertIn(f"warning: {warned.warning}\n", command.stderr.decode())
+
     def test_finds_faults_of_a_mesh(self):
         with open(self.file("open.off"), "w", encoding="utf-8") as file:
             file.write("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")

@@ -1,0 +1,19 @@
+#pragma once
+// What the maker of a pot from a mesh should know, for the command line and for Python.
+
+#include "app/import/mesh_pot.hpp"
+
+#include "claystack/export/proof.hpp"
+
+#include <string>
+#include <vector>
+
+namespace clay::importing {
+
+/// About a mesh that is not closed or not oriented outward, its noise, rings that are farther from
+/// the section than they were to be, and rings that do not touch. The name of the mesh is not part
+/// of the text. `rings`: the settings with which the pot was made.
+std::vector<std::string> mesh_warnings(const MeshPot& made, const solid::MeshEnclosure& enclosure,
+                                       const DrawnPotSettings& rings);
+
+}  // namespace clay::importing
