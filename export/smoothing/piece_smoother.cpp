@@ -23,10 +23,11 @@ namespace {
 /// Of the minimum wall with chords, where no requested limit depends on it: a tooth of the noise is
 /// far below it, a lip or a flange whose shape changes a little is above.
 constexpr double kLeastOfChords = 0.5;
-/// Of the tolerance, and of the limit: by so much may a wall become thinner where no minimum is
-/// requested. Otherwise a wall of even thickness could keep all its rings, because the line from a
-/// corner leans a little.
+/// Of the tolerance: by so much may a wall become thinner where no minimum is requested and all
+/// walls are thick. Otherwise a wall of even thickness could keep all its rings, because the line
+/// from a corner leans a little.
 constexpr double kSlack = 1e-3;
+constexpr double kThick = 10.0;  // tolerances
 /// Covers the allowance of a limit, so that whatever passes with chords passes.
 constexpr double kMeetsLimit = 0.99;
 
@@ -44,8 +45,9 @@ class PieceSmoother {
         // Never 0, so that the guard finds and corrects walls that would meet.
         limit_(options.min_wall_mm ? std::max(*options.min_wall_mm, piece.least_step_mm)
                                    : least_own_wall_mm(piece)),
-        slack_mm_(options.mode == Smoothing::fair && !options.min_wall_mm
-                      ? kSlack * std::min(options.tolerance_mm, limit_)
+        slack_mm_(options.mode == Smoothing::fair && !options.min_wall_mm &&
+                          limit_ > kThick * options.tolerance_mm
+                      ? kSlack * options.tolerance_mm
                       : 0.0),
         own_walls_(piece, limit_),
         plan_(piece, fairing_length_mm(piece, options),

@@ -112,7 +112,7 @@ RC_GTEST_PROP(SmoothingPromises, TheMinimumWallIsAtLeastTheLimitOrThatOfTheSteps
     if (found.compact) continue;  // a lump without a wall
     const double slack = 2.0 * made.taken_mm + made.overshoot_mm * 1e-9 +
                          static_cast<double>(largest) * 0x1p-19 +
-                         shapes::wall_slack_mm(options, options.tolerance_mm);
+                         shapes::wall_slack_mm(options, static_cast<double>(largest));
     RC_ASSERT(found.thickness_mm >= least * (1 - 1e-8) - slack);
   }
 }

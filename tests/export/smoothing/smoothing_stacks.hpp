@@ -59,8 +59,10 @@ inline SmoothingOptions options_for(Smoothing mode, double tolerance_mm = 0.02) 
 
 /// By how much `fair` may thin walls at the limit, where that is the thinnest wall of the piece.
 inline double wall_slack_mm(const SmoothingOptions& options, double limit_mm) {
-  if (options.mode != Smoothing::fair || options.min_wall_mm) return 0.0;
-  return 1e-3 * std::min(options.tolerance_mm, limit_mm);
+  const bool thick = limit_mm > 10.0 * options.tolerance_mm;
+  return options.mode == Smoothing::fair && !options.min_wall_mm && thick
+             ? 1e-3 * options.tolerance_mm
+             : 0.0;
 }
 
 /// What `fair` may move a wall to keep the volume.
