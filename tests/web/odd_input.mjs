@@ -115,7 +115,7 @@ export async function keysAndButtons({open}) {
 /// On a phone a text field shows the keyboard of the screen: a field of the page has the focus. The
 /// keyboard composes a word and corrects it.
 export async function typedByFinger(page, tap) {
-  const kNameField = [150, 225];
+  const kNameField = [150, 377];
   await page.focus('#canvas');
   await chord(page, 'KeyS', 'Control');
   await page.says('action: file.save');
