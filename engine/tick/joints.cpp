@@ -86,7 +86,7 @@ bool enters(const Hands& hands, double h, std::size_t i, const Ring& ring,
 }  // namespace
 
 /// Neighbours overlap from r to R. R^2 - r^2 is at most 2 R times the overlap, so no root is
-/// needed. Most stacks have only strong joints; that shows without floating point.
+/// needed. Most stacks have strong joints only, which the least overlap and the widest ring show.
 bool has_weak_joint(std::span<const Ring> rings, double least_mm) noexcept {
   if (rings.size() < 2) return false;
   const double least = std::max(4.0 * least_mm * least_mm * kQuantaPerMm2, 1e-6);
