@@ -250,6 +250,11 @@ void UsbPlug::deliver_writes() {
   }
 }
 
+void UsbPlug::recover() {
+  manners.stalled_writes = 0;
+  deliver_writes();
+}
+
 void UsbPlug::refuse(UMockdevIoctlData* bytes, std::size_t size) {
   gadget_.refused.emplace_back(bytes->data, bytes->data + size);
   g_object_unref(bytes);

@@ -71,6 +71,8 @@ class UsbPlug {
 
   /// Path of the node, for setting its permissions.
   [[nodiscard]] const std::string& node() const { return node_; }
+  /// Ends a stall: the line delivers every write that was not cancelled. Under the gadget's lock.
+  void recover();
   /// Removes the device from the system.
   void pull();
   UsbManners manners;
