@@ -44,8 +44,9 @@ std::optional<std::string> thin_wall_of(const ExportReport& report) {
 }
 
 std::string text_of(const Cavity& cavity) {
-  return fmt::format("closed cavity from {:.1f} to {:.1f} mm ({:.1f} cm3): it needs a drain hole",
-                     cavity.bottom_mm, cavity.top_mm, cavity.volume_mm3 / 1000.0);
+  return fmt::format("closed cavity from {} to {} mm ({} cm3): it needs a drain hole",
+                     size_text(cavity.bottom_mm, 1), size_text(cavity.top_mm, 1),
+                     size_text(cavity.volume_mm3 / 1000.0, 1));
 }
 
 namespace {
@@ -85,7 +86,7 @@ std::optional<std::string> below_each_process(const ExportReport& report) {
   const bool measured = report.walls.min_wall_mm > 0.0 || placed_wall(report) || report.has_solid();
   if (report.walls.limit || !measured || thinnest >= smallest) return std::nullopt;
   const std::string place =
-      placed_wall(report) ? fmt::format(" at a height of {:.1f} mm", report.walls.thinnest.from.y)
+      placed_wall(report) ? " at a height of " + size_text(report.walls.thinnest.from.y, 1) + " mm"
                           : "";
   return fmt::format("thin wall: {} mm{}; no process allows less than {:g} mm",
                      bound_text(thinnest, 3), place, smallest);

@@ -53,7 +53,8 @@ Result<Pot> scaled(const Pot& pot, double radius_factor, double height_factor) {
                                              nine_digit_text(2.0 * radius_mm) + " mm");
   std::vector<Ring> rings;
   rings.reserve(pot.stack.size());
-  // A double represents a radius to the quantum up to 362 mm; so does every file.
+  // A double holds the quanta of radii up to 362 mm exactly; beyond, it loses far less than a mesh
+  // file.
   for (const Ring& ring : pot.stack.rings())
     rings.push_back(times(ring, radius_factor * radius_factor));
   const WideQuanta crown = crown_of(pot.stack, rings.back());

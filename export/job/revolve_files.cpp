@@ -4,6 +4,7 @@
 #include "claystack/export/solid.hpp"
 #include "claystack/export/walls.hpp"
 #include "core/parallel_parts.hpp"
+#include "core/size_text.hpp"
 #include "export/formats/draco_bits.hpp"
 #include "export/formats/file_sizes.hpp"
 #include "export/formats/glb.hpp"
@@ -42,8 +43,8 @@ std::string lost_part(const Profile& profile, double rounding_mm) {
   const Wall wall = min_wall(profile);
   const std::string part =
       wall.thickness_mm < kThin * rounding_mm
-          ? fmt::format("the wall of {:.2g} mm at a height of {:.1f} mm is too thin",
-                        wall.thickness_mm, wall.from.y)
+          ? fmt::format("the wall of {:.2g} mm at a height of {} mm is too thin", wall.thickness_mm,
+                        size_text(wall.from.y, 1))
           : std::string("a part of the pot is too small");
   return fmt::format("{} for a mesh file, whose points are rounded by up to {:.2g} mm (float32): ",
                      part, rounding_mm);

@@ -3,7 +3,7 @@
 #include "claystack/export/proof.hpp"
 #include "claystack/export/smoothing.hpp"
 #include "claystack/export/walls.hpp"
-#include "core/svg_writer.hpp"
+#include "core/size_text.hpp"
 #include "core/text.hpp"
 #include "export/smoothing/lip_fillet.hpp"
 #include "export/smoothing/set_back.hpp"
@@ -17,10 +17,12 @@
 namespace clay::solid::inline smoothing {
 namespace {
 
-std::string mm(double value) { return fixed(value, 2) + " mm"; }
+constexpr int kDecimals = 2;
+
+std::string mm(double value) { return size_text(value, kDecimals) + " mm"; }
 
 /// A limit as text that itself keeps the limit: rounded down.
-std::string at_most_mm(double value) { return mm(std::floor(100.0 * value) / 100.0); }
+std::string at_most_mm(double value) { return bound_text(value, kDecimals) + " mm"; }
 /// The same, rounded up.
 std::string at_least_mm(double value) { return mm(std::ceil(100.0 * value) / 100.0); }
 
@@ -149,8 +151,10 @@ class FloorFillet {
            with_rounded_edge(wall_, radius_mm, radius_mm).touch_rho > 0.0;
   }
   [[nodiscard]] double largest_mm() const {
+    constexpr int kHalvings = 30;
     double low = 0.0, high = wall_.back().y - wall_.front().y;
-    while (high - low > 1e-3) (fits(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+    for (int k = 0; k < kHalvings; ++k)
+      (fits(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
     return low;
   }
 
@@ -202,7 +206,7 @@ class Finisher {
     if (glaze_mm == 0.0) return {};
     const Wall wall = min_wall(made_.profile);
     if (!(wall.thickness_mm > 2.0 * glaze_mm))
-      return too_thin("glaze allowance", 2.0 * glaze_mm, wall);
+      return too_thin("glaze allowance", "more than", 2.0 * glaze_mm, wall);
     return apply("glaze allowance", set_back(lines(), glaze_mm, 0.5 * tolerance_mm_),
                  min_wall_mm_.value_or(0.0), made_.ledger.glaze_trimmed_mm3, -1.0);
   }
@@ -237,18 +241,23 @@ class Finisher {
     const Wall wall = min_wall(changed);
     WallLimit required;
     required.min_wall_mm = required_mm;
-    if (!required.met_by(wall.thickness_mm)) return too_thin(part, required_mm, wall);
+    if (!required.met_by(wall.thickness_mm)) return too_thin(part, "at least", required_mm, wall);
     clay_mm3 = sign * (volume_of(changed) - volume_of(made_.profile));
     made_.profile = std::move(changed);
     return {};
   }
 
-  static tl::unexpected<Error> too_thin(const std::string& part, double required_mm,
-                                        const Wall& wall) {
-    return failure(ErrorKind::unsound, part + ": expected walls of at least " + mm(required_mm) +
-                                           ", found " + mm(wall.thickness_mm) + " at a height of " +
-                                           mm(wall.from.y) + ", " + mm(wall.from.rho) +
-                                           " from the axis");
+  /// With so many digits that a smaller wall prints as one.
+  static tl::unexpected<Error> too_thin(const std::string& part, const std::string& comparison,
+                                        double required_mm, const Wall& wall) {
+    const bool smaller = wall.thickness_mm < required_mm;
+    const int decimals =
+        smaller ? decimals_apart(required_mm, wall.thickness_mm, kDecimals) : kDecimals;
+    return failure(ErrorKind::unsound, part + ": expected walls of " + comparison + " " +
+                                           size_text(required_mm, decimals) + " mm, found " +
+                                           bound_text(wall.thickness_mm, decimals) +
+                                           " mm at a height of " + mm(wall.from.y) + ", " +
+                                           mm(wall.from.rho) + " from the axis");
   }
 
   FinishedProfile made_;

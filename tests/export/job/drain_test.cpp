@@ -44,6 +44,13 @@ TEST(Drain, RefusesUnsupportedRequests) {
   EXPECT_NE(wide.error().message.find("ring 1"), std::string::npos);
 }
 
+TEST(Cavity, PrintsTheDigitsOfASmallVolume) {
+  // A cavity of 0.5 mm radius between 0.25 and 0.5 mm: pi / 16 mm3.
+  const StackProfile section = profile_of(stack_of(0.25, {{2, 0}, {2, 0.5}, {2, 0}})).value();
+  EXPECT_EQ(text_of(section.shapes[0].cavities.at(0)),
+            "closed cavity from 0.25 to 0.5 mm (0.0002 cm3): it needs a drain hole");
+}
+
 TEST(Parts, AreAbsentOrLargeEnoughForTheirFile) {
   const Pot pot = shapes::pot_of(stack_of(2.0, {{30, 0}, {30, 0}, {30, 24}, {30, 24}, {30, 24}}));
   const auto refusal = [&](const ExportOptions& options) {

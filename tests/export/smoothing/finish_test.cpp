@@ -195,8 +195,26 @@ TEST(GlazeAllowance, KeepsTheMinimumWall) {
       << thin.error().message;
   const auto gone = finished(cup(), glaze(3.0), {}, kTolerance);
   ASSERT_FALSE(gone);
-  EXPECT_NE(gone.error().message.find("at least 6.00 mm, found 6.00 mm"), std::string::npos)
+  EXPECT_NE(gone.error().message.find("more than 6.00 mm, found 6.00 mm"), std::string::npos)
       << gone.error().message;
+}
+
+TEST(Finish, PrintsAWallBelowItsLimitWithDigitsThatDiffer) {
+  // Beyond the allowance of 0.1 %, but equal in two decimals.
+  const auto thin = finished(cup(), glaze(1.0), 4.0044, kTolerance);
+  ASSERT_FALSE(thin);
+  EXPECT_NE(thin.error().message.find("at least 4.004 mm, found 4.000 mm"), std::string::npos)
+      << thin.error().message;
+}
+
+TEST(Finish, KeepsTheDigitsOfSmallSizes) {
+  Profile tiny = cup();
+  for (ProfilePoint& p : tiny.pieces.front()) p = {1e-3 * p.rho, 1e-3 * p.y};
+  const auto wide = finished(tiny, fillet(0.05), {}, 1e-6);
+  ASSERT_FALSE(wide);
+  const std::string& message = wide.error().message;
+  EXPECT_NE(message.find("radius of at most 0.033 mm"), std::string::npos) << message;
+  EXPECT_NE(message.find("found 0.05 mm"), std::string::npos) << message;
 }
 
 double distance(const ProfilePoint& p, const ProfilePoint& a, const ProfilePoint& b) {
