@@ -96,7 +96,8 @@ std::vector<std::size_t> FairedCurve::chords_of_intervals(double sagitta_mm) con
   std::vector<double> wanted(intervals_);
   double sum = 0.0;
   for (std::size_t j = 0; j < intervals_; ++j) {
-    wanted[j] = std::ceil(std::sqrt(std::max(bend(j), bend(j + 1)) / (8.0 * sagitta_mm)));
+    const double needed = std::ceil(std::sqrt(std::max(bend(j), bend(j + 1)) / (8.0 * sagitta_mm)));
+    wanted[j] = std::min(needed, kMostPoints);  // infinite for a tiny sagitta
     sum += wanted[j];
   }
   const double share = std::min(1.0, kMostPoints / std::max(sum, 1.0));

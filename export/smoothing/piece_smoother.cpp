@@ -58,17 +58,29 @@ class PieceSmoother {
 
   SmoothedPiece run() {
     do {
+      smooth();
+      result_.section = outline_of(lines_);
+      if (certify({{result_.section}})) {
+        report();
+        return std::move(result_);
+      }
+    } while (options_.mode == Smoothing::fair && undone_everywhere());
+    return stepped();
+  }
+
+ private:
+  void smooth() {
+    result_ = {};
+    do {
       do build();
       while (guard_found_more() || flange_guard_found_more());
       // Compensation moves the walls, and the edge of a flange becomes a little sharper.
     } while (options_.mode == Smoothing::fair && (!volume_kept() || flange_guard_found_more()));
-    result_.section = outline_of(lines_);
-    report();
-    if (!certify({{result_.section}})) keep_all_steps();
-    return std::move(result_);
   }
 
- private:
+  /// The volume correction may move walls into each other that are thinner than its move.
+  bool undone_everywhere() { return plan_.use_chords_everywhere() || plan_.refine_everywhere(); }
+
   void build() {
     stop_if_cancelled();
     if (options_.mode == Smoothing::fair) {
@@ -165,12 +177,13 @@ class PieceSmoother {
 
   void finish(VolumeCorrection::Found found) {
     CorrectedWalls& walls = found.walls;
+    FilletLimit& limit = result_.lip_fillet_limit = FilletLimit::none;
     if (options_.lip_fillet_mm > 0.0 && !piece_.carries_piece) {
       const double fillet =
           std::min(options_.lip_fillet_mm, largest_fillet_mm(piece_, plan_.cuts()));
-      if (fillet < options_.lip_fillet_mm) result_.lip_fillet_limit = FilletLimit::height_below;
+      if (fillet < options_.lip_fillet_mm) limit = FilletLimit::height_below;
       walls = correction_.corrected(lines_, found.rings, fillet);
-      if (walls.fillet_mm < fillet) result_.lip_fillet_limit = FilletLimit::lip_width;
+      if (walls.fillet_mm < fillet) limit = FilletLimit::lip_width;
     }
     result_.overshoot_mm = walls.moved_mm;
     result_.lip_fillet_mm = walls.fillet_mm;
@@ -194,11 +207,12 @@ class PieceSmoother {
                      result_.guard);
   }
 
-  void keep_all_steps() {
-    result_ = {};
-    result_.section = outline_of(stepped_lines(piece_));
-    result_.guard.push_back(
+  [[nodiscard]] SmoothedPiece stepped() const {
+    SmoothedPiece steps;
+    steps.section = outline_of(stepped_lines(piece_));
+    steps.guard.push_back(
         {piece_.level.front(), piece_.level.back(), KeptFor::certificate, 0.0, 0.0});
+    return steps;
   }
 
   const PieceWalls& piece_;

@@ -8,6 +8,7 @@
 
 #include "claystack/export/proof.hpp"
 #include "claystack/export/walls.hpp"
+#include "export/smoothing/faired_curve.hpp"
 #include "tests/export/smoothing/smoothed_pieces.hpp"
 
 #include <gtest/gtest.h>
@@ -71,6 +72,19 @@ class OuterWall {
  private:
   oracles::Line line_;
 };
+
+TEST(FairedCurve, LimitsItsPointsForAnySagitta) {
+  const ClayStack stack = tube(100.0, 0.5, [](double y) { return 40.0 + std::sin(0.1 * y); });
+  const PieceWalls piece = walls_of(stack, {0, stack.size() - 1});
+  const FairedCurve curve({piece, piece.outer, 0, piece.size()},
+                          std::vector<double>(piece.size(), 9.0));
+  for (const double sagitta_mm : {1e-2, 1e-14, 1e-320}) {
+    const Polygon points = curve.points(sagitta_mm);
+    EXPECT_GE(points.size(), 10u) << sagitta_mm;
+    EXPECT_LE(points.size(), 4'200'000u) << sagitta_mm;
+    EXPECT_EQ(points.back().y, 100.0) << sagitta_mm;
+  }
+}
 
 TEST(Fairing, LeavesCylindersConesAndParaboloids) {
   for (const double length : {2.0, 9.0, 40.0, 1000.0})

@@ -259,6 +259,24 @@ TEST(ProfileSmoothing, ASlopedFlangeKeepsItsThickness) {
   }
 }
 
+/// A wall of 5 mm that tapers to 0.1 um at the rim: thinner than the volume correction moves it.
+TEST(ProfileSmoothing, AWallThatEndsInAKnifeEdgeIsSmoothed) {
+  std::vector<Radii> radii(10, {20.0, 0.0});
+  for (int i = 0; i <= 30; ++i) radii.push_back({20.0, 15.0 + 4.9999 * i / 30.0});
+  const ClayStack stack = stack_of(0.2, radii);
+  for (const double tolerance_mm : {0.02, 0.5})
+    for (const double length_mm : {0.0, 9.0}) {
+      SmoothingOptions options = options_for(Smoothing::fair, tolerance_mm);
+      options.smooth_length_mm = length_mm;
+      const SmoothedProfile made = smooth(stack, options);
+      EXPECT_TRUE(certify(made.section.profile));
+      EXPECT_LT(made.volume_error_relative, 1e-12);
+      EXPECT_TRUE(std::ranges::none_of(
+          made.guard, [](const KeptSteps& kept) { return kept.reason == KeptFor::certificate; }))
+          << tolerance_mm << " " << length_mm;
+    }
+}
+
 TEST(ProfileSmoothing, RefusesUnsupportedRequests) {
   const ClayStack stack = shapes::vase(20);
   const auto refused = [&](SmoothingOptions options, const char* name) {

@@ -139,7 +139,7 @@ struct SmoothedProfile {
 /// thinner than a `min_wall_mm` that chords keep, or else than half of their minimum. Treads below
 /// 2^-20 of the largest radius, which float32 cannot hold, never become cuts: walls may lose less
 /// than one of them. The lip fillet is applied afterwards and may thin the lip. Every piece is
-/// certified; a piece that fails keeps its steps.
+/// certified; a piece that fails gets chords, then less simplification, and keeps its steps last.
 ///
 /// Errors: as `profile_of`; `bad_input` for options out of range and for a lip fillet in `exact`,
 /// which removes clay that `exact` promises to a ring.
