@@ -1,7 +1,7 @@
 #include "export/formats/draco_grid.hpp"
 
+#include "core/text.hpp"
 #include "export/formats/draco_bits.hpp"
-#include "export/formats/file_floats.hpp"
 #include "export/formats/mesh_limits.hpp"
 
 #include <algorithm>
@@ -79,7 +79,8 @@ glm::vec3 origin_for(const Extent& extent, float side, int bits) noexcept {
 
 }  // namespace
 
-Result<DracoGrid> choose_grid(const std::vector<glm::vec3>& points, const DracoSettings& settings) {
+Result<DracoGrid> choose_grid(const std::vector<glm::vec3>& points, const DracoSettings& settings,
+                              const GridFile& file) {
   const Extent extent = extent_of(points);
   for (int bits = settings.min_bits; bits <= kMaxDracoBits; ++bits) {
     const float widest = widest_side_mm(settings.max_error_mm, double{extent.farthest}, bits);
@@ -87,11 +88,13 @@ Result<DracoGrid> choose_grid(const std::vector<glm::vec3>& points, const DracoS
     const float side = bits == settings.min_bits ? extent.side : widest;
     return DracoGrid{origin_for(extent, side, bits), side, bits};
   }
-  std::string what = "cannot write .drc: a vertex error of ";
-  append_number(what, settings.max_error_mm);
-  what += " mm needs more than 30 bits; the smallest possible is ";
-  append_number(what, error_bound_mm(double{extent.side}, double{extent.farthest}, kMaxDracoBits));
-  return failure(ErrorKind::bad_input, what + " mm");
+  const double smallest =
+      error_bound_mm(double{extent.side}, double{extent.farthest}, kMaxDracoBits);
+  return failure(ErrorKind::bad_input,
+                 "cannot write " + std::string(file.ending) + ": a vertex error of " +
+                     nine_digit_text(settings.max_error_mm * file.unit_mm + file.other_mm) +
+                     " mm needs more than 30 bits; the smallest possible is " +
+                     sufficient_text(smallest * file.unit_mm + file.other_mm) + " mm");
 }
 
 }  // namespace clay::solid::inline formats

@@ -5,6 +5,7 @@
 #include "claystack/export/formats.hpp"
 
 #include <glm/vec3.hpp>
+#include <string_view>
 #include <vector>
 
 namespace clay::solid::inline formats {
@@ -16,10 +17,18 @@ struct DracoGrid {
   int bits = 1;
 };
 
+/// The file that a grid is for, as messages name it.
+struct GridFile {
+  std::string_view ending = ".drc";
+  double unit_mm = 1.0;   ///< of the points and of the error in the settings
+  double other_mm = 0.0;  ///< how far the file moves its vertices in other ways
+};
+
 /// Chooses the coarsest grid within the error, which takes the least bytes: the smallest number of
 /// bits first (from `settings.min_bits`), then the largest cube. With `min_bits` the cube is no
-/// larger than the points need. Errors (`bad_input`) name the smallest possible error.
+/// larger than the points need. Errors (`bad_input`) name the smallest possible error [mm].
 [[nodiscard]] Result<DracoGrid> choose_grid(const std::vector<glm::vec3>& points,
-                                            const DracoSettings& settings);
+                                            const DracoSettings& settings,
+                                            const GridFile& file = {});
 
 }  // namespace clay::solid::inline formats

@@ -4,6 +4,7 @@
 #include "claystack/core/result.hpp"
 #include "claystack/export/formats.hpp"
 #include "claystack/export/solid.hpp"
+#include "export/formats/draco_grid.hpp"
 
 #include <draco/mesh/mesh.h>
 #include <array>
@@ -29,9 +30,10 @@ struct EncodedDraco {
   std::size_t points = 0, triangles = 0;
   glm::vec3 low{0.0F}, high{0.0F};  ///< of the decoded points
 };
+/// For a part of another file, which may be in another unit.
 [[nodiscard]] Result<EncodedDraco> encode_draco(
     const TriangleMesh& mesh, const DracoSettings& settings,
-    std::span<const std::array<std::uint16_t, 4>> colours);
+    std::span<const std::array<std::uint16_t, 4>> colours, const GridFile& file);
 
 /// Checks everything: Draco's decoder returns sizes, maps and indices as the file states them.
 /// Corners share a point if Draco maps them to one position.

@@ -169,11 +169,12 @@ Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& se
 }
 
 Result<EncodedDraco> encode_draco(const TriangleMesh& mesh, const DracoSettings& settings,
-                                  std::span<const std::array<std::uint16_t, 4>> colours) try {
+                                  std::span<const std::array<std::uint16_t, 4>> colours,
+                                  const GridFile& file) try {
   const std::vector<glm::vec3> points = file_points(mesh.points);
   return check_settings(settings)
       .and_then([&] { return check_mesh_for_draco(mesh, points); })
-      .and_then([&] { return choose_grid(points, settings); })
+      .and_then([&] { return choose_grid(points, settings, file); })
       .and_then([&](const DracoGrid& grid) {
         return encode_on_grid(mesh, points, grid, settings.speed, colours);
       })

@@ -3,7 +3,9 @@
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/formats.hpp"
+#include "core/text.hpp"
 #include "export/formats/glb.hpp"
+#include "export/formats/mesh_limits.hpp"
 
 #include <array>
 #include <cmath>
@@ -70,10 +72,13 @@ struct Bounds {
                                                double roundings) {
   double farthest = 0.0;
   for (const glm::dvec3& point : metres.points) farthest = std::max(farthest, glm::length(point));
-  const double left = max_error_mm / kMmPerMetre - roundings * std::ldexp(farthest, -24);
+  const double rounding = roundings * std::ldexp(farthest, -24);
+  const double left = max_error_mm / kMmPerMetre - rounding;
   if (left > 0.0) return left;
-  return failure(ErrorKind::bad_input,
-                 "cannot write .glb: expected a vertex error above the rounding to float32");
+  return failure(ErrorKind::bad_input, "cannot write .glb: expected a vertex error above " +
+                                           sufficient_text(kMmPerMetre * rounding) +
+                                           " mm, the rounding to float32, found " +
+                                           nine_digit_text(max_error_mm) + " mm");
 }
 
 /// The mesh compressed by meshoptimizer: points of 16 bits on the coarsest grid that keeps the

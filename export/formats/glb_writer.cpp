@@ -100,8 +100,9 @@ Result<Packed> packed_by_draco(const TriangleMesh& metres, std::span<const Colou
   constexpr double kRoundings = roundings_of(MeshFormat::glb);
   const auto error = error_left(metres, settings.max_error_mm, kRoundings);
   if (!error) return tl::make_unexpected(error.error());
+  const GridFile file{".glb", kMmPerMetre, settings.max_error_mm - kMmPerMetre * *error};
   settings.max_error_mm = *error;
-  return encode_draco(metres, settings, colours).map([&](const EncodedDraco& encoded) {
+  return encode_draco(metres, settings, colours, file).map([&](const EncodedDraco& encoded) {
     Packed packed;
     packed.accessors = accessors(encoded.points, 3 * encoded.triangles, {encoded.low, encoded.high},
                                  !colours.empty());

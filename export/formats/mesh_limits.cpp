@@ -1,5 +1,6 @@
 #include "export/formats/mesh_limits.hpp"
 
+#include "core/text.hpp"
 #include "export/formats/file_floats.hpp"
 
 namespace clay::solid::inline formats {
@@ -16,6 +17,11 @@ std::optional<std::string> find_bad_coordinate(const glm::vec3& point) {
 
 std::string expected_at_most(std::size_t limit, std::string_view what) {
   return "expected at most " + std::to_string(limit) + ' ' + std::string(what);
+}
+
+std::string sufficient_text(double limit) {
+  const double unit = std::pow(10.0, std::floor(std::log10(limit)) - 2.0);
+  return short_number_text(std::ceil(limit / unit) * unit);
 }
 
 tl::unexpected<Error> bad_file(std::string_view name, std::string_view what) {

@@ -33,6 +33,9 @@ inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 m
 /// "expected at most 20000000 triangles".
 [[nodiscard]] std::string expected_at_most(std::size_t limit, std::string_view what);
 
+/// A lower limit above 0 in three digits, rounded up: the number itself keeps the limit.
+[[nodiscard]] std::string sufficient_text(double limit);
+
 /// "NAME: what", of kind bad_input.
 [[nodiscard]] tl::unexpected<Error> bad_file(std::string_view name, std::string_view what);
 

@@ -79,6 +79,27 @@ const std::vector<std::pair<GlbMesh, double>> kLimits{
 #endif
 };
 
+/// The limits in the messages, in mm as the settings, are themselves accepted.
+TEST(Glb, NamesTheSmallestVertexErrorThatItKeeps) {
+  const TriangleMesh mesh = samples::torus(60, 40);
+  FileContents contents;
+  double& limit_mm = contents.draco.max_error_mm = 1e-9;
+  for (const std::string words : {"cannot write .glb: expected a vertex error above ",
+                                  " mm needs more than 30 bits; the smallest possible is "}) {
+    const auto refused = encode_glb(mesh, contents);
+    if (refused) break;  // without Draco, float32 keeps any error
+    const std::string& message = refused.error().message;
+    ASSERT_EQ(message.rfind("cannot write .glb: ", 0), 0u) << message;
+    ASSERT_NE(message.find(words), std::string::npos) << message;
+    limit_mm = std::stod(message.substr(message.find(words) + words.size()));
+  }
+  const auto bytes = encode_glb(mesh, contents);
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  const double moved_mm = samples::largest_move(mesh, decode_glb(*bytes, "x").value());
+  EXPECT_LE(moved_mm, limit_mm);
+  EXPECT_GT(moved_mm, 0.01 * limit_mm);
+}
+
 TEST(Glb, KeepsTheErrorLimitAndItsAccessorsAreTrue) {
   const TriangleMesh mesh = samples::torus(60, 40);
   for (const auto& [glb, limit] : kLimits) {
