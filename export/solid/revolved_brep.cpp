@@ -19,7 +19,16 @@ const double kSharpCosine = std::cos(std::numbers::pi / 6.0);
 double on_grid(double mm, double grid_mm = kBrepGridMm) {
   return std::round(mm / grid_mm) * grid_mm + 0.0;
 }
-ProfilePoint on_grid(const ProfilePoint& p) { return {on_grid(p.rho), on_grid(p.y)}; }
+ProfilePoint on_grid(const ProfilePoint& p, double grid_mm = kBrepGridMm) {
+  return {on_grid(p.rho, grid_mm), on_grid(p.y, grid_mm)};
+}
+
+/// A power of ten, well below the tolerance: the grid moves the curves.
+double control_grid_mm(double tolerance_mm) {
+  constexpr double kPart = 0.05;
+  const double fine_mm = std::pow(10.0, std::floor(std::log10(kPart * tolerance_mm)));
+  return std::clamp(fine_mm, kBrepGridMm, kControlGridMm);
+}
 
 /// A part of a section that sweeps one shell.
 struct Line {
@@ -70,16 +79,15 @@ std::vector<std::size_t> corners_of(Line& line) {
   return corners;
 }
 
-BrepWall curved(const Polygon& points, double tolerance_mm) {
+BrepWall curved(const Polygon& points, double tolerance_mm, double grid_mm) {
   BrepWall wall{points.front(), points.back(), fitted(points, tolerance_mm)};
   auto& control = wall.curve->control;
   control.front() = on_grid(control.front()), control.back() = on_grid(control.back());
-  for (std::size_t i = 1; i + 1 < control.size(); ++i)
-    control[i] = {on_grid(control[i].rho, kControlGridMm), on_grid(control[i].y, kControlGridMm)};
+  for (std::size_t i = 1; i + 1 < control.size(); ++i) control[i] = on_grid(control[i], grid_mm);
   return wall;
 }
 
-BrepShell shell_of(Line line, StepWalls walls, double tolerance_mm) {
+BrepShell shell_of(Line line, StepWalls walls, double tolerance_mm, double grid_mm) {
   BrepShell shell;
   if (walls == StepWalls::lines) {
     if (line.round) line.points.push_back(line.points.front());
@@ -92,7 +100,7 @@ BrepShell shell_of(Line line, StepWalls walls, double tolerance_mm) {
     const Polygon points(line.points.begin() + std::ptrdiff_t(corners[i]),
                          line.points.begin() + std::ptrdiff_t(corners[i + 1]) + 1);
     shell.push_back(points.size() == 2 ? BrepWall{points.front(), points.back(), std::nullopt}
-                                       : curved(points, tolerance_mm));
+                                       : curved(points, tolerance_mm, grid_mm));
   }
   return shell;
 }
@@ -110,9 +118,9 @@ double volume_of(const BrepBody& body) {
 }
 
 /// The curve with its inner control points farther from the axis.
-WallCurve moved(WallCurve curve, double out_mm) {
+WallCurve moved(WallCurve curve, double out_mm, double grid_mm) {
   for (std::size_t i = 1; i + 1 < curve.control.size(); ++i)
-    curve.control[i].rho = on_grid(curve.control[i].rho + out_mm, kControlGridMm);
+    curve.control[i].rho = on_grid(curve.control[i].rho + out_mm, grid_mm);
   return curve;
 }
 
@@ -141,7 +149,7 @@ WallCurve enclosing(const WallCurve& curve, double volume_mm3, Move move) {
 
 /// Moves the largest curve so that the body holds this volume: all of it, and then one point for
 /// what the coarser grid leaves.
-void correct_volume(BrepBody& body, double target_mm3) {
+void correct_volume(BrepBody& body, double target_mm3, double grid_mm) {
   BrepWall* largest = nullptr;
   for (BrepShell& shell : body)
     for (BrepWall& wall : shell)
@@ -149,7 +157,9 @@ void correct_volume(BrepBody& body, double target_mm3) {
         largest = &wall;
   if (!largest) return;
   const double wanted = target_mm3 - (volume_of(body) - swept_volume(*largest->curve));
-  const WallCurve near = enclosing(*largest->curve, wanted, moved);
+  const WallCurve near = enclosing(
+      *largest->curve, wanted,
+      [&](const WallCurve& curve, double out_mm) { return moved(curve, out_mm, grid_mm); });
   largest->curve = enclosing(near, wanted, middle_moved);
 }
 
@@ -193,11 +203,12 @@ Result<std::pair<BrepBody, double>> body_of(const Polygon& polygon, StepWalls wa
   std::stable_partition(lines.begin(), lines.end(), [](const Line& line) {
     return section::swept_volume(line.points, line.round) > 0.0;
   });
-  const double target = volume_of(Profile{{polygon}});
+  const double target = volume_of(Profile{{polygon}}), grid_mm = control_grid_mm(tolerance_mm);
   for (const double part : {0.97, 0.9, 0.6, 0.3}) {
     BrepBody body;
-    for (const Line& line : lines) body.push_back(shell_of(line, walls, part * tolerance_mm));
-    correct_volume(body, target);
+    for (const Line& line : lines)
+      body.push_back(shell_of(line, walls, part * tolerance_mm, grid_mm));
+    correct_volume(body, target, grid_mm);
     double deviation = 0.0;
     for (std::size_t i = 0; i < lines.size(); ++i)
       deviation = std::max(deviation, deviation_of(body[i], lines[i], walls));

@@ -42,7 +42,7 @@ struct RevolvedBrep {
 /// Coordinates are multiples of this [mm], so that their decimals are exact enough.
 inline constexpr double kBrepGridMm = 1e-9;
 /// The inner control points of curves, whose places do not matter to that degree, are multiples of
-/// this, apart from the one that corrects the volume.
+/// this, or of a finer one for small tolerances, apart from the one that corrects the volume.
 inline constexpr double kControlGridMm = 1e-4;
 
 /// Requires a certified profile. With StepWalls::spline, walls between corners of more than 30

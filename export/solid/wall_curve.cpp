@@ -7,12 +7,23 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace clay::solid {
 namespace {
 
 constexpr double kShortestSpan = 0x1p-20;
+
+/// Beyond so many spans, a knot has no influence on a curve of least squares: with each span it
+/// falls to about 0.54.
+constexpr std::size_t kReachOfKnot = 40;
+constexpr double kNearly = 1.0 - 1e-9;  ///< what a knot may still move beyond its reach
+
+/// Spans of a curve, `end` excluded.
+struct Window {
+  std::size_t first = 0, end = 0;
+};
 
 ProfilePoint mix(const ProfilePoint& a, const ProfilePoint& b, double t) {
   return {(1.0 - t) * a.rho + t * b.rho, (1.0 - t) * a.y + t * b.y};
@@ -37,13 +48,15 @@ class LineByLength {
     shares_.back() = 1.0;
   }
 
-  /// Calls part(span, a, b, from, to): the curve from `a` to `b` belongs to one span and to the
-  /// straight line between two points.
+  /// Calls part(span, a, b, from, to): the curve from `a` to `b` belongs to one span of the window
+  /// and to the straight line between two points.
   template <class Part>
-  void for_each_part(const std::vector<double>& knots, Part part) const {
-    std::size_t span = 0, edge = 0;
-    double a = 0.0;
-    while (span + 1 < knots.size() && edge + 1 < line_.size()) {
+  void for_each_part(const std::vector<double>& knots, const Window& window, Part part) const {
+    std::size_t span = window.first;
+    double a = knots[span];
+    auto edge =
+        static_cast<std::size_t>(std::ranges::upper_bound(shares_, a) - shares_.begin()) - 1;
+    while (span < window.end && edge + 1 < line_.size()) {
       const double b = std::min(knots[span + 1], shares_[edge + 1]);
       if (b > a) part(span, a, b, at(edge, a), at(edge, b));
       a = b;
@@ -89,46 +102,138 @@ constexpr std::array<GaussPoint, 5> kGauss{{{0.046910077030668004, 0.11846344252
                                             {0.76923465505284155, 0.23931433524968324},
                                             {0.95308992296933200, 0.11846344252809454}}};
 
-/// The first and the last control point are those given.
-WallCurve least_squares(const LineByLength& line, const std::vector<double>& knots,
-                        const ProfilePoint& first, const ProfilePoint& last) {
-  const std::size_t spans = knots.size() - 1;
-  BandedSystem<3, 2> system(spans + 3);
+/// Moves the control points that lie within the window: those whose spans all do. The first and
+/// the last one of the curve stay.
+void fit_within(WallCurve& curve, const LineByLength& line, const Window& window) {
+  const std::size_t first_free = window.first == 0 ? 1 : window.first + 3;
+  const std::size_t free_end = window.end == curve.spans() ? window.end + 2 : window.end;
+  const auto is_free = [&](std::size_t i) { return i >= first_free && i < free_end; };
+  const std::size_t unknowns = window.end - window.first + 3;
+  BandedSystem<3, 2> system(unknowns);
   const auto add = [&](std::size_t span, std::array<double, 4> factors, double weight,
                        ProfilePoint value) {
-    const auto replace = [&value](double& factor, const ProfilePoint& given) {
-      value = {value.rho - factor * given.rho, value.y - factor * given.y};
-      factor = 0.0;
-    };
-    if (span == 0) replace(factors[0], first);
-    if (span + 1 == spans) replace(factors[3], last);
-    system.add(span, factors, weight, {value.rho, value.y});
+    for (std::size_t k = 0; k < factors.size(); ++k) {
+      if (is_free(span + k)) continue;
+      const ProfilePoint& given = curve.control[span + k];
+      value = {value.rho - factors[k] * given.rho, value.y - factors[k] * given.y};
+      factors[k] = 0.0;
+    }
+    system.add(span - window.first, factors, weight, {value.rho, value.y});
   };
-  line.for_each_part(knots, [&](std::size_t span, double a, double b, const ProfilePoint& from,
-                                const ProfilePoint& to) {
-    for (const GaussPoint& node : kGauss)
-      add(span, basis(knots, span, a + node.at * (b - a)), node.weight * (b - a),
-          mix(from, to, node.at));
-  });
-  system.add(0, {1.0, 0.0, 0.0, 0.0}, 1.0, {first.rho, first.y});
-  system.add(spans - 1, {0.0, 0.0, 0.0, 1.0}, 1.0, {last.rho, last.y});
-  WallCurve curve{knots, {}};
-  for (const auto& [rho, y] : std::move(system).solved()) curve.control.push_back({rho, y});
-  return curve;
+  line.for_each_part(
+      curve.knots, window,
+      [&](std::size_t span, double a, double b, const ProfilePoint& from, const ProfilePoint& to) {
+        for (const GaussPoint& node : kGauss)
+          add(span, basis(curve.knots, span, a + node.at * (b - a)), node.weight * (b - a),
+              mix(from, to, node.at));
+      });
+  for (std::size_t i = 0; i < unknowns; ++i) {
+    if (is_free(window.first + i)) continue;
+    const ProfilePoint& given = curve.control[window.first + i];
+    const std::size_t from = std::min(i, unknowns - 4);
+    std::array<double, 4> factors{};
+    factors.at(i - from) = 1.0;
+    system.add(from, factors, 1.0, {given.rho, given.y});
+  }
+  std::size_t i = window.first;
+  for (const auto& [rho, y] : std::move(system).solved()) curve.control[i++] = {rho, y};
 }
 
-/// The bound in each span.
-std::vector<double> bounds_by_span(const WallCurve& curve, const LineByLength& line) {
-  std::vector<double> bounds(curve.spans(), 0.0);
-  line.for_each_part(curve.knots, [&](std::size_t span, double a, double b,
-                                      const ProfilePoint& from, const ProfilePoint& to) {
-    const auto points = curve.bezier(span, a, b);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      bounds[span] =
-          std::max(bounds[span], distance(points[i], mix(from, to, static_cast<double>(i) / 3.0)));
-  });
+Window whole(const WallCurve& curve) { return {0, curve.spans()}; }
+
+/// The bound in each span of the window.
+std::vector<double> bounds_by_span(const WallCurve& curve, const LineByLength& line,
+                                   const Window& window) {
+  std::vector<double> bounds(window.end - window.first, 0.0);
+  line.for_each_part(
+      curve.knots, window,
+      [&](std::size_t span, double a, double b, const ProfilePoint& from, const ProfilePoint& to) {
+        const auto points = curve.bezier(span, a, b);
+        double& bound = bounds[span - window.first];
+        for (std::size_t i = 0; i < points.size(); ++i)
+          bound = std::max(bound, distance(points[i], mix(from, to, static_cast<double>(i) / 3.0)));
+      });
   return bounds;
 }
+
+/// Fits a line with as few knots as it finds.
+class Fitting {
+ public:
+  Fitting(const Polygon& line, double tolerance_mm)
+      : line_(line), by_length_(line), tolerance_mm_(tolerance_mm) {}
+
+  WallCurve run() {
+    halve_spans();
+    const std::vector<double> halved = curve_.knots;
+    drop_knots();
+    merge_knots();
+    fit(std::exchange(curve_.knots, {}));
+    if (farthest(curve_, whole(curve_)) > tolerance_mm_) fit(halved);
+    return std::move(curve_);
+  }
+
+ private:
+  void fit(std::vector<double> knots) {
+    stop_if_cancelled();
+    curve_.knots = std::move(knots);
+    curve_.control.assign(curve_.spans() + 3, line_.front());
+    curve_.control.back() = line_.back();
+    fit_within(curve_, by_length_, whole(curve_));
+  }
+
+  [[nodiscard]] double farthest(const WallCurve& curve, const Window& window) const {
+    return std::ranges::max(bounds_by_span(curve, by_length_, window));
+  }
+
+  void halve_spans() {
+    fit({0.0, 1.0});
+    while (true) {
+      const std::vector<double> bounds = bounds_by_span(curve_, by_length_, whole(curve_));
+      std::vector<double> knots{0.0};
+      for (std::size_t i = 0; i < curve_.spans(); ++i) {
+        const double low = curve_.knots[i], high = curve_.knots[i + 1];
+        if (bounds[i] > tolerance_mm_ && high - low > kShortestSpan)
+          knots.push_back(0.5 * (low + high));
+        knots.push_back(high);
+      }
+      if (knots.size() == curve_.knots.size()) return;
+      fit(std::move(knots));
+    }
+  }
+
+  /// Halving leaves knots on the way to each bend that are not needed in the end.
+  void drop_knots() {
+    for (std::size_t i = 1; i + 1 < curve_.knots.size();)
+      if (!keep_without(i)) ++i;
+  }
+
+  /// One knot in the middle may replace two.
+  void merge_knots() {
+    for (std::size_t i = 1; i + 2 < curve_.knots.size(); ++i)
+      keep_without(i + 1, 0.5 * (curve_.knots[i] + curve_.knots[i + 1]));
+  }
+
+  /// Drops a knot, and moves the one before it if that is requested, if the curve stays within the
+  /// tolerance. It is fitted again as far as the knots have an influence.
+  bool keep_without(std::size_t knot, std::optional<double> before = {}) {
+    stop_if_cancelled();
+    WallCurve fewer = curve_;
+    fewer.knots.erase(fewer.knots.begin() + std::ptrdiff_t(knot));
+    fewer.control.erase(fewer.control.begin() + std::ptrdiff_t(knot) + 1);
+    if (before) fewer.knots[knot - 1] = *before;
+    const Window window{knot - std::min(knot, kReachOfKnot),
+                        std::min(fewer.spans(), knot + kReachOfKnot)};
+    fit_within(fewer, by_length_, window);
+    if (farthest(fewer, window) > kNearly * tolerance_mm_) return false;
+    curve_ = std::move(fewer);
+    return true;
+  }
+
+  const Polygon& line_;
+  LineByLength by_length_;
+  double tolerance_mm_;
+  WallCurve curve_;
+};
 
 }  // namespace
 
@@ -151,47 +256,11 @@ std::array<ProfilePoint, 4> WallCurve::bezier(std::size_t span, double a, double
 }
 
 WallCurve fitted(const Polygon& line, double tolerance_mm) {
-  const LineByLength by_length(line);
-  const auto fit = [&](const std::vector<double>& knots) {
-    stop_if_cancelled();
-    return least_squares(by_length, knots, line.front(), line.back());
-  };
-  WallCurve curve = fit({0.0, 1.0});
-  while (true) {
-    std::vector<double> bounds = bounds_by_span(curve, by_length), knots{0.0};
-    for (std::size_t i = 0; i < curve.spans(); ++i) {
-      const double low = curve.knots[i], high = curve.knots[i + 1];
-      if (bounds[i] > tolerance_mm && high - low > kShortestSpan)
-        knots.push_back(0.5 * (low + high));
-      knots.push_back(high);
-    }
-    if (knots.size() == curve.knots.size()) break;
-    curve = fit(knots);
-  }
-  // Halving leaves knots on the way to each bend that are not needed in the end.
-  for (std::size_t i = 1; i + 1 < curve.knots.size();) {
-    std::vector<double> knots = curve.knots;
-    knots.erase(knots.begin() + std::ptrdiff_t(i));
-    WallCurve fewer = fit(knots);
-    if (std::ranges::max(bounds_by_span(fewer, by_length)) <= tolerance_mm)
-      curve = std::move(fewer);
-    else
-      ++i;
-  }
-  // One knot in the middle may replace two.
-  for (std::size_t i = 1; i + 2 < curve.knots.size(); ++i) {
-    std::vector<double> knots = curve.knots;
-    knots[i] = 0.5 * (knots[i] + knots[i + 1]);
-    knots.erase(knots.begin() + std::ptrdiff_t(i) + 1);
-    WallCurve fewer = fit(knots);
-    if (std::ranges::max(bounds_by_span(fewer, by_length)) <= tolerance_mm)
-      curve = std::move(fewer);
-  }
-  return curve;
+  return Fitting(line, tolerance_mm).run();
 }
 
 double distance_bound(const WallCurve& curve, const Polygon& line) {
-  return std::ranges::max(bounds_by_span(curve, LineByLength(line)));
+  return std::ranges::max(bounds_by_span(curve, LineByLength(line), whole(curve)));
 }
 
 double swept_volume(const WallCurve& curve) {

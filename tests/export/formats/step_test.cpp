@@ -3,8 +3,10 @@
 #include "export/formats/step.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,6 +70,39 @@ TEST(Step, ACurveKeepsToleranceAndVolume) {
         farthest = std::max(farthest, std::abs(std::hypot(p.rho, p.y - 30.0) - 50.0));
     EXPECT_LE(farthest, brep.deviation_mm + 50.0 * (1.0 - std::cos(0.5 * 1.6 / 200)) + 1e-5);
     EXPECT_NEAR(verify_step(encode_step(brep, "s"), "s").value().volume_mm3 / volume, 1.0, 1e-9);
+  }
+}
+
+double distance_to_line(const ProfilePoint& p, const Polygon& line) {
+  double least = INFINITY;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const ProfilePoint &a = line[i], &b = line[i + 1];
+    const double dx = b.rho - a.rho, dy = b.y - a.y;
+    const double t = ((p.rho - a.rho) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy);
+    const double near = std::clamp(t, 0.0, 1.0);
+    least = std::min(least, std::hypot(p.rho - a.rho - near * dx, p.y - a.y - near * dy));
+  }
+  return least;
+}
+
+/// Hundreds of spans, whose control points lie on a grid: it is finer than the tolerance.
+TEST(Step, TheCurveOfARoughWallKeepsASmallTolerance) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> noise(-0.005, 0.005);
+  Polygon piece{{0, 0}};
+  for (int i = 0; i <= 400; ++i)
+    piece.push_back({30.0 + 5.0 * std::sin(i / 60.0) + noise(random), 0.05 * i});
+  const Polygon wall(piece.begin() + 1, piece.end());
+  piece.push_back({0, 20});
+  const double volume = volume_of(Profile{{piece}});
+  for (const double tolerance : {0.001, 0.0003, 0.0001}) {
+    const auto brep = revolved_brep({{piece}}, StepWalls::spline, tolerance);
+    ASSERT_TRUE(brep) << brep.error().message;
+    EXPECT_EQ(brep->faces(), 4u);
+    EXPECT_LE(brep->deviation_mm, tolerance);
+    EXPECT_NEAR(brep->volume_mm3 / volume, 1.0, 1e-9);
+    for (const ProfilePoint& p : brep->flattened(1e-5).pieces[0])
+      if (p.rho > 0.0) EXPECT_LE(distance_to_line(p, wall), tolerance);
   }
 }
 
