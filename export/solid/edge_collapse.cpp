@@ -6,7 +6,6 @@
 #include <OpenMesh/Tools/Utils/HeapT.hh>
 #include <algorithm>
 #include <cfloat>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -187,7 +186,6 @@ class EdgeCollapse {
   /// No triangle that stays turns by 90 degrees or more when the start of `way` moves to its end,
   /// and none folds over its neighbour. Small turns alone may add up to a fold.
   [[nodiscard]] bool keeps_faces_up(HalfedgeHandle way) {
-    static const double least_cosine = std::cos(90.0 / 180.0 * M_PI);
     const VertexHandle gone = mesh_.from_vertex_handle(way);
     const FaceHandle left = mesh_.face_handle(way);
     const FaceHandle right = mesh_.face_handle(mesh_.opposite_halfedge_handle(way));
@@ -199,7 +197,7 @@ class EdgeCollapse {
       const FaceHandle face = mesh_.face_handle(out);
       if (!up || face == left || face == right) return;
       const OpenMesh::Vec3d normal = mesh_.calc_face_normal(face);
-      up = dot(mesh_.normal(face), normal) >= least_cosine;
+      up = dot(mesh_.normal(face), normal) > 0.0;
       sharpest = std::min(sharpest, least_cosine_beside(out, normal, way));
     });
     mesh_.set_point(gone, before);

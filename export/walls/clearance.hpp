@@ -18,12 +18,12 @@ struct Clearance {
 /// A map that is linear on the simplices of a mesh is injective if simplices without a common
 /// vertex stay apart; so vertices that move by less than half of their minimum distance leave the
 /// mesh embedded. Parts of the n-gon revolve above different parts of the profile are at least as
-/// far apart as these with every rho multiplied by `rho_scale` = cos(pi / n): `distance_mm`. Parts
-/// of one parallel are at least as far apart as its chords, which shrink towards the axis:
-/// `least_radius_mm`, also scaled, times sin(2 pi / n) bounds them, and also everything across the
-/// axis. Edges on the axis make no surface; they are included like the others, because their ends
-/// are poles, and cost nothing, because off the axis no vertex is nearer to it than the smallest
-/// radius.
+/// far apart as these with every rho multiplied by `rho_scale`: f cos(pi / n), at most 1, where f
+/// is the equal-volume factor. This is `distance_mm`. Parts of one parallel are at least as far
+/// apart as its chords, which shrink towards the axis: `least_radius_mm`, also scaled, times
+/// sin(2 pi / n) bounds them, and also everything across the axis. Edges on the axis make no
+/// surface; they are included like the others, because their ends are poles, and cost nothing,
+/// because off the axis no vertex is nearer to it than the smallest radius.
 ///
 /// `distance_mm` is a true lower bound: the possible rounding error is subtracted.
 [[nodiscard]] Clearance clearance(const Profile& profile, double rho_scale = 1.0);
