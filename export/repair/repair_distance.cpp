@@ -142,31 +142,42 @@ class Farthest {
   double bound(const std::vector<Corners>& triangles) {
     const std::size_t most_pieces =
         std::clamp<std::size_t>(8 * (triangles.size() + to_.triangles.size()), 20'000, 400'000);
-    std::priority_queue<Piece> open;
     std::uint32_t hint = 0;
     for (const Corners& corners : triangles) {
       step_of_loop();
-      const Piece whole = piece(corners, hint);
-      hint = whole.nearest;
-      open.push(whole);
+      hint = open_piece(corners, hint);
     }
     std::size_t pieces = 0;
-    while (!open.empty()) {
+    while (!open_.empty()) {
       step_of_loop();
-      const Piece top = open.top();
-      if (top.most_mm <= 1.02 * least_mm_ + tolerance_mm_ || ++pieces > most_pieces)
-        return top.most_mm;
-      open.pop();
+      const Piece top = open_.top();
+      if (near_enough(top) || ++pieces > most_pieces) return std::max(top.most_mm, settled_mm_);
+      open_.pop();
       const auto& [a, b, c] = top.corners;
       const glm::dvec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
       for (const Corners& part :
            {Corners{a, ab, ca}, Corners{ab, b, bc}, Corners{ca, bc, c}, Corners{ab, bc, ca}})
-        open.push(piece(part, top.nearest));
+        open_piece(part, top.nearest);
     }
-    return least_mm_;
+    return std::max(least_mm_, settled_mm_);
   }
 
  private:
+  /// No piece needs a closer bound.
+  [[nodiscard]] bool near_enough(const Piece& piece) const {
+    return piece.most_mm <= 1.02 * least_mm_ + tolerance_mm_;
+  }
+
+  /// Keeps a piece that needs a closer bound. Returns the triangle nearest to it.
+  std::uint32_t open_piece(const Corners& corners, std::uint32_t hint) {
+    const Piece made = piece(corners, hint);
+    if (near_enough(made))
+      settled_mm_ = std::max(settled_mm_, made.most_mm);
+    else
+      open_.push(made);
+    return made.nearest;
+  }
+
   /// The distance changes by no more than the way. The distance to one triangle is convex, so it is
   /// largest at a corner.
   Piece piece(const Corners& corners, std::uint32_t hint) {
@@ -239,7 +250,9 @@ class Farthest {
   std::optional<Neighbours> neighbours_;  ///< only if the boxes alone are slow
   std::uint64_t visits_ = 0;              ///< of triangles, in all searches
   double tolerance_mm_;
-  double least_mm_ = 0.0;  ///< the largest distance found at a point
+  double least_mm_ = 0.0;            ///< the largest distance found at a point
+  std::priority_queue<Piece> open_;  ///< pieces that need a closer bound
+  double settled_mm_ = 0.0;          ///< the largest bound of all other pieces
 };
 
 double change_of(const std::vector<Corners>& changed, const TriangleMesh& to, double tolerance_mm) {
