@@ -118,15 +118,14 @@ Result<Polygon> set_back(const WallLines& lines, double distance_mm, double tole
     return wrong("a pot that is open above and solid below its floor");
   const bool solid = floor == lines.bore.end(), open_below = floor == lines.bore.begin();
   const double low = lines.outer.front().y;
-  const double bottom = open_below ? low : floor->y - distance_mm;
+  const double bottom = solid || open_below ? low : floor->y - distance_mm;
   double top = lines.outer.back().y - distance_mm;
-  if (!((solid ? top : bottom) > low) && !open_below)
+  if (!open_below && !((solid ? top : bottom) > low))
     return wrong("a floor thicker than " + nine_digit_text(distance_mm) + " mm");
 
   const Polygon bore_line = mirrored({floor, lines.bore.end()});
   const SetBackWall outer(lines.outer, distance_mm), bore(bore_line, distance_mm);
-  if (solid) return outline_of({outer.line(low, top, tolerance_mm), {{0.0, low}, {0.0, top}}});
-  const auto width = [&](double y) { return outer.at(y) + bore.at(y); };
+  const auto width = [&](double y) { return solid ? 2.0 * outer.at(y) : outer.at(y) + bore.at(y); };
   double narrow = top;
   while (top > bottom && width(top) < kLeastRimMm)
     narrow = std::exchange(top, top - kLipStep * distance_mm);
@@ -135,6 +134,7 @@ Result<Polygon> set_back(const WallLines& lines, double distance_mm, double tole
     (width(middle) < kLeastRimMm ? narrow : top) = middle;
   }
   if (!(top > bottom)) return wrong("walls thicker than twice the allowance");
+  if (solid) return outline_of({outer.line(low, top, tolerance_mm), {{0.0, low}, {0.0, top}}});
   Polygon inside = mirrored(bore.line(bottom, top, tolerance_mm));
   if (!open_below) inside.insert(inside.begin(), {{0.0, low}, {0.0, bottom}});
   return outline_of({outer.line(low, top, tolerance_mm), std::move(inside)});

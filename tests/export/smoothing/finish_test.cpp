@@ -187,6 +187,25 @@ TEST(GlazeAllowance, SetsBackACupByTheClosedForm) {
   EXPECT_NEAR(foot_mm, 40 - g, 1e-12);
 }
 
+/// A solid cone with a tip of 0.05 mm: the clay inside its glaze ends lower, where it is 0.1 mm
+/// wide.
+TEST(GlazeAllowance, ShortensTheTipOfASolid) {
+  constexpr double g = 0.5, kHeight = 40.0, kFoot = 20.0, kTip = 0.025;
+  const FinishedProfile back =
+      made({{{{0, 0}, {kFoot, 0}, {kTip, kHeight}, {0, kHeight}}}}, glaze(g));
+  const double lean = (kFoot - kTip) / kHeight;
+  const double foot_mm = kFoot - g * std::hypot(1.0, lean);  // the parallel line at the distance
+  const double top_mm = (foot_mm - 0.05) / lean;
+  double high = 0.0, widest = 0.0, at_top = 0.0;
+  for (const ProfilePoint& p : back.profile.pieces.at(0)) {
+    high = std::max(high, p.y), widest = std::max(widest, p.rho);
+    if (p.y > top_mm - 0.01) at_top = std::max(at_top, p.rho);
+  }
+  EXPECT_NEAR(high, top_mm, 1e-3);
+  EXPECT_NEAR(widest, foot_mm, 1e-3);
+  EXPECT_NEAR(at_top, 0.05, 1e-3);
+}
+
 TEST(GlazeAllowance, KeepsTheMinimumWall) {
   EXPECT_TRUE(finished(cup(), glaze(1.0), 3.9, kTolerance));
   const auto thin = finished(cup(), glaze(1.1), 3.9, kTolerance);
