@@ -42,15 +42,6 @@ Result<std::string> read_all(int descriptor, const fs::path& path, std::size_t e
   }
 }
 
-/// The path of a file after resolving all symbolic links, whether or not it exists.
-fs::path behind_links(fs::path path) {
-  constexpr int kMaxLinks = 40;  // as in Linux
-  std::error_code none;
-  for (int i = 0; i < kMaxLinks && fs::is_symlink(path, none); ++i)
-    path = path.parent_path() / fs::read_symlink(path, none);
-  return path;
-}
-
 /// The /proc path of an unnamed file. Does not exist if /proc is not mounted.
 fs::path name_in_proc(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 

@@ -16,11 +16,11 @@ std::string digits_of(double value, std::chars_format format, int digits) {
           std::to_chars(text.data(), text.data() + text.size(), value, format, digits).ptr};
 }
 
-std::string fixed(double value, int decimals) {
-  return digits_of(value, std::chars_format::fixed, decimals);
-}
-
 }  // namespace
+
+std::string fixed(double number, int decimals) {
+  return digits_of(number, std::chars_format::fixed, decimals);
+}
 
 std::string size_text(double size, int decimals) {
   const bool small = size != 0.0 && std::abs(size) < std::pow(10.0, 1 - decimals);

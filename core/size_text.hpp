@@ -5,6 +5,8 @@
 
 namespace clay {
 
+/// `number` with that many decimals, independent of the locale.
+[[nodiscard]] std::string fixed(double number, int decimals);
 /// A size for people: with this many decimals, and a small one with two significant digits, so that
 /// nothing is "0.0 mm" wide.
 [[nodiscard]] std::string size_text(double size, int decimals);

@@ -2,9 +2,6 @@
 
 #include "core/text.hpp"
 
-#include <array>
-#include <charconv>
-
 namespace clay {
 namespace {
 
@@ -35,13 +32,6 @@ std::string escaped(std::string_view text) {
     else
       safe += character;
   return safe;
-}
-
-std::string fixed(double number, int digits) {
-  std::array<char, 400> text{};  // enough for the largest double
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), number,
-                                 std::chars_format::fixed, digits);
-  return {text.data(), end.ptr};
 }
 
 void SvgWriter::element(std::string_view name, Attributes attributes, std::string_view text) {

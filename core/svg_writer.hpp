@@ -1,4 +1,6 @@
 #pragma once
+#include "core/size_text.hpp"
+
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -9,9 +11,6 @@ namespace clay {
 /// For text and attributes of SVG and HTML. Invalid UTF-8, and characters that XML forbids, become
 /// U+FFFD.
 [[nodiscard]] std::string escaped(std::string_view text);
-
-/// `number` with that many decimals, independent of the locale.
-[[nodiscard]] std::string fixed(double number, int digits);
 
 /// Elements of SVG, one after the other. Values of attributes and text are escaped.
 class SvgWriter {

@@ -86,6 +86,15 @@ class SignalsHeld {
   sigset_t before_;
 };
 
+/// The path of a file after its symbolic links, whether or not it exists.
+inline std::filesystem::path behind_links(std::filesystem::path path) {
+  constexpr int kMaxLinks = 40;  // as in Linux
+  std::error_code none;
+  for (int i = 0; i < kMaxLinks && std::filesystem::is_symlink(path, none); ++i)
+    path = path.parent_path() / std::filesystem::read_symlink(path, none);
+  return path;
+}
+
 /// The folder that contains the file.
 inline std::filesystem::path folder_of(const std::filesystem::path& target) {
   return target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");

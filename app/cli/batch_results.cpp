@@ -12,9 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <utility>
 
 namespace clay::cli {
@@ -49,11 +47,11 @@ Result<ResultFile> ResultFile::open(const std::string& path) {
   const bool written_only = ::stat(path.c_str(), &kind) == 0 && !S_ISREG(kind.st_mode);
   const int mode = written_only ? O_WRONLY : O_RDWR | O_CREAT;
   file.descriptor_ = ::open(path.c_str(), mode | O_APPEND | O_CLOEXEC, 0666);
-  if (file.descriptor_ == -1) return file.io_failure("cannot open");
-  if (::fstat(file.descriptor_, &kind) != 0) return file.io_failure("cannot open");
+  if (file.descriptor_ == -1) return io_failure(path, "cannot open");
+  if (::fstat(file.descriptor_, &kind) != 0) return io_failure(path, "cannot open");
   if (!S_ISREG(kind.st_mode)) return file;
   if (::flock(file.descriptor_, LOCK_EX | LOCK_NB) != 0)
-    return file.io_failure("cannot lock, another batch may write it");
+    return io_failure(path, "cannot lock, another batch may write it");
   return file.read_done().map([&] { return std::move(file); });
 }
 
@@ -79,14 +77,9 @@ Result<void> ResultFile::add(const Json& result) {
   }
   const auto size = ::lseek(descriptor_, 0, SEEK_END);
   if (write_all(descriptor_, line)) return {};
-  const auto failed = io_failure("cannot write");
+  const auto failed = io_failure(path_, "cannot write");
   if (size >= 0) (void)::ftruncate(descriptor_, size);  // if it fails, the next batch removes it
   return failed;
-}
-
-tl::unexpected<Error> ResultFile::io_failure(const char* what) const {
-  return failure(ErrorKind::io,
-                 path_ + ": " + what + ": " + std::generic_category().message(errno));
 }
 
 Result<void> ResultFile::read_done() {
@@ -122,7 +115,7 @@ Result<void> ResultFile::remove_unfinished(std::string_view rest, std::uint64_t 
     return failure(ErrorKind::bad_input,
                    path_ + ": expected a result of claystack batch, found " + kind_of_file(rest));
   if (::ftruncate(descriptor_, static_cast<off_t>(size - rest.size())) != 0)
-    return io_failure("cannot remove the unfinished last line");
+    return io_failure(path_, "cannot remove the unfinished last line");
   return {};
 }
 

@@ -34,7 +34,6 @@ class ResultFile {
 
  private:
   explicit ResultFile(std::string path);
-  [[nodiscard]] tl::unexpected<Error> io_failure(const char* what) const;
   Result<void> read_done();
   Result<void> read_line(std::string_view line, std::size_t number);
   Result<void> remove_unfinished(std::string_view rest, std::uint64_t size);

@@ -3,7 +3,6 @@
 #include "app/cli/installed.hpp"
 #include "app/cli/memory_room.hpp"
 #include "app/cli/quantity.hpp"
-#include "app/cli/suggestion.hpp"
 #include "app/cli/usage.hpp"
 #include "claystack/core/atomic_file.hpp"
 

@@ -1,6 +1,7 @@
 #include "app/cli/output_files.hpp"
 
 #include "claystack/core/atomic_file.hpp"
+#include "core/system_calls.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>
@@ -33,12 +34,8 @@ bool names_the_kind(const OutputFile& file) {
 /// A file by its path without links, and by its number if it is on disk.
 struct Place {
   explicit Place(const std::string& name) {
-    constexpr int kMaxLinks = 40;  // as in Linux
     std::error_code ignored;
-    fs::path target = fs::absolute(name, ignored);
-    for (int i = 0; i < kMaxLinks && fs::is_symlink(target, ignored); ++i)
-      target = target.parent_path() / fs::read_symlink(target, ignored);
-    path = fs::weakly_canonical(target, ignored);
+    path = fs::weakly_canonical(behind_links(fs::absolute(name, ignored)), ignored);
     struct stat status {};
     exists = ::stat(name.c_str(), &status) == 0;
     regular = exists && S_ISREG(status.st_mode);

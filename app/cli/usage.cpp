@@ -1,6 +1,6 @@
 #include "app/cli/usage.hpp"
 
-#include "app/cli/suggestion.hpp"
+#include "core/nearest_word.hpp"
 #include "core/number_parsing.hpp"
 
 #include <fmt/format.h>
@@ -150,6 +150,11 @@ void refuse_empty_values(CLI::App& command) {
   };
   for (CLI::Option* option : command.get_options())
     if (option->get_items_expected_max() > 0) option->check(check);
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string_view nearest = nearest_word(word, {candidates.begin(), candidates.end()});
+  return nearest.empty() ? std::string() : fmt::format("; did you mean {}?", nearest);
 }
 
 CLI::Validator one_of(const std::vector<std::string>& words) {

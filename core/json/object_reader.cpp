@@ -1,6 +1,7 @@
 #include "core/json/object_reader.hpp"
 
 #include "core/json/json_text.hpp"
+#include "core/nearest_word.hpp"
 #include "core/text.hpp"
 
 #include <algorithm>
@@ -9,31 +10,14 @@
 namespace clay::inline json {
 namespace {
 
-/// One edit apart: one character more, less or different, or two neighbours exchanged. Short names
-/// are excluded, because they are all near each other.
-bool is_near(std::string_view a, std::string_view b) {
-  if (std::min(a.size(), b.size()) < 3) return false;
-  while (!a.empty() && !b.empty() && a.front() == b.front()) {
-    a.remove_prefix(1);
-    b.remove_prefix(1);
-  }
-  while (!a.empty() && !b.empty() && a.back() == b.back()) {
-    a.remove_suffix(1);
-    b.remove_suffix(1);
-  }
-  if (a.size() == 2 && b.size() == 2) return a[0] == b[1] && a[1] == b[0];
-  return a.size() <= 1 && b.size() <= 1;
-}
-
 std::string in_quotes(std::string_view name) {
   return std::string("\"").append(printable(name)).append("\"");
 }
 
 /// "; is "mode" meant?", or empty if no candidate is near.
-std::string suggestion(std::string_view name, const auto& candidates) {
-  const auto near = std::ranges::find_if(
-      candidates, [&](std::string_view candidate) { return is_near(name, candidate); });
-  return near == candidates.end() ? "" : "; is " + in_quotes(*near) + " meant?";
+std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates) {
+  const std::string_view nearest = nearest_word(name, candidates);
+  return nearest.empty() ? "" : "; is " + in_quotes(nearest) + " meant?";
 }
 
 std::string found_text(const Json& value) {

@@ -1,9 +1,9 @@
-#include "app/cli/suggestion.hpp"
+#include "core/nearest_word.hpp"
 
 #include <algorithm>
 #include <cstddef>
 
-namespace clay::cli {
+namespace clay {
 namespace {
 
 /// The optimal string alignment distance.
@@ -23,12 +23,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
-  constexpr std::size_t kLongestWord = 64;  // no command or option is longer
-  if (word.size() > kLongestWord) return {};
-  std::string nearest;
+std::string_view nearest_word(std::string_view word,
+                              const std::vector<std::string_view>& candidates) {
+  constexpr std::size_t kLongestWord = 64;  // no command, option or field is longer
+  std::string_view nearest;
   std::size_t least = word.size();
-  for (const std::string& candidate : candidates) {
+  for (const std::string_view candidate : candidates) {
+    if (std::max(word.size(), candidate.size()) > kLongestWord) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < least && 3 * distance <= candidate.size()) {
       nearest = candidate;
@@ -38,9 +39,4 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   return nearest;
 }
 
-std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
-  const std::string nearest = nearest_word(word, candidates);
-  return nearest.empty() ? std::string() : "; did you mean " + nearest + "?";
-}
-
-}  // namespace clay::cli
+}  // namespace clay
