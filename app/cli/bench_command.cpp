@@ -6,6 +6,7 @@
 #include "app/bench/registered_sections.hpp"
 #include "app/bench/report/report.hpp"
 #include "claystack/core/atomic_file.hpp"
+#include "core/line_reader.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -99,6 +100,13 @@ void measure(bench::Report& report, const std::vector<bench::RegisteredSection>&
   }
 }
 
+void print_section(const bench::Section& section, const Console& console) {
+  const std::string text = bench::text_of(section);
+  LineReader lines(text);
+  while (const auto line = lines.next()) console.print(*line);
+  console.print("");
+}
+
 Result<int> run_bench(BenchOptions options, Console console) {
   if (options.extremes) options.only = {"extremes"};
   const auto chosen = bench::chosen_sections(options.only);
@@ -123,7 +131,7 @@ Result<int> run_bench(BenchOptions options, Console console) {
   if (auto published = publish_report(report, options, std::move(page)); !published)
     return tl::make_unexpected(published.error());
   if (console.json) print_json(bench::json_of(report));
-  for (const bench::Section& section : report.sections) console.print(bench::text_of(section));
+  for (const bench::Section& section : report.sections) print_section(section, console);
   for (const bench::Section& section : report.sections)
     for (const std::string& missed : section.missed)
       console.warn("required bound not met: " + section.id + ": " + missed);

@@ -3,6 +3,7 @@
 #include "app/cli/memory_room.hpp"
 #include "app/cli/usage.hpp"
 #include "claystack/core/atomic_file.hpp"
+#include "core/text.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -90,18 +91,11 @@ void erase_line() noexcept {
   if (std::exchange(line_shown, false)) write_err(kEraseLine);
 }
 
-/// A name of a file may hold control characters, which would act on the terminal.
-std::string printable(std::string text) {
-  const auto is_control = [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7F; };
-  std::ranges::replace_if(text, is_control, '?');
-  return text;
-}
+/// A name of a file may hold characters that act on the terminal, hide text or begin a new line.
+std::string one_line(std::string_view text) { return shown(text, text.size()) + "\n"; }
 
 /// "claystack: MESSAGE" on one line.
-void put_message(std::string message) {
-  std::ranges::replace(message, '\n', '?');
-  put_err("claystack: " + printable(std::move(message)) + "\n");
-}
+void put_message(std::string_view message) { put_err("claystack: " + one_line(message)); }
 
 int unexpected(const char* what) noexcept try {
   return report({ErrorKind::io, std::string("unexpected failure: ").append(what)});
@@ -124,7 +118,7 @@ void put_err(std::string_view text) noexcept {
 }
 
 void Console::print(std::string_view line) const {
-  if (!json && !quiet) put_out(printable(std::string(line)) + "\n");
+  if (!json && !quiet) put_out(one_line(line));
 }
 
 void Console::detail(std::string_view line) const {
@@ -135,7 +129,7 @@ void Console::warn(std::string_view line) const {
   put_message(std::string("warning: ").append(line));
 }
 
-void Console::error(std::string_view line) const { put_message(std::string(line)); }
+void Console::error(std::string_view line) const { put_message(line); }
 
 namespace {
 

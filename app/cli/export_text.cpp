@@ -44,8 +44,8 @@ void print_step(const Console& console, const FileReport& file) {
   const solid::StepReport& step = *file.step;
   console.print(fmt::format("{}: {} bytes, {} faces, within {:.2g} mm{}", file.path, file.bytes,
                             step.faces, file.max_error_mm, file.read_back ? ", read back" : ""));
+  console.detail("  step; closed and embedded: the section of its surfaces is strictly simple");
   console.detail(fmt::format(
-      "  step; closed and embedded: the section of its surfaces is strictly simple\n"
       "  minimum wall {:.4f} mm; volume {:.3f} cm3, relative difference to the counted clay {:.1e}",
       step.min_wall_mm, step.volume_mm3 / 1000.0, step.volume_error_relative));
 }

@@ -201,18 +201,21 @@ TEST(Usage, HelpSaysWhatALengthLooksLike) {
         << command;
 }
 
-// An escape sequence in a file name would act on the terminal, a newline would end the message.
+// An escape sequence in a file name would act on the terminal, a newline would end the message, and
+// a character that reverses the text would hide the ending of the name.
 TEST(Usage, MessagesHoldNoControlCharacters) {
   const ScratchFolder folder;
   const std::string name = "\"$(printf 'r\\033[31med\\nb.stl')\"";
   EXPECT_EQ(claystack("check " + name).err,
             "claystack: r?[31med?b.stl: cannot open: No such file or directory\n");
+  EXPECT_EQ(claystack("check 'a\u202Elts.exe\u200B\u0085\xF6.stl'").err,
+            "claystack: a?lts.exe???.stl: cannot open: No such file or directory\n");
   write_text(folder.file("cube.obj"),
              "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   const std::string at = "cd " + folder.path().string() + " && ";
-  const std::string red = "\"$(printf 'r\\033[31med.obj')\"";
+  const std::string red = "\"$(printf 'r\\033[31me\\nd.obj')\"";
   const Ran run = shell(at + "cp cube.obj " + red + " && " CLAYSTACK_PROGRAM " check " + red);
-  EXPECT_TRUE(run.out.starts_with("r?[31med.obj: sound\n")) << run.out;
+  EXPECT_TRUE(run.out.starts_with("r?[31me?d.obj: sound\n")) << run.out;
 }
 
 #ifdef CLAYSTACK_STUDIO
