@@ -1,5 +1,7 @@
 #include "app/cli/memory_room.hpp"
 
+#include "core/size_text.hpp"
+
 #include <fmt/format.h>
 
 #include <sys/resource.h>
@@ -25,6 +27,14 @@ std::uint64_t kernel_figure(const char* table, std::string_view label) {
 /// The memory that a limit leaves to a process that uses `used`.
 std::uint64_t rest_of(std::uint64_t limit, std::uint64_t used) {
   return limit - std::min(used, limit);
+}
+
+constexpr int kDecimals = 1;
+
+double in_gigabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / 1e9; }
+
+std::string gigabytes(std::uint64_t bytes, int decimals) {
+  return size_text(in_gigabytes(bytes), decimals) + " GB";
 }
 
 }  // namespace
@@ -63,10 +73,9 @@ Result<void> expect_room(std::string_view job, std::uint64_t bytes) {
 }
 
 std::string lack_of_room(std::string_view job, std::uint64_t bytes, const MemoryRoom& room) {
-  int digits = 2;
-  while (digits < 10 && gigabytes(bytes, digits) == gigabytes(room.bytes, digits)) ++digits;
+  const int decimals = decimals_apart(in_gigabytes(bytes), in_gigabytes(room.bytes), kDecimals);
   return fmt::format("{} needs about {} of memory, found {} available within {}", job,
-                     gigabytes(bytes, digits), gigabytes(room.bytes, digits), room.limit);
+                     gigabytes(bytes, decimals), gigabytes(room.bytes, decimals), room.limit);
 }
 
 Result<void> expect_room_to_draw(std::uint64_t pixels) {
@@ -74,8 +83,6 @@ Result<void> expect_room_to_draw(std::uint64_t pixels) {
   return expect_room("drawing", kOfDriver + kOfPixel * pixels);
 }
 
-std::string gigabytes(std::uint64_t bytes, int digits) {
-  return fmt::format("{:.{}g} GB", static_cast<double>(bytes) / 1e9, digits);
-}
+std::string gigabytes(std::uint64_t bytes) { return gigabytes(bytes, kDecimals); }
 
 }  // namespace clay::cli

@@ -34,11 +34,11 @@ struct MemoryRoom {
 /// so none is started. Measured with Mesa's llvmpipe.
 [[nodiscard]] Result<void> expect_room_to_draw(std::uint64_t pixels);
 
-/// The message of these errors; both figures have as many digits as they need to differ.
+/// The message of these errors; both figures have as many decimals as they need to differ.
 [[nodiscard]] std::string lack_of_room(std::string_view job, std::uint64_t bytes,
                                        const MemoryRoom& room);
 
-/// For messages.
-[[nodiscard]] std::string gigabytes(std::uint64_t bytes, int digits = 2);
+/// "1.2 GB"
+[[nodiscard]] std::string gigabytes(std::uint64_t bytes);
 
 }  // namespace clay::cli

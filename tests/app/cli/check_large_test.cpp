@@ -232,8 +232,9 @@ TEST(MemoryLimit, RefusesTheWheelAndThePotOfMoreRingsThanFit) {
 }
 
 TEST(MemoryLimit, StatesTwoFiguresThatDiffer) {
-  EXPECT_EQ(cli::lack_of_room("drawing", 3'000'000'000, {1'200'000'000, "the limit --memory"}),
-            "drawing needs about 3 GB of memory, found 1.2 GB available within the limit --memory");
+  EXPECT_EQ(
+      cli::lack_of_room("drawing", 3'000'000'000, {1'200'000'000, "the limit --memory"}),
+      "drawing needs about 3.0 GB of memory, found 1.2 GB available within the limit --memory");
   EXPECT_EQ(cli::lack_of_room("drawing", 1'634'000'000, {1'629'000'000, "the limit --memory"}),
             "drawing needs about 1.634 GB of memory, found 1.629 GB available within the limit "
             "--memory");
