@@ -5,6 +5,7 @@
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
+#include "core/time_units.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -72,8 +73,7 @@ ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOption
     stats.ring_limit = stats.ring_limit || (step.flags & kRingLimit) != 0;
     stats.max_force_n = std::max(stats.max_force_n, force);
     auditor.look(stats);
-    if (options.trace)
-      options.trace(auditor.row(1e-6 * static_cast<double>(poses[k].time_us), force));
+    if (options.trace) options.trace(auditor.row(in_seconds(poses[k].time_us), force));
     if (options.progress) options.progress(k + 1);
   }
   stats.tick_ns_median = percentile(tick_ns, 0.5);

@@ -1,5 +1,7 @@
 #include "app/cli/session_check.hpp"
 
+#include "core/time_units.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +33,7 @@ Result<void> check_gaps(const Session& session, const SceneSpec& scene, const Re
           "{}: expected one tool throughout, because {} no tool.gap_mm, found a gap of {:.6g} "
           "mm at {:.3f} s{}",
           files.session, of_pot ? "the pot " + files.from + " holds" : "the scene sets",
-          pose->gap_mm, 1e-6 * static_cast<double>(pose->time_us),
+          pose->gap_mm, in_seconds(pose->time_us),
           of_pot ? "; name the scene of the session before --from" : ""));
 }
 

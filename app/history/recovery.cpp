@@ -3,6 +3,7 @@
 #include "app/history/file_lock.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "core/system_calls.hpp"
+#include "core/time_units.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -33,7 +34,7 @@ std::optional<Recoverable> look_at(const fs::path& path, bool& needless) {
   found.scene = work.scenes[work.nodes[0].scene].name;
   found.strokes = work.nodes.size() - 1;
   for (const WorkNode& node : work.nodes)
-    if (!node.poses.empty()) found.seconds += 1e-6 * static_cast<double>(node.poses.back().time_us);
+    if (!node.poses.empty()) found.seconds += in_seconds(node.poses.back().time_us);
   found.running = reading->running;
   found.damage = reading->damage;
   const bool saved = work.saved_at == work.at && work.saved_nodes == work.nodes.size();

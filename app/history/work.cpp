@@ -3,6 +3,7 @@
 #include "app/history/replay.hpp"
 #include "app/history/split.hpp"
 #include "claystack/engine/files.hpp"
+#include "core/time_units.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@ namespace clay::history {
 namespace {
 
 std::size_t poses_until(const WorkNode& stroke, double seconds) {
-  const auto until_us = static_cast<std::int64_t>(1e6 * std::clamp(seconds, 0.0, 9e9));
+  const std::int64_t until_us = in_microseconds(std::clamp(seconds, 0.0, 9e9));
   return static_cast<std::size_t>(std::distance(
       stroke.poses.begin(), std::ranges::upper_bound(stroke.poses, until_us, {}, &Pose::time_us)));
 }
@@ -306,7 +307,7 @@ NodeView Work::view(NodeId node) const {
   view.children = children_[node];
   view.scene = &record_.scenes[stroke.scene];
   view.poses = stroke.poses.size();
-  if (!stroke.poses.empty()) view.seconds = 1e-6 * static_cast<double>(stroke.poses.back().time_us);
+  if (!stroke.poses.empty()) view.seconds = in_seconds(stroke.poses.back().time_us);
   if (known_[node]) {
     view.volume_mm3 = known_[node]->volume_mm3;
     view.changed = known_[node]->changed;

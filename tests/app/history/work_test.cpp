@@ -106,8 +106,20 @@ RC_GTEST_PROP(Work, RestoresAnyMomentOfAStroke, ()) {
     const auto part =
         std::vector(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(count));
     const Pot expected = plainly_thrown(small_scene(5.0), **work.pot(1), part);
-    RC_ASSERT(work.scrub(2, 1e-6 * static_cast<double>(part.back().time_us) + 1e-7).value() ==
-              expected);
+    RC_ASSERT(work.scrub(2, static_cast<double>(part.back().time_us) / 1e6).value() == expected);
+  }
+}
+
+/// The slider of the window ends at the seconds of the stroke.
+TEST(Work, TheLastMomentOfAStrokeIsItsPot) {
+  auto poses = press_stroke(1);
+  for (std::int64_t late_us = 0; late_us < 20; ++late_us) {
+    poses.back().time_us += 1;
+    Work work = Work::begin(small_scene()).value();
+    (void)work.add(small_scene(), poses).value();
+    const double seconds = work.view(1).seconds;
+    EXPECT_EQ(work.scrub(1, seconds).value(), **work.pot(1)) << poses.back().time_us;
+    EXPECT_EQ(work.branch(1, seconds)->strokes, 0u) << poses.back().time_us;
   }
 }
 
@@ -118,7 +130,7 @@ RC_GTEST_PROP(Work, BranchesFromAMomentAndKeepsTheStroke, ()) {
   (void)work.add(small_scene(5.0), poses).value();
   const Pot whole = **work.pot(2);
   const auto count = *rc::gen::inRange<std::size_t>(1, poses.size() + 1);
-  const double seconds = 1e-6 * static_cast<double>(poses[count - 1].time_us) + 1e-7;
+  const double seconds = static_cast<double>(poses[count - 1].time_us) / 1e6;
   const Pot shown = work.scrub(2, seconds).value();
   const Added added = work.branch(2, seconds).value();
   RC_ASSERT(**work.pot() == shown);
