@@ -97,17 +97,15 @@ Result<PlannedStroke> plan(const StrokeScript& script, std::size_t index, const 
   });
 }
 
-Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene,
+Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene, Wheel wheel,
                                std::size_t most_poses) {
   if (auto gaps = check_gaps(script, scene); !gaps) return tl::make_unexpected(gaps.error());
-  return Wheel::build(scene).and_then([&](Wheel&& wheel) -> Result<std::vector<Pose>> {
-    Hand hand(script, std::move(wheel), most_poses);
-    for (const Stroke& stroke : script.strokes)
-      for (int pass = 0; pass < stroke.passes && !hand.full(); ++pass) perform(hand, stroke, pass);
-    if (!hand.full()) return hand.take();
-    return failure(ErrorKind::bad_input, "strokes: expected at most " + std::to_string(most_poses) +
-                                             " poses, found more");
-  });
+  Hand hand(script, std::move(wheel), most_poses);
+  for (const Stroke& stroke : script.strokes)
+    for (int pass = 0; pass < stroke.passes && !hand.full(); ++pass) perform(hand, stroke, pass);
+  if (!hand.full()) return hand.take();
+  return failure(ErrorKind::bad_input,
+                 "strokes: expected at most " + std::to_string(most_poses) + " poses, found more");
 }
 
 }  // namespace clay::strokes

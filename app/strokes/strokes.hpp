@@ -7,6 +7,7 @@
 #include "claystack/engine/files.hpp"
 #include "claystack/engine/scene.hpp"
 #include "claystack/engine/tool.hpp"
+#include "claystack/engine/wheel.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -69,10 +70,10 @@ struct StrokeScript {
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name);
 
 /// Poses in a vertical plane through the axis, at the script's rate, quantized as in a session, on
-/// the scene's wheel. The same bits on every platform: uses no libm except the square root, and no
-/// distribution of the standard library. Fails where Wheel::build refuses the scene, for a gap in a
-/// scene of one tool, and for more than `most_poses`.
-Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene,
+/// `wheel`, which was built for `scene`. The same bits on every platform: uses no libm except the
+/// square root, and no distribution of the standard library. Fails for a gap in a scene of one
+/// tool, and for more than `most_poses`.
+Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene, Wheel wheel,
                                std::size_t most_poses = kMaxPoses);
 
 /// A stroke, planned on a pot.

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -74,6 +76,51 @@ TEST(StrokesCommand, NamesTheFileThatTheWheelRefuses) {
             std::string::npos)
       << refused.err;
   EXPECT_FALSE(std::filesystem::exists(folder.file("c.session")));
+}
+
+/// A stroke of kind lip goes to the rim of the pot that it is planned on.
+double nearest_to_axis_mm(const std::string& session) {
+  double nearest = 1e9;
+  for (const Pose& pose : parse_session(read_text(session), session)->poses)
+    nearest = std::min(nearest, pose.position_mm.x);
+  return nearest;
+}
+
+TEST(StrokesCommand, StartsFromAPot) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("b.pot.json"), script = folder.file("lip.strokes.json");
+  const std::string lump = folder.file("lump.session"), lip = folder.file("lip.session");
+  test::write_text(script, R"({"start_mm": [150, 150], "tremor_mm": 0, "rate_hz": 250,
+                               "strokes": [{"kind": "lip"}]})");
+  ASSERT_EQ(claystack("throw " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  ASSERT_EQ(claystack("strokes " + sample("bowl.scene.json") + " " + script + " -o " + lump).status,
+            0);
+  for (const std::string& scene : {sample("bowl.scene.json") + " ", std::string()}) {
+    const auto made = claystack("strokes " + scene + script + " --from " + pot + " -o " + lip);
+    ASSERT_EQ(made.status, 0) << made.err;
+    constexpr double kToolMm = 10.0;  // larger than that of the scene
+    const double rim_mm = parse_pot(read_text(pot), pot)->stack.rings().back().inner_mm();
+    EXPECT_GT(nearest_to_axis_mm(lip), rim_mm - 2.0 * kToolMm);
+    EXPECT_LT(nearest_to_axis_mm(lump), rim_mm - 2.0 * kToolMm);
+    // Played on that pot, the session causes no warning.
+    const auto thrown = claystack("throw -q " + scene + "--from " + pot + " -s " + lip);
+    EXPECT_EQ(thrown.status, 0);
+    EXPECT_EQ(thrown.err, "");
+  }
+}
+
+TEST(StrokesCommand, NamesTheMissingArgument) {
+  const struct {
+    const char* arguments;
+    const char* message;
+  } cases[] = {{"strokes -o s.session", "expected scene (NAME.scene.json, or - for standard input"},
+               {"strokes a.scene.json -o s.session", "expected script (NAME.strokes.json)"},
+               {"strokes --from a.pot.json -o s.session", "expected script (NAME.strokes.json)"}};
+  for (const auto& [arguments, message] : cases) {
+    const auto refused = claystack(arguments);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find(message), std::string::npos) << refused.err;
+  }
 }
 
 }  // namespace

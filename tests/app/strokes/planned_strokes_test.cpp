@@ -40,7 +40,9 @@ Stroke stroke_of(StrokeKind kind) {
   return stroke;
 }
 
-std::vector<Pose> poses_of(const Stroke& stroke) { return play(script_of(stroke), tube()).value(); }
+std::vector<Pose> poses_of(const Stroke& stroke, const SceneSpec& scene = tube()) {
+  return play(script_of(stroke), scene, Wheel::build(scene).value()).value();
+}
 
 TEST(Shape, LeadsTheToolAlongTheOutsideOfAnOutline) {
   Stroke stroke = stroke_of(StrokeKind::shape);
@@ -124,8 +126,7 @@ TEST(Lip, RollsTheToolAroundASemicircle) {
   scene.removal.min_wall_mm = 1.0;
   scene.removal.rate_per_s = 1e-9;
   double nearest = 1e9;
-  const auto poses = play(script_of(stroke), scene).value();
-  for (const Pose& pose : poses) {
+  for (const Pose& pose : poses_of(stroke, scene)) {
     const double away =
         std::hypot(pose.position_mm.x - middle, pose.position_mm.y - (kHeightMm - round));
     if (pose.position_mm.y > kHeightMm - round) nearest = std::min(nearest, away);

@@ -22,7 +22,14 @@ std::vector<Pose> play(const StrokeScript& script) {
   SceneSpec scene;
   scene.lump = {.rings = 10, .ring_height_mm = 1.0, .outer_radius_mm = 5.0};
   scene.tool.gap_mm = 4.0;
-  return strokes::play(script, scene).value();
+  return strokes::play(script, scene, Wheel::build(scene).value()).value();
+}
+
+/// On the usual lump, for one tool.
+Result<std::vector<Pose>> play_on_lump(const StrokeScript& script,
+                                       std::size_t most_poses = kMaxPoses) {
+  const SceneSpec scene;
+  return strokes::play(script, scene, Wheel::build(scene).value(), most_poses);
 }
 
 /// One stroke that begins at the hand's start; without tremor unless set.
@@ -232,7 +239,7 @@ TEST(Strokes, RefusesAGapInASceneOfOneTool) {
   StrokeScript script = script_through({{10.0, 10.0}, {10.0, 30.0}});
   script.strokes.push_back(script.strokes[0]);
   script.strokes[1].gap_mm = {4.0};
-  const auto refused = strokes::play(script, SceneSpec{});
+  const auto refused = play_on_lump(script);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message,
             "strokes[1].gap_mm: expected one tool, because the scene sets no tool.gap_mm, found a "
@@ -242,9 +249,9 @@ TEST(Strokes, RefusesAGapInASceneOfOneTool) {
 /// The length of a planned stroke is known only when it is played.
 TEST(Strokes, RefusesMorePosesThanTheLimit) {
   const StrokeScript script = script_through({{10.0, 10.0}, {10.0, 30.0}});
-  const std::size_t count = strokes::play(script, SceneSpec{})->size();
-  EXPECT_EQ(strokes::play(script, SceneSpec{}, count)->size(), count);
-  const auto refused = strokes::play(script, SceneSpec{}, count - 1);
+  const std::size_t count = play_on_lump(script)->size();
+  EXPECT_EQ(play_on_lump(script, count)->size(), count);
+  const auto refused = play_on_lump(script, count - 1);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message,
             "strokes: expected at most " + std::to_string(count - 1) + " poses, found more");
