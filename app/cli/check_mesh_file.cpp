@@ -1,6 +1,7 @@
 #include "app/cli/check.hpp"
 #include "app/cli/memory_room.hpp"
 #include "app/cli/mesh_input.hpp"
+#include "app/cli/mesh_unit.hpp"
 
 #include "claystack/export/formats.hpp"
 #include "claystack/export/repair.hpp"

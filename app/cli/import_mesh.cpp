@@ -2,6 +2,7 @@
 
 #include "app/cli/json_output.hpp"
 #include "app/cli/mesh_input.hpp"
+#include "app/cli/mesh_unit.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
 #include "app/import/mesh_warnings.hpp"

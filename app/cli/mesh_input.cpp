@@ -31,24 +31,6 @@ Result<void> expect_room_for(std::uint64_t triangles, std::uint64_t bytes_per_tr
 
 }  // namespace
 
-std::optional<std::string> doubted_unit(const glm::dvec3& size_mm, MeshFormat format) {
-  constexpr double kUsualMm = 10.0, kLargestMm = 1'000.0, kMicrometresMm = 10'000.0;
-  const bool states_unit = format == MeshFormat::three_mf || format == MeshFormat::glb;
-  const double largest_mm = std::max({size_mm.x, size_mm.y, size_mm.z});
-  if (largest_mm > kLargestMm)
-    return fmt::format(
-        "{:.4g} x {:.4g} x {:.4g} m: {}", size_mm.x / 1e3, size_mm.y / 1e3, size_mm.z / 1e3,
-        states_unit ? "the file states its unit, but its numbers may be in millimetres"
-        : largest_mm > kMicrometresMm
-            ? "meshes are read in millimetres, this one may be in micrometres"
-            : "meshes are read in millimetres, this one may be in a smaller unit");
-  if (states_unit || largest_mm >= kUsualMm) return {};
-  return fmt::format(
-      "only {:.3g} x {:.3g} x {:.3g} mm: meshes are read in millimetres, this one may be in metres "
-      "or inches",
-      size_mm.x, size_mm.y, size_mm.z);
-}
-
 Result<MeshFile> MeshFile::open(const std::string& path, MeshFormat format, bool keep_bytes) {
   auto reader = FileReader::open(path);
   if (!reader) return tl::make_unexpected(reader.error());

@@ -7,7 +7,6 @@
 #include "core/file_reader.hpp"
 
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,11 +19,6 @@ struct MeshWork {
   std::string_view name;  ///< "checking"
   std::uint64_t bytes_per_triangle = 0;
 };
-
-/// A warning if a mesh of this size [mm] is probably in another unit: in metres or inches (not for
-/// formats that state their unit), or larger than 10 m.
-[[nodiscard]] std::optional<std::string> doubted_unit(const glm::dvec3& size_mm,
-                                                      solid::MeshFormat format);
 
 /// A mesh file that is open. It is streamed unless its format, a pipe or the caller needs all of
 /// its bytes.

@@ -1,5 +1,6 @@
 #include "app/python/made_pot.hpp"
 
+#include "app/cli/mesh_unit.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/session_check.hpp"
 #include "app/import/drawn_pot.hpp"
@@ -9,6 +10,7 @@
 #include "claystack/engine/wheel.hpp"
 #include "claystack/export/formats.hpp"
 #include "claystack/export/proof.hpp"
+#include "claystack/export/solid.hpp"
 #include "core/text.hpp"
 
 #include <utility>
@@ -46,11 +48,13 @@ Result<MadePot> pot_of_mesh(const std::string& path, const std::string& bytes,
   if (!mesh) return tl::make_unexpected(mesh.error());
   const solid::MeshEnclosure enclosure = solid::enclosure_of(*mesh);
   const importing::MeshPotSettings settings;
+  const auto doubt = cli::doubted_unit(solid::extent_of(*mesh).size(), format);
   auto made = importing::mesh_pot(std::move(*mesh), settings, path);
-  if (!made) return tl::make_unexpected(made.error());
+  if (!made) return failure(made.error().kind, made.error().message + (doubt ? "; " + *doubt : ""));
   std::vector<std::string> warnings = importing::mesh_warnings(*made, enclosure, settings.rings);
   if (!made->parts.empty())
     warnings.push_back("not of revolution, left out: " + counted(made->parts.size(), "part"));
+  if (doubt) warnings.push_back(*doubt);
   for (std::string& warning : warnings) warning = path + ": " + warning;
   return MadePot{std::move(made->pot), std::move(warnings)};
 }
@@ -99,7 +103,9 @@ Result<Pot> stacked(double ring_height_mm, const std::vector<double>& outer_mm,
   if (outer_mm.empty())
     return failure(ErrorKind::bad_input, "outer_mm: expected one ring or more, found none");
   if (outer_mm.size() != inner_mm.size())
-    return failure(ErrorKind::bad_input, "inner_mm: expected one radius for each of outer_mm");
+    return failure(ErrorKind::bad_input, "inner_mm: expected " + std::to_string(outer_mm.size()) +
+                                             " radii, as many as outer_mm, found " +
+                                             std::to_string(inner_mm.size()));
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < outer_mm.size(); ++i) {
     if (const std::string problem = problem_with(outer_mm[i], inner_mm[i]); !problem.empty())

@@ -1,12 +1,14 @@
 // The part of the Python package in C++: values and arrays. claystack/__init__.py makes dataclasses
 // of them.
 
+#include "app/cli/mesh_unit.hpp"
 #include "app/cli/pot_input.hpp"
 #include "app/python/made_pot.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/export/formats.hpp"
 #include "claystack/export/job.hpp"
 #include "claystack/export/proof.hpp"
+#include "claystack/export/solid.hpp"
 #include "claystack/version.hpp"
 
 #include <pybind11/numpy.h>
@@ -174,11 +176,26 @@ std::shared_ptr<solid::TriangleMesh> mesh_of(const Pot& pot, const ExportSetting
       value_of(solid::decode_mesh(store.bytes(), solid::MeshFormat::stl_binary, "mesh")));
 }
 
-std::shared_ptr<solid::TriangleMesh> read_mesh(const std::string& path) {
-  py::gil_scoped_release others_run;
-  const auto format = value_of(solid::mesh_format_of(path));
-  const std::string bytes = value_of(read_file(path));
-  return std::make_shared<solid::TriangleMesh>(value_of(solid::decode_mesh(bytes, format, path)));
+/// `value`, and the warnings about it.
+template <class T>
+py::tuple with_warnings(std::shared_ptr<T> value, const std::vector<std::string>& warnings) {
+  py::list list;
+  for (const std::string& warning : warnings) list.append(text_of(warning));
+  return py::make_tuple(std::move(value), std::move(list));
+}
+
+py::tuple read_mesh(const std::string& path) {
+  std::shared_ptr<solid::TriangleMesh> mesh;
+  std::vector<std::string> warnings;
+  {
+    py::gil_scoped_release others_run;
+    const auto format = value_of(solid::mesh_format_of(path));
+    const std::string bytes = value_of(read_file(path));
+    mesh = std::make_shared<solid::TriangleMesh>(value_of(solid::decode_mesh(bytes, format, path)));
+    if (const auto doubt = cli::doubted_unit(solid::extent_of(*mesh).size(), format))
+      warnings.push_back(path + ": " + *doubt);
+  }
+  return with_warnings(std::move(mesh), warnings);
 }
 
 py::dict check_mesh(const solid::TriangleMesh& mesh) {
@@ -212,17 +229,15 @@ py::dict check_mesh(const solid::TriangleMesh& mesh) {
   return dict;
 }
 
-/// Calls `make`, while other threads of Python run; returns the pot, and a list of the warnings.
+/// Calls `make`, while other threads of Python run.
 template <class Make>
-py::tuple with_warnings(const Make& make) {
+py::tuple made_pot(const Make& make) {
   MadePot made;
   {
     py::gil_scoped_release others_run;
     made = value_of(make());
   }
-  py::list warnings;
-  for (const std::string& warning : made.warnings) warnings.append(text_of(warning));
-  return py::make_tuple(std::make_shared<Pot>(std::move(made.pot)), warnings);
+  return with_warnings(std::make_shared<Pot>(std::move(made.pot)), made.warnings);
 }
 
 void add_types(py::module_& module) {
@@ -255,7 +270,7 @@ void add_functions(py::module_& module) {
       [](const Pot& pot, const std::string& path) { value_of(write_named_pot(pot, path)); },
       released);
   module.def("throw_pot", [](const std::string& scene, const std::string& session) {
-    return with_warnings([&] { return throw_pot(scene, session); });
+    return made_pot([&] { return throw_pot(scene, session); });
   });
   module.def(
       "stacked",
@@ -269,9 +284,8 @@ void add_functions(py::module_& module) {
   module.def("mesh_of", &mesh_of);
   module.def("read_mesh", &read_mesh);
   module.def("check_mesh", &check_mesh);
-  module.def("import_pot", [](const std::string& path) {
-    return with_warnings([&] { return import_pot(path); });
-  });
+  module.def("import_pot",
+             [](const std::string& path) { return made_pot([&] { return import_pot(path); }); });
   module.attr("version") = CLAYSTACK_VERSION;
 }
 

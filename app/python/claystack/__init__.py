@@ -172,15 +172,26 @@ def _pot(native) -> Pot:
                native.collapsed, native.quanta, native)
 
 
-def _made(native, messages) -> Pot:
-    """Warns as the command line does. A warning names the line that called the public function."""
+def _warn(messages) -> None:
+    """As the command line does. A warning names the line that called the public function, which
+    calls the caller of this one."""
     for message in messages:
-        warnings.warn(message, stacklevel=3)
+        warnings.warn(message, stacklevel=4)
+
+
+def _made(native, messages) -> Pot:
+    _warn(messages)
     return _pot(native)
 
 
 def _mesh(native) -> Mesh:
     return Mesh(native.points, native.triangles, native)
+
+
+def _read(path: _Path) -> Mesh:
+    native, messages = _call(_native.read_mesh, os.fsencode(path))
+    _warn(messages)
+    return _mesh(native)
 
 
 def _settings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm=None, process=None,
@@ -242,13 +253,14 @@ def mesh(pot: Pot, *, tolerance_mm: float = 0.02, smoothing: str = "fair",
 
 
 def read_mesh(path: _Path) -> Mesh:
-    """Reads STL, OBJ, DRC, PLY, OFF, 3MF or GLB."""
-    return _mesh(_call(_native.read_mesh, os.fsencode(path)))
+    """Reads STL, OBJ, DRC, PLY, OFF, 3MF or GLB. Warns of a size that suggests another unit than
+    mm."""
+    return _read(path)
 
 
 def check(what: Union[Mesh, _Path]) -> Check:
-    """Checks whether a mesh, or the mesh in a file, is a printable solid."""
-    found = what if isinstance(what, Mesh) else read_mesh(what)
+    """Checks whether a mesh, or the mesh in a file, is a printable solid. Warns as `read_mesh`."""
+    found = what if isinstance(what, Mesh) else _read(what)
     report = _call(_native.check_mesh, found._native)
     report["problems"] = tuple(Problem(**one) for one in report["problems"])
     return Check(**report)

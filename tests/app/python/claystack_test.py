@@ -208,6 +208,22 @@ class Package(unittest.TestCase):
         command = self.run_program("import", self.file("open.obj"), "-o", self.file("open.pot.json"))
         self.assertIn(f"warning: {warned.warning}\n", command.stderr.decode())
 
+    def test_warns_of_a_unit_as_the_command_line_does(self):
+        cup = claystack.mesh(claystack.stack(2.0, [40.0] * 20, [0.0] * 3 + [34.0] * 17))
+        path = self.file("metres.obj")
+        with open(path, "w", encoding="utf-8") as file:
+            file.writelines(f"v {x / 1e3} {y / 1e3} {z / 1e3}\n" for x, y, z in cup.points)
+            file.writelines(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in cup.triangles)
+        printed = self.run_program("check", "-q", path).stderr.decode()
+        for call in (claystack.read_mesh, claystack.check, claystack.import_pot):
+            with self.assertWarns(UserWarning) as warned:
+                call(path)
+            self.assertTrue(str(warned.warning).startswith(
+                f"{path}: only 0.08 x 0.08 x 0.04 mm: meshes are read in millimetres"))
+            self.assertEqual(warned.filename, __file__)
+            words = str(warned.warning)[len(path) + 2:]
+            self.assertIn(words, printed)
+
     def test_finds_faults_of_a_mesh(self):
         with open(self.file("open.off"), "w", encoding="utf-8") as file:
             file.write("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")

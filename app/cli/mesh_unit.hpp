@@ -1,0 +1,17 @@
+#pragma once
+// Meshes whose numbers are probably not millimetres.
+
+#include "claystack/export/formats.hpp"
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+
+namespace clay::cli {
+
+/// A warning if a mesh of this size [mm] is probably in another unit: in metres or inches (not for
+/// formats that state their unit), or larger than 10 m.
+[[nodiscard]] std::optional<std::string> doubted_unit(const glm::dvec3& size_mm,
+                                                      solid::MeshFormat format);
+
+}  // namespace clay::cli
