@@ -31,8 +31,6 @@ Examples:
   claystack help export
   claystack doctor
 
-Once installed: cp -r {} .
-
 Output files replace older files of the same name, but never an input; with
 --no-overwrite they replace none.
 Exit status: 0 done and sound; 1 done, but the pot or mesh fails a check;
@@ -92,6 +90,17 @@ void explain_lengths(CLI::App& command) {
                  command.get_footer());
 }
 
+/// Where the samples of the examples are, before the exit status if the help has that.
+void explain_samples(CLI::App& command) {
+  std::string help = command.get_footer();
+  if (help.find("samples/") == std::string::npos) return;
+  const std::size_t end = help.find("\n\n", help.find("samples/"));
+  help.insert(std::min(end, help.size()),
+              fmt::format("\n\nTo copy the installed samples: cp -r {} .",
+                          installed(CLAYSTACK_INSTALLED_SAMPLES).string()));
+  command.footer(help);
+}
+
 bool writes_files(std::string_view command) {
   static constexpr std::array kCommands = {"throw",  "export", "check", "strokes",
                                            "import", "render", "bench"};
@@ -105,6 +114,7 @@ void add_shared_options(CLI::App& command, Console& console) {
   command.add_flag("-q,--quiet", console.quiet, "Print warnings and errors only");
   add_memory_option(command);
   explain_lengths(command);
+  explain_samples(command);
   if (writes_files(name))
     command.add_flag("--no-overwrite", console.no_overwrite,
                      "Refuse output files that exist (default: replace them; an input is never "
@@ -183,7 +193,8 @@ int run(int argc, char** argv) {
   CLI::App app("Throw pots on a virtual wheel and export files for 3D printing", "claystack");
   app.formatter(help_format());  // of the commands, too
   app.set_version_flag("--version", version_text());
-  app.footer(fmt::format(kExamples, installed(CLAYSTACK_INSTALLED_SAMPLES).string()));
+  app.footer(kExamples);
+  explain_samples(app);
   app.require_subcommand(1);
 
   Console console;

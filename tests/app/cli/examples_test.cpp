@@ -100,6 +100,16 @@ TEST_F(Examples, NameFilesThatAreInstalledOrMade) {
     }
 }
 
+/// The samples are not in the folder of a person who installed a package.
+TEST_F(Examples, NameTheFolderOfTheirSamples) {
+  for (const std::string& page : commands()) {
+    const std::string help = run(folder_.path().string(), "claystack help " + page).out;
+    const bool uses_samples = help.find(" samples/") != std::string::npos;
+    const std::string copy = "cp -r " + folder_.file("usr/share/claystack/samples") + " .";
+    EXPECT_EQ(help.find(copy) != std::string::npos, uses_samples) << help;
+  }
+}
+
 TEST_F(Examples, MatchInManualAndHelp) {
   for (const std::string& page : commands()) {
     std::string manual = claystack("manual " + page).out;
