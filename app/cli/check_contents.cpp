@@ -171,6 +171,8 @@ Result<void> check_contents(std::string_view bytes, const TriangleMesh& mesh, Me
   if (command.changes_mesh()) {
     if (format == MeshFormat::three_mf && carries_pot(bytes, command.file))
       verdict.notes.push_back("the result has neither the pot nor the certificate of the file");
+    if (format == MeshFormat::glb)
+      verdict.notes.push_back("the result has no names, materials and colours of the file");
     return {};
   }
   if (format == MeshFormat::drc) check_claims(bytes, mesh, verdict);

@@ -45,6 +45,17 @@ Result<std::vector<PotCopy>> add_copies(const Pot& pot, ExportCommand& command) 
   return copies;
 }
 
+/// The library names no options: "goal: expected ..." begins with those that are given.
+Error by_goal_options(Error error, const ExportCommand& command) {
+  constexpr std::string_view kGoal = "goal:";
+  if (!error.message.starts_with(kGoal)) return error;
+  std::string options;
+  for (const char* option : {"--holds", "--weighs", "--height", "--diameter"})
+    if (command.given(option)) options += std::string(options.empty() ? "" : ", ") + option;
+  error.message.replace(0, kGoal.size() - 1, options);
+  return error;
+}
+
 /// Scales the pot to its goal, and prints how.
 Result<Pot> pot_at_goal(const Pot& pot, ExportCommand& command, const Console& console) {
   if (!command.has_goal()) {
@@ -60,7 +71,8 @@ Result<Pot> pot_at_goal(const Pot& pot, ExportCommand& command, const Console& c
                                   solid::text_of(reached.met)));
         command.request.options.met_goal = reached.met;
         return std::move(reached.pot);
-      });
+      })
+      .map_error([&](Error error) { return by_goal_options(std::move(error), command); });
 }
 
 /// `--smooth-length tool` needs a pot that remembers its tool; the default does without.

@@ -38,9 +38,7 @@ Result<std::optional<double>> smooth_length_of(const std::string& text) {
   if (text == "tool") return std::optional<double>();
   return length_of(text, solid::kSmoothLengthRange.lowest, solid::kSmoothLengthRange.highest)
       .map([](double mm) { return std::optional<double>(mm); })
-      .map_error([](const Error& error) {
-        return Error{error.kind, error.message + "; or tool"};
-      });
+      .map_error([](const Error& error) { return or_else("tool", error); });
 }
 
 /// The pot and the files to write.

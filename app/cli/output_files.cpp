@@ -76,8 +76,12 @@ Result<void> check_output(const OutputFile& file, const Place& place,
   return AtomicFile::create(file.path).map([](const AtomicFile&) {});
 }
 
-/// Standard output takes one document.
-Result<void> check_streams(const std::vector<OutputFile>& outputs, const Console& console) {
+/// Each standard stream takes one document.
+Result<void> check_streams(const std::vector<OutputFile>& outputs,
+                           const std::vector<std::string>& inputs, const Console& console) {
+  if (const auto read = std::ranges::count(inputs, "-"); read > 1)
+    return failure(ErrorKind::bad_input,
+                   fmt::format("-: expected at most one input on standard input, found {}", read));
   const auto streams = std::ranges::count(outputs, "-", &OutputFile::path);
   if (streams > 1)
     return failure(
@@ -93,7 +97,7 @@ Result<void> check_streams(const std::vector<OutputFile>& outputs, const Console
 
 Result<void> check_outputs(const std::vector<OutputFile>& outputs,
                            const std::vector<std::string>& inputs, const Console& console) {
-  if (auto streams = check_streams(outputs, console); !streams) return streams;
+  if (auto streams = check_streams(outputs, inputs, console); !streams) return streams;
   std::vector<Taken> taken;
   for (const std::string& input : inputs)
     if (on_disk(input)) taken.push_back({Place(input), "the input " + input});

@@ -16,11 +16,12 @@ struct OutputFile {
   std::vector<std::string_view> endings = {};  ///< of its kind; empty: the command checks the name
 };
 
-/// Call it before any work. Standard output takes one document: a second "-", and a "-" with
-/// --json, are `bad_input`. An output replaces an older file, except that these are refused:
-/// `bad_input` a name of another kind of file (pipes and devices have any name), a file that is
-/// also an input or another output, by its name or through a link, and with --no-overwrite one that
-/// exists; `io` a folder, and a file that cannot be created or replaced. Changes no file.
+/// Call it before any work. A standard stream takes one document: a second "-" among the inputs or
+/// the outputs, and an output "-" with --json, are `bad_input`. An output replaces an older file,
+/// except that these are refused: `bad_input` a name of another kind of file (pipes and devices
+/// have any name), a file that is also an input or another output, by its name or through a link,
+/// and with --no-overwrite one that exists; `io` a folder, and a file that cannot be created or
+/// replaced. Changes no file.
 Result<void> check_outputs(const std::vector<OutputFile>& outputs,
                            const std::vector<std::string>& inputs, const Console& console);
 

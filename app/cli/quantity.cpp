@@ -36,12 +36,6 @@ std::string names_of(std::span<const Unit> units) {
   return names;
 }
 
-/// "expected 0 or a length from 1 to 10 mm ...".
-std::string or_zero(const Error& error) {
-  constexpr std::string_view kBegin = "expected ";
-  return std::string(kBegin) + "0 or " + error.message.substr(kBegin.size());
-}
-
 /// "from 0 to 10 mm"; of a length without limits nothing.
 std::string limits_text(double low_mm, double high_mm) {
   if (low_mm == std::numeric_limits<double>::lowest()) return "";
@@ -68,12 +62,17 @@ Result<double> length_of(std::string_view text, double low_mm, double high_mm) {
                              names_of(kLengthUnits), text));
 }
 
+Error or_else(std::string_view word, const Error& error) {
+  constexpr std::string_view kBegin = "expected ";
+  return {error.kind, fmt::format("{}{} or {}", kBegin, word, error.message.substr(kBegin.size()))};
+}
+
 CLI::Validator length_within(double low_mm, double high_mm, OrNone zero) {
   return {[=](std::string& text) {
             const bool none = zero == OrNone::yes && number_in(text, kLengthUnits) == 0.0;
             const auto length = none ? Result<double>(0.0) : length_of(text, low_mm, high_mm);
             if (!length)
-              return zero == OrNone::yes ? or_zero(length.error()) : length.error().message;
+              return (zero == OrNone::yes ? or_else("0", length.error()) : length.error()).message;
             text = fmt::format("{}", *length);
             return std::string();
           },

@@ -37,6 +37,9 @@ Result<double> quantity_of(std::string_view text, std::span<const Unit> units);
 /// kind `bad_input` state limits and units.
 Result<double> length_of(std::string_view text, double low_mm, double high_mm);
 
+/// "expected 0 or a length ...": the error of an option that takes a word, too.
+[[nodiscard]] Error or_else(std::string_view word, const Error& error);
+
 using solid::kSmallestPartMm;
 /// Whether 0 is read, too: the part is absent.
 enum class OrNone : bool { no, yes };

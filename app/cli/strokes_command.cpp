@@ -79,7 +79,7 @@ void add_strokes_command(CLI::App& app, Console& console, int& exit) {
       "strokes", "Make a session from a stroke script, with a simulated hand on the scene's wheel");
   add_file(
       *command, "scene", options->scene,
-      "NAME.scene.json, or - for standard input. Not needed with --from: the pot remembers its "
+      "NAME.scene.json, or - for standard input; not needed with --from: the pot remembers its "
       "tool and clay");
   add_file(*command, "script", options->script, "NAME.strokes.json; docs/files.md");
   add_file(*command, "-o,--output", options->session,

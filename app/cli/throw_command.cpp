@@ -14,16 +14,19 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace clay::cli {
 namespace {
 
 struct ThrowOptions {
-  ReplayJob replay;  ///< a throw by hand, and of a work, use some of its files
+  ReplayJob replay;             ///< a throw by hand, and of a work, use some of its files
+  bool session_beside = false;  ///< the session was not named
   std::optional<std::size_t> at;
   bool list = false;
 #ifdef CLAYSTACK_FALCON
@@ -93,6 +96,14 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
 #ifdef CLAYSTACK_FALCON
   if (!options.live.device.empty()) return throw_by_hand(options.replay, options.live, console);
 #endif
+  const auto exists = [](const std::string& file) {
+    std::error_code none;
+    return std::filesystem::exists(file, none);
+  };
+  if (options.session_beside && exists(options.replay.scene) && !exists(options.replay.session))
+    return failure(ErrorKind::io, options.replay.session + ": expected the session of " +
+                                      options.replay.scene +
+                                      " beside it, found none; -s NAME.session plays another one");
   return throw_replay(options.replay, console);
 }
 
@@ -158,8 +169,10 @@ void add_throw_command(CLI::App& app, Console& console, int& exit) {
       "  claystack throw samples/mouse.work --at 3 -o early.pot.json");
   command->callback([options, &console, &exit] {
     if (options->replay.session.empty() && !options->replay.scene.empty() &&
-        options->replay.scene != "-" && !ends_ignoring_case(options->replay.scene, ".work"))
+        options->replay.scene != "-" && !is_work(options->replay.scene)) {
       options->replay.session = session_beside(options->replay.scene);
+      options->session_beside = true;
+    }
     const auto done = throw_pot(*options, console);
     exit = done ? kDone : report(done.error());
   });

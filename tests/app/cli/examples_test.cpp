@@ -103,6 +103,7 @@ TEST_F(Examples, NameFilesThatAreInstalledOrMade) {
 /// The samples are not in the folder of a person who installed a package.
 TEST_F(Examples, NameTheFolderOfTheirSamples) {
   for (const std::string& page : commands()) {
+    if (page == "studio") continue;  // another program, which has the samples built in
     const std::string help = run(folder_.path().string(), "claystack help " + page).out;
     const bool uses_samples = help.find(" samples/") != std::string::npos;
     const std::string copy = "cp -r " + folder_.file("usr/share/claystack/samples") + " .";

@@ -216,6 +216,18 @@ TEST(ExistingFilesOfACommand, StandardOutputTakesOneDocument) {
   }
 }
 
+TEST(ExistingFilesOfACommand, StandardInputHoldsOneDocument) {
+  const ScratchFolder folder;
+  for (const std::string& command :
+       {"throw - -s -", "throw - -s a.session --from -",
+        "strokes - - -o " + folder.file("a.session"), std::string("check - --certificate -")}) {
+    const Ran run = claystack(command + " </dev/null");
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.err, "claystack: -: expected at most one input on standard input, found 2\n")
+        << command;
+  }
+}
+
 TEST(ExistingFilesOfACommand, BatchAppendsToItsOwnResultsOnly) {
   const ScratchFolder folder;
   const std::string jobs = folder.file("jobs.jsonl"), results = folder.file("results.jsonl");

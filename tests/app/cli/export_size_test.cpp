@@ -123,5 +123,14 @@ TEST(SmallPot, HasASizeAndAWeight) {
       << made.out << made.err;
 }
 
+TEST_F(ExportSize, NamesTheOptionsOfGoalsThatContradict) {
+  const Ran run = claystack("export " + pot + " " + folder.file("b.stl") +
+                            " --height 12cm --holds 300ml --diameter 10cm");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_TRUE(
+      run.err.starts_with("claystack: --holds, --height, --diameter: expected one figure, "))
+      << run.err;
+}
+
 }  // namespace
 }  // namespace clay::test

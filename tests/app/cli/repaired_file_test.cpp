@@ -111,6 +111,16 @@ TEST_F(RepairedFile, StatesThatTheResultOfA3mfHasNoPot) {
   EXPECT_EQ(plain.out.find("before shrinkage"), std::string::npos) << "it has the size of the pot";
 }
 
+TEST_F(RepairedFile, StatesThatTheResultOfAGlbHasNoMaterials) {
+  const std::string in = folder.file("in.glb");
+  ASSERT_EQ(claystack("check " + write("in.stl", ball(20.0)) + " --repair -o " + in).status, 0);
+  const Ran run = claystack("check " + in + " --max-triangles 100 -o " + folder.file("out.glb"));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("note: the result has no names, materials and colours of the file\n"),
+            std::string::npos)
+      << run.out;
+}
+
 TEST_F(RepairedFile, DecimatesAfterRepair) {
   TriangleMesh mesh = ball(10.0);
   mesh.triangles.pop_back();

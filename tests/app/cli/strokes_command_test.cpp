@@ -113,7 +113,8 @@ TEST(StrokesCommand, NamesTheMissingArgument) {
   const struct {
     const char* arguments;
     const char* message;
-  } cases[] = {{"strokes -o s.session", "expected scene (NAME.scene.json, or - for standard input), found none"},
+  } cases[] = {{"strokes -o s.session",
+                "expected scene (NAME.scene.json, or - for standard input), found none"},
                {"strokes a.scene.json -o s.session", "expected script (NAME.strokes.json)"},
                {"strokes --from a.pot.json -o s.session", "expected script (NAME.strokes.json)"}};
   for (const auto& [arguments, message] : cases) {

@@ -26,6 +26,18 @@ TEST(Throw, RefusesOptionsOfADeviceWithoutOne) {
 }
 #endif
 
+TEST(Throw, NamesTheSessionThatIsMissingBesideItsScene) {
+  const ScratchFolder folder;
+  const std::string scene = folder.file("one.scene.json");
+  write_text(scene, read_text(sample("bowl.scene.json")));
+  const Ran run = claystack("throw " + scene);
+  EXPECT_EQ(run.status, 3);
+  EXPECT_EQ(run.err, "claystack: " + folder.file("one.session") + ": expected the session of " +
+                         scene + " beside it, found none; -s NAME.session plays another one\n");
+  EXPECT_NE(claystack("throw none.scene.json").err.find("none.scene.json: cannot open"),
+            std::string::npos);
+}
+
 TEST(Throw, RefusesAListOfAPot) {
   const ScratchFolder folder;
   const std::string pot = folder.file("a.pot.json");
