@@ -202,11 +202,13 @@ struct Zoom {
 struct ToggleCut {
   render::Cut cut = render::Cut::half;
 };
-/// Unfolds a panel and scrolls to it, or folds it.
+/// Unfolds a panel, shows its column and scrolls to it, or folds it.
 struct TogglePanel {
   std::string_view id;
 };
 struct ToggleDiagnostics {};
+/// The keys go through the panels, from one column to the next, and back to the view.
+struct NextColumn {};
 struct FoldPanel {
   std::string_view id;
   bool open = false;
@@ -255,10 +257,10 @@ using Action = std::variant<
     TakeImport, ChooseTarget, UseTarget, UseSampleTarget, ClearTarget, SetGoal, ShowWarning,
     CloseNotice, OpenMenu, SetToolMode, StepTool, SetToolShape, ScaleTool, ChangeGap, SetStiffness,
     DragToolSize, DragStiffness, TogglePause, Rearm, Back, PressClay, AimTool, ReleaseTool,
-    LookFrom, Zoom, ToggleCut, TogglePanel, ToggleDiagnostics, FoldPanel, ToggleTheme, ScaleText,
-    SetTheme, EditPicture, SetMaterial, ToggleThrowingLines, SetScale, SetUnit, SetWheelSpeed,
-    SetTool, SetProcess, SetHints, SetFolder, SetHandSpeed, SetBite, SetWallMap, SetFullSection,
-    ToggleWallMap, ToggleHints>;
+    LookFrom, Zoom, ToggleCut, TogglePanel, ToggleDiagnostics, NextColumn, FoldPanel, ToggleTheme,
+    ScaleText, SetTheme, EditPicture, SetMaterial, ToggleThrowingLines, SetScale, SetUnit,
+    SetWheelSpeed, SetTool, SetProcess, SetHints, SetFolder, SetHandSpeed, SetBite, SetWallMap,
+    SetFullSection, ToggleWallMap, ToggleHints>;
 
 /// In the order of creation.
 using Actions = std::vector<Action>;

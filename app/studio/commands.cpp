@@ -30,8 +30,12 @@ bool in_step(View view) {
 }
 bool has_work(View view) { return view.document.has_work(); }
 bool view_is_free(View view) { return !view.view_is_held(); }
+/// A panel that is out of sight takes room from the view.
+bool can_unfold(View view) { return view.ui.context_shown || view_is_free(view); }
 bool can_look(View view) { return has_work(view) && view_is_free(view); }
 bool at_rest(View view) { return view.at_rest(); }
+/// A finger is not over the view while it is lifted.
+bool can_drag(View view) { return at_rest(view) && !view.fingers; }
 bool between(View view) { return view.between_strokes(); }
 
 /// The current stroke of a device counts as well: undo ends it first.
@@ -87,6 +91,9 @@ const char* why_not_between(View view) {
 const char* why_view_is_held(View view) {
   return view_is_free(view) ? nullptr : "the view stands still while the tool follows the pointer";
 }
+const char* why_not_unfold(View view) {
+  return can_unfold(view) ? nullptr : why_view_is_held(view);
+}
 const char* why_no_look(View view) {
   return has_work(view) ? why_view_is_held(view) : why_no_work(view);
 }
@@ -107,6 +114,9 @@ const char* why_no_rules(View view) {
   return !has_work(view)   ? why_no_work(view)
          : has_rules(view) ? nullptr
                            : "this tool needs a pot thrown with the clay rules";
+}
+const char* why_no_drag(View view) {
+  return view.fingers ? "this needs a mouse; the panels have sliders" : why_not_between(view);
 }
 bool pinching(View view) { return view.settings.tool.mode == ToolMode::pinch; }
 bool rearmable(View view) { return view.waits_for_rearm(); }
@@ -129,7 +139,7 @@ bool is_unit(View view) {
 }
 template <const std::string_view& id>
 bool is_open(View view) {
-  return panel_open(view.settings, id);
+  return panel_open(view.settings, view.ui, id);
 }
 bool has_target(View view) { return view.ui.target != nullptr; }
 bool paused(View view) { return view.stroke.paused(); }
@@ -137,6 +147,8 @@ bool is_light(View view) { return view.settings.theme == Theme::light; }
 bool has_wall_map(View view) { return view.settings.wall_map; }
 bool has_throwing_lines(View view) { return view.settings.throwing_lines; }
 bool has_diagnostics(View view) { return diagnostics_open(view.settings); }
+bool can_go_to_panels(View view) { return view.ui.shows<NoDialog>() && view_is_free(view); }
+bool has_keys_in_panels(View view) { return view.ui.keys_in.has_value(); }
 bool has_hints(View view) { return view.settings.hints; }
 
 constexpr unsigned kCtrl = kControl, kCtrlShift = kControl | kShift;
@@ -208,8 +220,8 @@ const std::array kCommands = {
     C{"tool.rib", "Rib", key(GLFW_KEY_R), kNone, SetToolShape{Shape::rib}, always, is_shape<Shape::rib>},
     C{"tool.smaller", "Smaller", key(GLFW_KEY_LEFT_BRACKET), kNone, ScaleTool{1.0 / kSizeStep}, always},
     C{"tool.larger", "Larger", key(GLFW_KEY_RIGHT_BRACKET), kNone, ScaleTool{kSizeStep}, always},
-    C{"tool.size", "Set size with the mouse", key(GLFW_KEY_F), kNone, DragToolSize{}, at_rest},
-    C{"tool.strength", "Set stiffness with the mouse", key(GLFW_KEY_F, kShift), kNone, DragStiffness{}, at_rest},
+    C{"tool.size", "Set size with the mouse", key(GLFW_KEY_F), kNone, DragToolSize{}, can_drag, nullptr, why_no_drag},
+    C{"tool.strength", "Set stiffness with the mouse", key(GLFW_KEY_F, kShift), kNone, DragStiffness{}, can_drag, nullptr, why_no_drag},
     C{"tool.narrower", "Narrower gap", key(GLFW_KEY_COMMA), kNone, ChangeGap{-kGapStepMm}, pinching},
     C{"tool.wider", "Wider gap", key(GLFW_KEY_PERIOD), kNone, ChangeGap{kGapStepMm}, pinching},
 
@@ -227,9 +239,9 @@ const std::array kCommands = {
     C{"view.cut_quarter", "Cut away a quarter", key(GLFW_KEY_C, kShift), kNone, ToggleCut{render::Cut::quarter}, has_work, is_cut<render::Cut::quarter>},
     C{"view.wall_map", "Wall thickness map", key(GLFW_KEY_W), kNone, ToggleWallMap{}, always, has_wall_map},
     C{"view.throwing_lines", "Throwing lines", kNone, kNone, ToggleThrowingLines{}, always, has_throwing_lines},
-    C{"view.goal", "Goal", key(GLFW_KEY_O), kNone, TogglePanel{kGoal}, always, is_open<kGoal>},
-    C{"view.section", "Section", key(GLFW_KEY_X), kNone, TogglePanel{kSection}, always, is_open<kSection>},
-    C{"view.walls", "Walls", kNone, kNone, TogglePanel{kWalls}, always, is_open<kWalls>},
+    C{"view.goal", "Goal", key(GLFW_KEY_O), kNone, TogglePanel{kGoal}, can_unfold, is_open<kGoal>, why_not_unfold},
+    C{"view.section", "Section", key(GLFW_KEY_X), kNone, TogglePanel{kSection}, can_unfold, is_open<kSection>, why_not_unfold},
+    C{"view.walls", "Walls", kNone, kNone, TogglePanel{kWalls}, can_unfold, is_open<kWalls>, why_not_unfold},
     C{"view.certificate", "Certificate", kNone, kNone, TogglePanel{kCertificate}, view_is_free, is_open<kCertificate>, why_view_is_held},
     C{"view.ledger", "Clay balance", kNone, kNone, TogglePanel{kLedger}, view_is_free, is_open<kLedger>, why_view_is_held},
     C{"view.stress", "Stress", kNone, kNone, TogglePanel{kStress}, view_is_free, is_open<kStress>, why_view_is_held},
@@ -245,6 +257,7 @@ const std::array kCommands = {
     C{"help.show_step", "Show this step", key(GLFW_KEY_G), kNone, ShowStep{}, in_step},
     C{"help.next_step", "Next step", key(GLFW_KEY_N), kNone, NextStep{}, in_step},
     C{"help.end_lesson", "End the guide", kNone, kNone, EndLesson{}, in_lesson},
+    C{"help.panels", "Go to the panels", key(GLFW_KEY_F6), kNone, NextColumn{}, can_go_to_panels, has_keys_in_panels, why_view_is_held},
     C{"help.menu", "Open the menu", key(GLFW_KEY_F10), kNone, OpenMenu{}, always},
     C{"help.hint", "First steps", kNone, kNone, ToggleHints{}, always, has_hints},
     C{"help.keys", "Controls", key(GLFW_KEY_SLASH, kShift), key(GLFW_KEY_F1), ShowDialog{Kind::shortcuts}, always},

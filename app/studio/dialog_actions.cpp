@@ -24,10 +24,15 @@ std::filesystem::path open_folder(const Settings& settings) {
 
 bool open_desktop_dialog(AppState& state, FileDialog::Kind kind,
                          const std::filesystem::path& start) {
-  return state.host.real_time() && state.file_dialog.begin(kind, start);
+  if (!state.host.real_time()) return false;
+  if (!state.file_dialog.open()) return state.file_dialog.begin(kind, start);
+  note(state, Grade::warning, "The file dialog of the desktop is open: answer or close it first",
+       kNoteS);
+  return true;
 }
 
 void close_dialog(AppState& state) {
+  state.ui.focus_column = true;  // if the keys were there before
   if (state.document.has_work())
     state.ui.dialog = NoDialog{};
   else

@@ -221,11 +221,13 @@ void Performer::operator()(const Scrub& scrub) const {
 void Performer::operator()(const EndScrub&) const {
   const auto& moment = state.document.moment();
   if (!moment) return;
+  const bool fingers = state.host.fingers();
   state.log(fmt::format("timeline: {} at {:.3f} s", moment->node, moment->seconds));
   note(state, Grade::note,
-       fmt::format("{:.1f} s into stroke {}: Ctrl+Shift+B, or a press on the clay, continues "
-                   "from here as a branch; Esc goes back",
-                   moment->seconds, moment->node),
+       fmt::format("{:.1f} s into stroke {}: {} continues from here as a branch; {} goes back",
+                   moment->seconds, moment->node,
+                   fingers ? "a press on the clay" : "Ctrl+Shift+B, or a press on the clay,",
+                   fingers ? "a tap on its card" : "Esc"),
        8.0);
   state.ui.notices.keep_answer_while([](const Document& document) { return document.scrubbing(); });
 }

@@ -45,20 +45,28 @@ int start(std::vector<std::string> words, int output) {
   return failed == 0 ? child : 0;
 }
 
+/// In the order of FileDialog::Kind: the title, and the option of kdialog.
+struct Question {
+  const char* title;
+  const char* kdialog;
+};
+constexpr std::array kQuestions = {Question{"Open", "--getopenfilename"},
+                                   Question{"Save as", "--getsavefilename"},
+                                   Question{"Choose a folder", "--getexistingdirectory"},
+                                   Question{"Open a process", "--getopenfilename"},
+                                   Question{"Open a target", "--getopenfilename"}};
+
 std::vector<std::string> words_of(FileDialog::Kind kind, const std::string& start_at) {
+  const Question& question = kQuestions[static_cast<std::size_t>(kind)];
+  const std::string title = std::string("--title=").append(question.title);
   if (auto zenity = program("zenity")) {
-    std::vector<std::string> words = {*zenity, "--file-selection", "--filename=" + start_at};
+    std::vector<std::string> words = {*zenity, "--file-selection", title, "--filename=" + start_at};
     if (kind == FileDialog::Kind::save)
       words.insert(words.end(), {"--save", "--confirm-overwrite"});
     if (kind == FileDialog::Kind::folder) words.emplace_back("--directory");
     return words;
   }
-  if (auto kdialog = program("kdialog")) {
-    constexpr std::array kWhat = {"--getopenfilename", "--getsavefilename",
-                                  "--getexistingdirectory", "--getopenfilename",
-                                  "--getopenfilename"};
-    return {*kdialog, kWhat[static_cast<std::size_t>(kind)], start_at};
-  }
+  if (auto kdialog = program("kdialog")) return {*kdialog, title, question.kdialog, start_at};
   return {};
 }
 

@@ -25,10 +25,7 @@ double pulled(double trigger) {
 /// Where the hand begins if the pointer is not over the view.
 glm::dvec2 beside(const render::PotView& pot) {
   constexpr double kBesideMm = 30.0;
-  double widest_mm = 0.0;
-  for (const render::Row& row : pot.rows)
-    widest_mm = std::max(widest_mm, static_cast<double>(row.outer_mm));
-  return {widest_mm + kBesideMm, 0.5 * pot.height_mm};
+  return {render::extent_of(pot).radius_mm + kBesideMm, 0.5 * pot.height_mm};
 }
 
 }  // namespace

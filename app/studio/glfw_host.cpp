@@ -80,12 +80,11 @@ void GlfwHost::connect() {
   glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double y) {
     host_of(window).studio_->take(Scrolled{static_cast<float>(y)});
   });
-  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
-    host_of(window).studio_->take(
-        KeyChanged{key, action != GLFW_RELEASE, action == GLFW_REPEAT, mods_of(mods)});
+  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
+    host_of(window).key(key, scancode, action, mods_of(mods));
   });
   glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
-    host_of(window).studio_->take(TextTyped{static_cast<char32_t>(character)});
+    host_of(window).typed(static_cast<char32_t>(character));
   });
   glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
     host_of(window).studio_->take(FilesDropped{std::vector<std::string>(paths, paths + count)});
@@ -99,6 +98,20 @@ void GlfwHost::connect() {
   glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* window, float, float) {
     host_of(window).studio_->state().ui.restyle = true;
   });
+}
+
+void GlfwHost::key(int key, int scancode, int action, unsigned mods) {
+  const char* printed = glfwGetKeyName(key, scancode);
+  key_ = key_of_layout(key, printed != nullptr ? printed : "", mods);
+  studio_->take(KeyChanged{key_, action != GLFW_RELEASE, action == GLFW_REPEAT, mods});
+}
+
+/// A question mark is the key ? wherever the layout has it.
+void GlfwHost::typed(char32_t character) {
+  studio_->take(TextTyped{character});
+  if (character != U'?' || key_ == GLFW_KEY_SLASH) return;
+  for (const bool down : {true, false})
+    studio_->take(KeyChanged{GLFW_KEY_SLASH, down, false, kShift});
 }
 
 void GlfwHost::read_gamepad() {

@@ -35,6 +35,8 @@ class GlfwHost final : public Host {
  private:
   explicit GlfwHost(GLFWwindow* window) : window_(window) {}
   void connect();
+  void key(int key, int scancode, int action, unsigned mods);
+  void typed(char32_t character);
   void read_gamepad();
   void wait_for_events();
 
@@ -45,6 +47,7 @@ class GlfwHost final : public Host {
   Studio* studio_ = nullptr;
   bool damaged_ = true;  // the screen has lost the last frame
   glm::ivec2 shown_{0};  // size of the last frame
+  int key_ = 0;          // that changed last
 };
 
 }  // namespace clay::studio

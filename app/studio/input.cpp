@@ -33,10 +33,8 @@ constexpr std::array kNamedKeys = {
     NamedKey{"Up", GLFW_KEY_UP},
     NamedKey{"Down", GLFW_KEY_DOWN},
     NamedKey{"F1", GLFW_KEY_F1},
+    NamedKey{"F6", GLFW_KEY_F6},
     NamedKey{"F10", GLFW_KEY_F10},
-    NamedKey{"F11", GLFW_KEY_F11},
-    NamedKey{"Num+", GLFW_KEY_KP_ADD},
-    NamedKey{"Num-", GLFW_KEY_KP_SUBTRACT},
     NamedKey{"Num1", GLFW_KEY_KP_1},
     NamedKey{"Num3", GLFW_KEY_KP_3},
     NamedKey{"Num7", GLFW_KEY_KP_7},
@@ -59,6 +57,19 @@ constexpr std::array kNamedMods = {NamedMod{"Ctrl+", kControl}, NamedMod{"Shift+
 bool is_character(int key) { return (key >= 'A' && key <= 'Z') || (key >= '0' && key <= '9'); }
 
 }  // namespace
+
+int key_of_layout(int key, std::string_view printed, unsigned mods) noexcept {
+  constexpr std::string_view kSigns = "[]/-=,.";  // those of commands; their codes are ASCII
+  const bool control = (mods & kControl) != 0;
+  if (key == GLFW_KEY_KP_ENTER) return GLFW_KEY_ENTER;
+  if (key == GLFW_KEY_KP_SUBTRACT && control) return GLFW_KEY_MINUS;
+  if (key == GLFW_KEY_KP_ADD && control) return GLFW_KEY_EQUAL;   // as + in other programs
+  if (key >= GLFW_KEY_ESCAPE || printed.size() != 1) return key;  // from Esc on: no signs
+  const char sign = printed.front();
+  if (sign == '+' && control) return GLFW_KEY_EQUAL;
+  if (sign >= 'a' && sign <= 'z') return sign - 'a' + GLFW_KEY_A;
+  return kSigns.find(sign) != std::string_view::npos ? sign : key;
+}
 
 std::string text_of(const KeyChord& chord) {
   if (chord.key == 0) return {};

@@ -62,6 +62,12 @@ struct KeyChord {
   friend bool operator==(const KeyChord&, const KeyChord&) = default;
 };
 
+/// The key by the letter or sign that the user's layout prints on it, so that Ctrl+Z is at the Z of
+/// every keyboard. `key`: GLFW's code, which is that of a place on an American keyboard; `printed`:
+/// what the layout prints there, or empty. Keys of other signs keep their places. Enter, and + and
+/// - with Ctrl, are also on the number pad.
+[[nodiscard]] int key_of_layout(int key, std::string_view printed, unsigned mods) noexcept;
+
 /// "Ctrl+Shift+Z"; empty for none.
 [[nodiscard]] std::string text_of(const KeyChord& chord);
 

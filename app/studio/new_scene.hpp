@@ -10,5 +10,7 @@ namespace clay::studio {
 inline constexpr double kLeastClayKg = 0.1, kMostClayKg = 20.0;
 [[nodiscard]] SceneSpec lump_of(double clay_kg, double radius_mm);
 [[nodiscard]] double lump_height_mm(double clay_kg, double radius_mm);
+/// A taller lump cannot carry its own weight.
+[[nodiscard]] double tallest_lump_mm() noexcept;
 
 }  // namespace clay::studio

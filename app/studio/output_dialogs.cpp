@@ -168,6 +168,14 @@ std::string problem_of(const Exporter::Outcome& outcome, LengthUnit unit) {
   return "The pot is " + parts_text(form, unit) + ". Only a pot in one part can be exported";
 }
 
+/// In its dialog, or as a banner if the user has closed that.
+template <class Dialog>
+void show_failure(AppState& state, std::string message, std::string& problem) {
+  if (!state.ui.shows<Dialog>()) return report(state, {ErrorKind::io, std::move(message)});
+  state.log("error: " + message);
+  problem = std::move(message);
+}
+
 void take_files(AppState& state, Exporter::Outcome outcome) {
   ExportState& exporting = state.ui.exporting;
   if (outcome.cancelled) {
@@ -176,8 +184,8 @@ void take_files(AppState& state, Exporter::Outcome outcome) {
   }
   if (!outcome.done) {
     exporting.result.clear();
-    exporting.problem = problem_of(outcome, state.settings.unit);
-    return state.log("error: " + exporting.problem);
+    return show_failure<ExportDialog>(state, problem_of(outcome, state.settings.unit),
+                                      exporting.problem);
   }
   exporting.written = outcome.paths;
   exporting.result = result_text(*outcome.done, outcome.paths.size());
@@ -250,10 +258,8 @@ void update_picture(AppState& state) {
     pictures.result = "Cancelled; no file was written";
     return state.log("picture cancelled");
   }
-  if (!outcome->bytes) {
-    pictures.problem = outcome->bytes.error().message;
-    return state.log("error: " + pictures.problem);
-  }
+  if (!outcome->bytes)
+    return show_failure<PictureDialog>(state, outcome->bytes.error().message, pictures.problem);
   pictures.written = path_of(outcome->file);
   pictures.result = fmt::format("{}: {} \xc3\x97 {} pixels, {:.2f} MB",
                                 std::filesystem::path(pictures.written).filename().string(),

@@ -88,6 +88,7 @@ struct Performer {
   void operator()(const ToggleCut& toggle) const;
   void operator()(const TogglePanel& toggle) const;
   void operator()(const ToggleDiagnostics&) const;
+  void operator()(const NextColumn&) const;
   void operator()(const FoldPanel& fold) const;
   void operator()(const ToggleTheme&) const;
   void operator()(const ScaleText& scale) const;
@@ -123,6 +124,8 @@ struct Performer {
   void start_lesson(std::size_t sample, Demonstration demonstration) const;
   /// The action to run after saving.
   [[nodiscard]] std::optional<Action> after_saving() const;
+  /// The column of panels, where it has no room beside the view.
+  void show_context() const;
   /// The pot, and the target if that is higher.
   void show_from(ViewFrom from) const;
   void set_target(Result<SharedTarget> target) const;
@@ -136,7 +139,8 @@ struct Performer {
 void close_dialog(AppState& state);
 /// The folder in which dialogs that open a file start: that of the last file.
 [[nodiscard]] std::filesystem::path open_folder(const Settings& settings);
-/// Opens the desktop's file dialog, if it is installed. Not used in scripts.
+/// Opens the desktop's file dialog, if it is installed and none is open. False: not installed, or
+/// in a script.
 bool open_desktop_dialog(AppState& state, FileDialog::Kind kind,
                          const std::filesystem::path& start);
 [[nodiscard]] bool is_process(const std::filesystem::path& path);

@@ -79,11 +79,9 @@ class SceneView {
   void zoom(double notches) { camera_ = render::zoomed(camera_, notches, extent_); }
   /// To the right and up.
   void turn(glm::dvec2 by_rad);
-  /// `covered_px`: the height at the foot of the view over which the timeline lies.
-  void place(const ViewRect& rect, float covered_px = 0.0f) noexcept {
-    rect_ = rect;
-    camera_.covered = covered_px / rect.size_px.y;
-  }
+  /// `covered_px`: the height at the foot of the view over which the timeline lies. If the view
+  /// changes in a stroke, the pointer means another place, but the tool stays where it is.
+  void place(const ViewRect& rect, float covered_px = 0.0f);
   [[nodiscard]] const ViewRect& rect() const noexcept { return rect_; }
   [[nodiscard]] const render::Camera& camera() const noexcept { return camera_; }
   [[nodiscard]] render::Viewport viewport() const noexcept;

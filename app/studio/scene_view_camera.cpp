@@ -27,6 +27,14 @@ render::Viewport SceneView::viewport() const noexcept {
           std::max(1, static_cast<int>(rect_.size_px.y))};
 }
 
+void SceneView::place(const ViewRect& rect, float covered_px) {
+  const auto before = drag_ == Drag::shape ? pointed_mm() : std::nullopt;
+  rect_ = rect;
+  camera_.covered = covered_px / rect.size_px.y;
+  const auto now = before ? pointed_mm() : std::nullopt;
+  if (now) offset_mm_ += *before - *now;
+}
+
 float SceneView::free_height_px() const noexcept {
   return static_cast<float>(1.0 - camera_.covered) * rect_.size_px.y;
 }

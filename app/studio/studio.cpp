@@ -149,6 +149,7 @@ void Studio::build_frame(double elapsed_s) {
   ImGui::Render();
   state_.ui.reveal.clear();
   state_.ui.open_menu.reset();
+  state_.ui.focus_column = false;
   apply_all(state_, actions);
 }
 
@@ -257,6 +258,7 @@ void draw_overlays(const ViewModel& model, Actions& actions, const Layout& parts
 void Studio::lay_out(const ViewModel& model, Actions& actions) {
   const float top = draw_menu(model, actions);
   const Layout parts = layout_of(model, glm::vec2(state_.host.size_px()), top);
+  state_.ui.context_shown = has_size(parts.context);
   draw_columns(model, actions, parts);
   const bool first = state_.scene.rect().size_px.x <= 1.0f;
   // Above the panels the card would cover the pot.

@@ -57,6 +57,12 @@ bool menu_open() {
          ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
+/// In a dialog, and in the panels, these keys are for fields and buttons, and run no command.
+bool for_fields(const KeyChanged& change) {
+  const bool function_key = change.key >= GLFW_KEY_F1 && change.key <= GLFW_KEY_F25;
+  return (change.mods & kControl) == 0 && change.key != GLFW_KEY_ENTER && !function_key;
+}
+
 /// Commands that are enabled while a dialog is open.
 bool in_dialogs(const Command& command) {
   constexpr std::array kPrefixes = {"file.",   "view.",    "help.",   "quit.",
@@ -107,6 +113,7 @@ void Studio::apply(const Input& input) {
     // A press in the view ends a demonstration.
     if (view && change->down && change->button == MouseButton::left)
       actions.emplace_back(StopShowing{});
+    if (view && change->down) state_.ui.keys_in.reset();
     const bool taken = (view || !change->down) && state_.scene.button(model, *change, actions);
     if (!taken || !change->down) io.MouseDown[static_cast<int>(change->button)] = change->down;
     io.KeyCtrl = (change->mods & kControl) != 0;
@@ -176,14 +183,15 @@ int Studio::key_that_chooses() const {
   return enter ? GLFW_KEY_ENTER : GLFW_KEY_SPACE;
 }
 
-/// Arrows, Enter and Space move and choose in menus and dialogs, and do nothing else there. Over
-/// the clay the keys are those of the commands. In a dialog Enter is the key of its default button.
+/// Arrows, Enter and Space move and choose in menus, dialogs and, after F6, panels, and do nothing
+/// else there. Over the clay the keys are those of the commands. In a dialog Enter is the key of
+/// its default button.
 void Studio::let_keys_navigate() {
   ImGuiIO& io = ImGui::GetIO();
   const bool menu = menu_open(), gallery = state_.ui.shows<GalleryDialog>();
   // A dialog with one text field has the keys in that from the start.
   const bool typing = state_.ui.shows<OpenDialog>() || state_.ui.shows<SaveDialog>();
-  if (menu || (!state_.ui.shows<NoDialog>() && !typing))
+  if (menu || (state_.ui.shows<NoDialog>() ? state_.ui.keys_in.has_value() : !typing))
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   else
     io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
@@ -209,10 +217,9 @@ void Studio::key(const KeyChanged& change) {
       (change.mods & kControl) == 0 || change.key == GLFW_KEY_Z || change.key == GLFW_KEY_Y;
   if (change.key != GLFW_KEY_ESCAPE) {
     if (io.WantTextInput && edits_text) return;
-    // Behind a dialog single letters do nothing.
-    const bool letter =
-        change.mods == kNoMods && change.key >= GLFW_KEY_A && change.key <= GLFW_KEY_Z;
-    if (!state_.ui.shows<NoDialog>() && (letter || !in_dialogs(*command))) return;
+    const bool dialog = !state_.ui.shows<NoDialog>();
+    if ((dialog || state_.ui.keys_in) && for_fields(change)) return;
+    if (dialog && !in_dialogs(*command)) return;
   }
   if (change.repeated && !command->id.starts_with("tool.") && !command->id.starts_with("edit."))
     return;

@@ -76,6 +76,7 @@ void Performer::operator()(const Back&) const {
     return apply_all(state, undone);
   }
   if (!state.ui.shows<NoDialog>()) return (*this)(CloseDialog{});
+  if (state.ui.keys_in) return state.ui.keys_in.reset();
   if (state.document.scrubbing())
     return change_document([](Document& document) { return document.show_present(); });
   if (state.guide.demonstration() != Demonstration::none) return (*this)(StopShowing{});

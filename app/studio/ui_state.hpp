@@ -150,6 +150,9 @@ struct JournalWatch {
   double retry_s = 0.0;  ///< time of the next attempt, on the host's clock
 };
 
+/// Beside the view: the panels for a potter, and a drawer with the rest, which is closed at first.
+enum class Column { context, diagnostics };
+
 struct UiState {
   Dialog dialog = GalleryDialog{};
   Notices notices;
@@ -167,6 +170,9 @@ struct UiState {
   Fonts fonts;
   std::optional<std::size_t> open_menu;  ///< index of a menu to open in this frame
   bool restyle = true;                   ///< theme or scale has changed
+  bool context_shown = true;             ///< the column of the context has room in this frame
+  std::optional<Column> keys_in;         ///< the keys go through this column; empty: the view
+  bool focus_column = false;             ///< they go there from this frame on
 
   template <class D>
   [[nodiscard]] bool shows() const noexcept {

@@ -18,14 +18,30 @@ void Performer::operator()(const ToggleCut& toggle) const {
 }
 
 void Performer::operator()(const TogglePanel& toggle) const {
-  const bool open = !panel_open(state.settings, toggle.id);
+  const bool open = !panel_open(state.settings, state.ui, toggle.id);
   state.settings.open[std::string(toggle.id)] = open;
-  if (open && in_diagnostics(toggle.id)) state.settings.open[kDiagnostics] = true;
+  if (open && in_diagnostics(toggle.id))
+    state.settings.open[kDiagnostics] = true;
+  else if (open)
+    show_context();
   state.ui.reveal = open ? toggle.id : std::string_view();
 }
 
 void Performer::operator()(const ToggleDiagnostics&) const {
   state.settings.open[kDiagnostics] = !diagnostics_open(state.settings);
+}
+
+void Performer::operator()(const NextColumn&) const {
+  std::optional<Column>& keys_in = state.ui.keys_in;
+  const bool diagnostics = diagnostics_open(state.settings);
+  if (!keys_in)
+    keys_in = diagnostics && !state.ui.context_shown ? Column::diagnostics : Column::context;
+  else if (keys_in == Column::context && diagnostics)
+    keys_in = Column::diagnostics;
+  else
+    keys_in.reset();
+  if (keys_in == Column::context) show_context();
+  state.ui.focus_column = keys_in.has_value();
 }
 
 void Performer::operator()(const FoldPanel& fold) const {
@@ -56,6 +72,12 @@ void Performer::operator()(const SetTheme& set) const {
 void Performer::operator()(const SetScale& set) const {
   state.settings.scale = set.value;
   state.ui.restyle = true;
+}
+
+void Performer::show_context() const {
+  if (state.ui.context_shown) return;
+  state.settings.open[kDiagnostics] = false;  // they are in its place
+  state.settings.open[kBelow] = true;
 }
 
 void Performer::show_from(ViewFrom from) const {

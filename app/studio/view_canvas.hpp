@@ -37,6 +37,7 @@ class Quality {
   /// Reports the drawing time of a frame of a changing view, and how many samples it has.
   void took(double seconds, double samples) noexcept {
     sample_s_ = seconds / samples;
+    if (frames_ < 2) return begin(seconds);
     smooth_s_ = smooth_s_ > 0.0 ? 0.7 * smooth_s_ + 0.3 * seconds : seconds;
     // A pot that lags behind the hand is worse than a coarse one, so the resolution falls at once
     // and rises slowly.
@@ -52,15 +53,26 @@ class Quality {
   static constexpr int kFramesBetween = 30;
   static constexpr double kPartS = 0.040;
   static constexpr int kMostFrames = 12;  // each draws all corners again
+  /// Samples of a frame, for each pixel of the view.
+  static double density(const Fineness& fine) noexcept {
+    return static_cast<double>(fine.samples) / (fine.divisor * fine.divisor);
+  }
+  /// The first frames are the coarsest, so that they are quick on any machine. Drivers compile in
+  /// the first one; from the time of the second follows the finest level that is not too slow.
+  void begin(double coarsest_s) noexcept {
+    if (++frames_ < 2) return;
+    const double pixel_s = coarsest_s / density(kFineness.back());
+    while (level_ > 0 && pixel_s * density(kFineness[level_ - 1]) <= kSlowS) --level_;
+  }
   void change(std::size_t level) noexcept {
     level_ = level;
     since_ = 0;
     smooth_s_ = 0.0;
   }
 
-  std::size_t level_ = 0;
+  std::size_t level_ = kFineness.size() - 1;
   double smooth_s_ = 0.0, sample_s_ = 0.0;
-  int since_ = 0;
+  int since_ = 0, frames_ = 0;
 };
 
 class ViewCanvas {

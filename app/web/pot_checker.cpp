@@ -24,7 +24,7 @@ std::optional<PotCheck> PotChecker::take() {
     if (auto check = web::check_in(answered->message)) return check;
   PotCheck failed;
   failed.stopped = true;
-  failed.why_not = "The check stopped: the browser may have too little memory, or lacks a file";
+  failed.why_not = "the browser may have too little memory, or lacks a file";
   return failed;
 }
 

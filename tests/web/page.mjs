@@ -176,7 +176,7 @@ async function repeated(browser) {
   await beginBowl(page);
   await page.says('error: worker: claystack.wasm: the server answers 404');
   await pause(1000);
-  await page.shows('pot', /Not checked$/);
+  await page.shows('pot', /Not checked: the browser/);
   await picture(page, 'not-checked');
   missing.clear();
   await drag(page);

@@ -215,7 +215,7 @@ void draw_pause(const ViewModel& model, const ViewRect& rect) {
   const ImVec2 high(low.x + rect.size_px.x, low.y + rect.size_px.y);
   draw->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_WindowBg, 0.6f));
   ImFont* title = model.ui.fonts.title != nullptr ? model.ui.fonts.title : ImGui::GetFont();
-  const char* text = "Paused: Space continues";
+  const char* text = model.fingers ? "Paused\nWheel > Pause continues" : "Paused: Space continues";
   const ImVec2 size = title->CalcTextSizeA(title->FontSize, rect.size_px.x, 0.0f, text);
   draw->AddText(title, title->FontSize,
                 {0.5f * (low.x + high.x - size.x), 0.5f * (low.y + high.y - size.y)},

@@ -84,10 +84,14 @@ void draw_lump(const ViewModel& model, Actions& actions) {
   ImGui::NextColumn();
   const double clay_kg = static_cast<double>(kg);
   const double height_mm = lump_height_mm(clay_kg, radius_mm);
+  const bool stands = height_mm <= tallest_lump_mm();
   faint_text(model.colours(),
-             fmt::format("Height {}", length_text(height_mm, model.settings.unit)));
+             fmt::format("Height {}{}", length_text(height_mm, model.settings.unit),
+                         stands ? "" : ", too tall"));
+  ImGui::BeginDisabled(!stands);
   if (ImGui::Button("Throw this lump", {kToEdge, 0.0f}))
     actions.emplace_back(BeginWork{lump_of(clay_kg, radius_mm), nullptr, {}});
+  ImGui::EndDisabled();
   ImGui::Columns(1);
 }
 

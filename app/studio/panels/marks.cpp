@@ -36,17 +36,17 @@ ImU32 in_shade(const render::Swatch& swatch) {
 }
 
 /// Text beside the scale, and its place from the scale's upper left corner.
-struct ScaleText {
+struct ScaleLabel {
   ImVec2 at;
   std::string text;
 };
 
 /// In a narrow view the numbers alone: the panel of the walls has the rest.
-std::vector<ScaleText> texts_of_scale(const PotCheck& check, const ImVec2& bar, LengthUnit unit,
-                                      bool narrow) {
+std::vector<ScaleLabel> texts_of_scale(const PotCheck& check, const ImVec2& bar, LengthUnit unit,
+                                       bool narrow) {
   const float em = ImGui::GetFontSize();
   const render::WallMap map = wall_map_of(check);
-  std::vector<ScaleText> texts{{{0.0f, -1.9f * em}, narrow ? "Wall" : "Wall thickness"}};
+  std::vector<ScaleLabel> texts{{{0.0f, -1.9f * em}, narrow ? "Wall" : "Wall thickness"}};
   for (int step = 0; step <= kSteps; ++step)
     texts.push_back(
         {{bar.x + 0.6f * em, bar.y * (1.0f - static_cast<float>(step) / kSteps) - 0.5f * em},
@@ -70,10 +70,10 @@ void draw_scale(const PotCheck& check, const ViewRect& rect, float top_px, Lengt
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
   const ImVec2 bar(1.1f * em, std::round(std::min(11.0f * em, 0.45f * rect.size_px.y)));
   const ImVec2 low(std::round(rect.corner_px.x + 1.4f * em), std::round(top_px + 2.8f * em));
-  const std::vector<ScaleText> texts =
+  const std::vector<ScaleLabel> texts =
       texts_of_scale(check, bar, unit, rect.size_px.x < kNarrowViewEm * em);
   ImVec2 high(low.x + bar.x, low.y + bar.y);
-  for (const ScaleText& text : texts) {
+  for (const ScaleLabel& text : texts) {
     const ImVec2 size = ImGui::CalcTextSize(text.text.c_str());
     high = {std::max(high.x, low.x + text.at.x + size.x),
             std::max(high.y, low.y + text.at.y + size.y)};
@@ -92,7 +92,7 @@ void draw_scale(const PotCheck& check, const ViewRect& rect, float top_px, Lengt
     const float y = low.y + bar.y * (1.0f - static_cast<float>(step) / kSteps);
     draw->AddLine({low.x + bar.x, y}, {low.x + bar.x + 0.3f * em, y}, ink);
   }
-  for (const ScaleText& text : texts)
+  for (const ScaleLabel& text : texts)
     draw->AddText({low.x + text.at.x, low.y + text.at.y}, ink, text.text.c_str());
 }
 
@@ -125,10 +125,9 @@ void mark_thinnest(const ViewModel& model, const PotCheck& check, ImDrawList* dr
 /// The height at which the pot consists of two parts.
 void mark_fault(const ViewModel& model, double y_mm, ImDrawList* draw) {
   const ImVec4 colour = model.colours().fault;
-  float widest = 0.0f;
-  for (const render::Row& row : model.stroke.view().rows) widest = std::max(widest, row.outer_mm);
-  const auto left = pixel_on_pot(model, {-1.2 * static_cast<double>(widest), y_mm});
-  const auto right = pixel_on_pot(model, {1.2 * static_cast<double>(widest), y_mm});
+  const double reach_mm = 1.2 * render::extent_of(model.stroke.view()).radius_mm;
+  const auto left = pixel_on_pot(model, {-reach_mm, y_mm});
+  const auto right = pixel_on_pot(model, {reach_mm, y_mm});
   if (!left || !right) return;
   draw->AddLine({left->x, left->y}, {right->x, right->y}, ImGui::GetColorU32(colour),
                 0.15f * ImGui::GetFontSize());
@@ -145,7 +144,7 @@ void draw_marks(const ViewModel& model, const ViewRect& rect, float top_px) {
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   draw->PushClipRect({rect.corner_px.x, rect.corner_px.y},
                      {rect.corner_px.x + rect.size_px.x, rect.corner_px.y + rect.size_px.y});
-  if (check->fault_mm && panel_open(model.settings, "certificate"))
+  if (check->fault_mm && panel_open(model.settings, model.ui, "certificate"))
     mark_fault(model, *check->fault_mm, draw);
   const bool open = model.settings.wall_map && model.scene.cut != render::Cut::none;
   if (check->proved && (open || check->thin()) && !model.has_marks())

@@ -201,14 +201,14 @@ bool in_diagnostics(std::string_view id) {
   return panel != kPanels.end() && panel->column == Column::diagnostics;
 }
 
-bool panel_open(const Settings& settings, std::string_view id) {
+bool panel_open(const Settings& settings, const UiState& ui, std::string_view id) {
   const auto* panel = std::ranges::find(kPanels, id, &Panel::id);
   return panel != kPanels.end() && is_open(settings, *panel) &&
-         (panel->column == Column::context || diagnostics_open(settings));
+         (panel->column == Column::context ? ui.context_shown : diagnostics_open(settings));
 }
 
 Wanted wanted_of(const Settings& settings, const UiState& ui) {
-  return {true, panel_open(settings, "servo"), settings.process, ui.target,
+  return {true, panel_open(settings, ui, "servo"), settings.process, ui.target,
           0.01 * settings.goal.shrinkage_percent};
 }
 
@@ -217,6 +217,7 @@ void draw_column(const ViewModel& model, Actions& actions, Column column, glm::v
   ImGui::SetNextWindowPos({corner_px.x, corner_px.y});
   ImGui::SetNextWindowSize({size_px.x, size_px.y});
   ImGui::Begin(column == Column::context ? "##context" : "##diagnostics", nullptr, kFixed);
+  if (model.ui.focus_column && model.ui.keys_in == column) ImGui::SetWindowFocus();
   for (const Panel& panel : kPanels) {
     if (panel.column != column) continue;
     const bool open = is_open(model.settings, panel);

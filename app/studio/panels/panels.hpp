@@ -12,9 +12,6 @@
 
 namespace clay::studio {
 
-/// Beside the view: the panels for a potter, and a drawer with the rest, which is closed at first.
-enum class Column { context, diagnostics };
-
 /// Key of the drawer in Settings::open.
 inline constexpr const char* kDiagnostics = "diagnostics";
 [[nodiscard]] bool diagnostics_open(const Settings& settings);
@@ -23,7 +20,7 @@ inline constexpr const char* kBelow = "below";
 [[nodiscard]] bool below_open(const Settings& settings);
 [[nodiscard]] bool in_diagnostics(std::string_view id);
 /// Whether the panel is unfolded and in sight; false for an unknown id.
-[[nodiscard]] bool panel_open(const Settings& settings, std::string_view id);
+[[nodiscard]] bool panel_open(const Settings& settings, const UiState& ui, std::string_view id);
 /// Data that the open panels need.
 [[nodiscard]] Wanted wanted_of(const Settings& settings, const UiState& ui);
 

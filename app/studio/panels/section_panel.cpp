@@ -62,9 +62,7 @@ ImU32 match_at(const OffTarget& off, double part, const Palette& colours) {
   const double rows = static_cast<double>(off.rows_mm.size());
   const double mm = static_cast<double>(
       off.rows_mm[static_cast<std::size_t>(std::clamp(part * rows, 0.0, rows - 1.0))]);
-  return ImGui::GetColorU32(mm <= kMatchesMm ? colours.good
-                            : mm <= kNearMm  ? colours.warning
-                                             : colours.fault);
+  return ImGui::GetColorU32(match_colour(mm, colours));
 }
 
 /// Opaque where all rings of a row hold clay, faint where only some do.
@@ -164,12 +162,6 @@ void draw_target_outline(const render::PotView& target, const Sheet& sheet, bool
   }
 }
 
-double widest_mm(const render::PotView& pot) {
-  float widest = 0.0f;
-  for (const render::Row& row : pot.rows) widest = std::max(widest, row.outer_mm);
-  return static_cast<double>(widest);
-}
-
 /// Marks the thinnest place, walls that are too thin, and places without a proof.
 void draw_faults(const PlotArea& area, const Sheet& sheet, const PotCheck& check,
                  const Palette& colours) {
@@ -213,7 +205,7 @@ void read_out(const PlotArea& area, const Sheet& sheet, bool full, const PotChec
   ImGui::SetTooltip("%s", text.c_str());
 }
 
-/// The colours of `match_at`.
+/// The colours of `match_colour`.
 void draw_match_legend(const Palette& colours, LengthUnit unit) {
   const auto part = [](const ImVec4& colour, const std::string& text, bool last) {
     ImGui::TextColored(colour, "%s", text.c_str());
@@ -252,10 +244,11 @@ void draw_section(const ViewModel& model, Actions& actions) {
   const auto& known = model.readings.check();
   const PotCheck* check = known && !model.readings.fallen() ? &*known : nullptr;
   const Target* target = model.readings.fallen() ? nullptr : model.ui.target.get();
-  const Sheet upright = target == nullptr
-                            ? sheet_for(area, widest, height, full)
-                            : sheet_for(area, std::max(widest, widest_mm(target->view)),
-                                        std::max(height, target->view.height_mm), full);
+  const Sheet upright =
+      target == nullptr
+          ? sheet_for(area, widest, height, full)
+          : sheet_for(area, std::max(widest, render::extent_of(target->view).radius_mm),
+                      std::max(height, target->view.height_mm), full);
   const OffTarget* off =
       target != nullptr && check != nullptr && check->off ? &*check->off : nullptr;
   Sheet sheet = upright;

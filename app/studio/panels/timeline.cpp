@@ -85,6 +85,7 @@ void draw_card(const ViewModel& model, history::NodeId node, bool done, const Ro
   const float em = ImGui::GetFontSize();
   const Palette& colours = model.colours();
   const ImVec2 low = row.low(index), high = row.high(index);
+  if (!ImGui::IsRectVisible(low, high)) return;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg, done ? 1.0f : 0.4f),
                       0.25f * em);

@@ -273,11 +273,14 @@ void end_body() {
   ImGui::GetStateStorage()->SetFloat(ImGui::GetID("body"), height);
 }
 
+const ImVec4& match_colour(double mm, const Palette& colours) {
+  return mm <= kMatchesMm ? colours.good : mm <= kNearMm ? colours.warning : colours.fault;
+}
+
 void draw_half_section(const render::PotView& pot, ImVec2 corner, float side,
                        const Palette& colours) {
   if (pot.rows.empty()) return;
-  float widest = 1.0f;
-  for (const render::Row& row : pot.rows) widest = std::max(widest, row.outer_mm);
+  const float widest = std::max(1.0f, static_cast<float>(render::extent_of(pot).radius_mm));
   const float height = static_cast<float>(pot.height_mm);
   const float scale = 0.9f * side / std::max(2.0f * widest, height);
   const float middle = std::floor(corner.x + 0.5f * side);

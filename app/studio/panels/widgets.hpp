@@ -62,6 +62,9 @@ void form_place(std::string& name, std::string& folder, Actions& actions);
 /// A list of clays and glazes; the one that was chosen now, or null.
 [[nodiscard]] const Material* choose_material(const Material& shown);
 
+/// For a distance from the target [mm].
+[[nodiscard]] const ImVec4& match_colour(double mm, const Palette& colours);
+
 /// The pot from the side in a square; the right half is cut open.
 void draw_half_section(const render::PotView& pot, ImVec2 corner, float side,
                        const Palette& colours);

@@ -22,13 +22,10 @@ namespace {
 
 constexpr double kFinestSpacingMm = 0.05;
 
-std::optional<solid::ProcessLimits> limits_of(const std::string& process, const ClayStack& stack,
-                                              std::vector<PotRemark>& remarks) {
+Result<std::optional<solid::ProcessLimits>> limits_of(const std::string& process) {
   if (process.empty()) return std::nullopt;
-  auto limits = solid::read_process(process);
-  if (limits) return std::move(*limits);
-  remarks.push_back({0.0, stack.height_mm(), limits.error().message});
-  return std::nullopt;
+  return solid::read_process(process).map(
+      [](solid::ProcessLimits&& limits) { return std::optional(std::move(limits)); });
 }
 
 const char* kept_text(solid::KeptFor reason) {
@@ -93,15 +90,20 @@ void run(const PotQuestion& question, const Pot& pot, const std::function<bool()
   check.height_mm = pot.stack.height_mm();
   check.fallen = pot.collapse.has_value();
   if (!check.fallen) check.form = form_of(pot.stack);
-  const auto limits = limits_of(question.process, pot.stack, check.remarks);
-  if (limits)
-    check.limit = limits->wall_for(solid::size_sum_mm(
+  const auto limits = limits_of(question.process);
+  if (!limits) {  // the export refuses it too
+    check.stopped = true;
+    check.why_not = limits.error().message;
+    return;
+  }
+  if (*limits)
+    check.limit = (*limits)->wall_for(solid::size_sum_mm(
         solid::round_size_mm(2.0 * largest_radius_mm(pot.stack), pot.stack.height_mm())));
   const std::size_t rows = std::max<std::size_t>(1, question.subject.outline.rows.size());
   solid::ExportOptions options;
   options.tolerance_mm = question.tolerance_mm;
   options.cancelled = cancelled;
-  options.walls.process = limits;
+  options.walls.process = *limits;
   if (!check.fallen)  // a fallen pot has no single section
     options.wall_spacing_mm =
         std::max(kFinestSpacingMm, 0.5 * check.height_mm / static_cast<double>(rows));
@@ -259,7 +261,7 @@ Verdict PotCheck::verdict() const {
 }
 
 std::string ready_text(const PotCheck& check, LengthUnit unit) {
-  if (check.stopped) return "Not checked";
+  if (check.stopped) return "Not checked: " + check.why_not;
   if (!check.proved)
     return "Not ready: " + (check.fault_mm ? parts_text(check.form, unit) : "not one closed solid");
   const bool ready = check.ready();
@@ -280,7 +282,7 @@ std::string parts_text(const PotForm& form, LengthUnit unit) {
 
 std::string wall_text(const PotCheck& check, LengthUnit unit) {
   if (check.fallen) return "Fallen: walls are not measured";
-  if (check.stopped) return "Walls unknown: the pot is not checked";
+  if (check.stopped) return "Walls unknown: " + check.why_not;
   if (!check.proved) return "Walls unknown: the pot is not one closed solid";
   if (!check.form.hollow && !check.thin()) return "Solid clay: there are no walls yet";
   std::string words = fmt::format(

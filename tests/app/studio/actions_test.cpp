@@ -3,6 +3,7 @@
 #include "tests/app/studio/actions.hpp"
 #include "app/studio/app_state.hpp"
 #include "app/studio/commands.hpp"
+#include "app/studio/new_scene.hpp"
 #include "tests/support/run_program.hpp"
 
 #include "app/history/journal.hpp"
@@ -67,6 +68,61 @@ TEST_F(ActionsTest, AnUnfoldedPanelIsScrolledTo) {
   EXPECT_EQ(state.ui.reveal, "wheel");
   apply(state, FoldPanel{"wheel", false});
   EXPECT_EQ(state.ui.reveal, "");
+}
+
+/// In a narrow window the panels are hidden, or the diagnostics are in their place.
+TEST_F(ActionsTest, APanelOutOfSightIsShown) {
+  apply(state, FoldPanel{"goal", true});
+  state.ui.context_shown = false;
+  state.settings.open["diagnostics"] = true;
+  const Command& goal = *find_command("view.goal");
+  EXPECT_FALSE(goal.checked(view_model(state))) << "it is not in sight";
+  apply(state, RunCommand{"view.goal"});
+  EXPECT_TRUE(state.settings.open.at("goal"));
+  EXPECT_TRUE(state.settings.open.at("below"));
+  EXPECT_FALSE(state.settings.open.at("diagnostics"));
+  EXPECT_EQ(state.ui.reveal, "goal");
+  state.ui.context_shown = true;
+  EXPECT_TRUE(goal.checked(view_model(state)));
+  apply(state, RunCommand{"view.goal"});
+  EXPECT_FALSE(state.settings.open.at("goal"));
+}
+
+/// The window is made larger, or a panel opens, while the button is held.
+TEST_F(ActionsTest, TheToolStaysWhereItIsIfTheViewChangesInAStroke) {
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state, LookFrom{ViewFrom::front});
+  const double beside_mm = static_cast<double>(state.stroke.view().rows.front().outer_mm) + 20.0;
+  const glm::vec2 at = state.scene.pixel_of({beside_mm, 20.0}).value();
+  Actions actions;
+  (void)state.scene.pointer_moved(view_model(state), {at}, actions);
+  (void)state.scene.button(view_model(state), {MouseButton::left, true, kNoMods}, actions);
+  apply_all(state, actions);
+  ASSERT_TRUE(state.stroke.by_hand());
+  state.scene.place({{0.0f, 0.0f}, {1600.0f, 1100.0f}}, 80.0f);
+  (void)state.scene.pointer_moved(view_model(state), {at}, actions);
+  ASSERT_EQ(actions.size(), 1u);
+  const glm::dvec3 aim = std::get<AimTool>(actions[0]).aim.place_mm;
+  EXPECT_NEAR(std::hypot(aim.x, aim.z), beside_mm, 1e-3);
+  EXPECT_NEAR(aim.y, 20.0, 1e-3);
+}
+
+TEST_F(ActionsTest, AFingerHasSlidersInsteadOfKeys) {
+  const Command& size = *find_command("tool.size");
+  EXPECT_TRUE(size.enabled(view_model(state)));
+  host.touched = true;
+  EXPECT_FALSE(size.enabled(view_model(state)));
+  EXPECT_NE(std::string(size.why_not(view_model(state))).find("mouse"), std::string::npos);
+}
+
+TEST_F(ActionsTest, ALumpUpToTheTallestOneStands) {
+  constexpr double kRadiusMm = 30.0;
+  const double kg = tallest_lump_mm() / lump_height_mm(1.0, kRadiusMm);
+  apply(state, BeginWork{lump_of(0.999 * kg, kRadiusMm), nullptr, {}});
+  EXPECT_FALSE(state.last_error) << state.last_error->message;
+  EXPECT_EQ(state.document.name(), "lump");
+  apply(state, BeginWork{lump_of(1.01 * kg, kRadiusMm), nullptr, {}});
+  EXPECT_TRUE(state.last_error) << "its lowest ring carries all others";
 }
 
 TEST_F(ActionsTest, AHoveringToolIsOnTheWheelAndNotInIt) {

@@ -78,5 +78,28 @@ TEST(Keys, TextAndChordAreInverse) {
   EXPECT_FALSE(chord_of("Hyper+Z"));
 }
 
+/// The key that a German keyboard prints Z on is the American Y.
+TEST(Keys, AreThoseOfTheUsersLayout) {
+  EXPECT_EQ(key_of_layout('Y', "z", kControl), 'Z');
+  EXPECT_EQ(key_of_layout('Z', "y", kControl), 'Y');
+  EXPECT_EQ(key_of_layout('Q', "a", kControl), 'A') << "of a French keyboard";
+  EXPECT_EQ(key_of_layout('/', "-", kControl), '-');
+  EXPECT_EQ(key_of_layout(']', "+", kControl), '=') << "Ctrl++ enlarges the text";
+  EXPECT_EQ(key_of_layout(']', "+", kNoMods), ']') << "it has no other key";
+  EXPECT_EQ(key_of_layout('[', "\xc3\xbc", kNoMods), '[');
+  EXPECT_EQ(key_of_layout('Z', "\xd1\x8f", kControl), 'Z') << "of a Russian keyboard";
+  EXPECT_EQ(key_of_layout('1', "&", kNoMods), '1') << "of a French keyboard";
+  EXPECT_EQ(key_of_layout('Z', "", kControl), 'Z');
+}
+
+TEST(Keys, OfTheNumberPadAreThoseOfTheOthers) {
+  const auto code = [](const char* name) { return chord_of(name)->key; };
+  constexpr int kPadPlus = 334, kPadMinus = 333, kPadEnter = 335;  // of GLFW
+  EXPECT_EQ(key_of_layout(kPadEnter, "", kNoMods), code("Enter"));
+  EXPECT_EQ(key_of_layout(kPadPlus, "+", kControl), code("="));
+  EXPECT_EQ(key_of_layout(kPadMinus, "-", kControl), code("-"));
+  EXPECT_EQ(key_of_layout(code("Num7"), "7", kNoMods), code("Num7")) << "a view";
+}
+
 }  // namespace
 }  // namespace clay::studio

@@ -128,6 +128,31 @@ TEST_F(ActionsTest, QuittingWaitsForAnExport) {
   EXPECT_TRUE(state.done);
 }
 
+/// The dialog begins anew when it opens again.
+TEST_F(ActionsTest, AFailureAfterTheDialogWasClosedIsABanner) {
+  apply(state, ShowDialog{DialogKind::export_files});
+  ExportChoices choices = state.ui.exporting.choices;
+  choices.folder = folder.file("gone");
+  apply(state, EditExport{choices});
+  apply(state, WriteExport{true});
+  apply(state, CloseDialog{});
+  update(state);
+  ASSERT_TRUE(state.ui.notices.answer());
+  EXPECT_EQ(state.ui.notices.answer()->grade, Grade::error);
+  EXPECT_NE(state.ui.notices.answer()->text.find(choices.folder), std::string::npos);
+  apply(state, CloseNotice{});
+  apply(state, ShowDialog{DialogKind::picture});
+  PictureFile picture = state.ui.pictures.file;
+  picture.folder = choices.folder;
+  apply(state, EditPicture{picture});
+  apply(state, WriteExport{true});
+  apply(state, CloseDialog{});
+  update(state);
+  ASSERT_TRUE(state.ui.notices.answer());
+  EXPECT_EQ(state.ui.notices.answer()->grade, Grade::error);
+  EXPECT_NE(state.ui.notices.answer()->text.find(choices.folder), std::string::npos);
+}
+
 TEST_F(ActionsTest, TheOutcomeIsThatOfTheChoices) {
   apply(state, ShowDialog{DialogKind::export_files});
   ExportChoices choices = state.ui.exporting.choices;

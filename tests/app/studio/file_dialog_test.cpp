@@ -1,11 +1,16 @@
 #include "app/studio/file_dialog.hpp"
 
+#include "app/studio/app_state.hpp"
+#include "tests/app/history/strokes.hpp"
+#include "tests/app/studio/still_host.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 #include <thread>
 
 namespace clay::studio {
@@ -49,8 +54,9 @@ TEST_F(Desktop, ReadsTheChoiceFromZenity) {
   EXPECT_EQ(dialog.kind(), FileDialog::Kind::save);
   EXPECT_EQ(answer(dialog), "/a place/my pot.work");
   EXPECT_FALSE(dialog.open());
-  EXPECT_EQ(read_text(folder.file("asked")),
-            "--file-selection --filename=/here/bowl.work --save --confirm-overwrite\n");
+  EXPECT_EQ(
+      read_text(folder.file("asked")),
+      "--file-selection --title=Save as --filename=/here/bowl.work --save --confirm-overwrite\n");
 }
 
 TEST_F(Desktop, ClosedDialogChoosesNothing) {
@@ -62,10 +68,31 @@ TEST_F(Desktop, ClosedDialogChoosesNothing) {
 }
 
 TEST_F(Desktop, UsesKdialogWithoutZenity) {
-  install("kdialog", "echo \"$1 $2\"\n");
+  install("kdialog", "echo \"$*\"\n");
   FileDialog dialog;
   ASSERT_TRUE(dialog.begin(FileDialog::Kind::open, "/x/"));
-  EXPECT_EQ(answer(dialog), "--getopenfilename /x/");
+  EXPECT_EQ(answer(dialog), "--title=Open --getopenfilename /x/");
+}
+
+/// A second dialog would hide the first one, and one of their answers would be lost.
+TEST_F(Desktop, OpensOneDialogAtATime) {
+  install("zenity", "read line <" + folder.file("wait") + "\n");
+  ASSERT_EQ(mkfifo(folder.file("wait").c_str(), 0600), 0);
+  StillHost host;
+  AppState state{host, Settings{}, [](std::string_view) {}};
+  host.real = true;
+  apply(state, BeginWork{test::small_scene(), nullptr, {}});
+  apply(state, ShowDialog{DialogKind::open_file});
+  ASSERT_TRUE(state.file_dialog.open());
+  EXPECT_FALSE(state.ui.notices.answer());
+  for (const Action& action :
+       {Action(ShowDialog{DialogKind::open_file}), Action(Save{}), Action(ChooseProcessFile{})}) {
+    state.ui.notices.close_answer();
+    apply(state, action);
+    EXPECT_TRUE(state.ui.shows<NoDialog>());
+    ASSERT_TRUE(state.ui.notices.answer());
+    EXPECT_NE(state.ui.notices.answer()->text.find("is open"), std::string::npos);
+  }
 }
 
 }  // namespace

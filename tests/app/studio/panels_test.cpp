@@ -3,6 +3,7 @@
 #include "app/studio/panels/panels.hpp"
 #include "app/studio/app_state.hpp"
 #include "app/studio/panels/at_tool.hpp"
+#include "app/studio/panels/timeline.hpp"
 #include "app/studio/panels/widgets.hpp"
 #include "tests/app/history/strokes.hpp"
 #include "tests/app/studio/still_host.hpp"
@@ -139,7 +140,26 @@ TEST_F(Panels, AHeaderFoldsItsPanel) {
   EXPECT_EQ(fold.id, "tool");
   EXPECT_FALSE(fold.open);
   apply(state, actions[0]);
-  EXPECT_FALSE(panel_open(state.settings, "tool"));
+  EXPECT_FALSE(panel_open(state.settings, state.ui, "tool"));
+}
+
+/// After hours of throwing.
+TEST_F(Panels, CardsOutOfSightAreNotDrawn) {
+  const auto row = [](const ViewModel& model, Actions& actions) {
+    draw_timeline(model, actions, {0.0f, 600.0f}, {1000.0f, 80.0f});
+  };
+  const auto corners = [&](std::size_t strokes) {
+    while (state.document.work().size() <= strokes) {
+      auto begun = state.document.begin_stroke(small_scene());
+      test::record(test::press_stroke(state.document.work().size()), *begun->sink);
+      EXPECT_TRUE(state.document.end_stroke(std::nullopt, history::Recording::one_stroke));
+    }
+    for (std::size_t i = 0; i <= strokes; ++i) update(state);  // makes one outline each
+    for (int i = 0; i < 3; ++i) (void)frame(row);              // scrolled to the present
+    return ImGui::GetDrawData()->TotalVtxCount;
+  };
+  const int of_a_row = corners(20);  // wider than the view
+  EXPECT_LT(corners(100), 2 * of_a_row);
 }
 
 TEST_F(Panels, EnterSavesUnderTheTypedName) {

@@ -38,6 +38,19 @@ TEST_F(OnScreen, WorksFromTheGalleryToAPrintableFile) {
   EXPECT_NE(info.find("manifold = yes"), std::string::npos) << info;
 }
 
+TEST_F(OnScreen, KeysAreThoseOfTheUsersLayout) {
+  const ScratchFolder folder;
+  const Ran ran = run("layout_under_xvfb.sh", folder);
+  ASSERT_EQ(ran.status, 0) << ran.err << ran.out;
+  const auto count = [&](const std::string& line) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = ran.out.find(line, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("action: edit.undo"), 1u) << ran.out;
+  EXPECT_EQ(count("action: edit.redo"), 1u) << ran.out;
+}
+
 TEST_F(OnScreen, OffersAnUnrecoveredWorkUntilItIsDiscarded) {
   const ScratchFolder folder;
   test::write_text(folder.file("lump.scene.json"), read_text(test::sample("vase.scene.json")));

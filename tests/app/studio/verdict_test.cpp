@@ -44,8 +44,9 @@ TEST(Verdict, IsThatOfTheExport) {
 TEST(Verdict, ClaimsNothingAboutAPotThatIsNotChecked) {
   PotCheck check;
   check.stopped = true;
-  EXPECT_EQ(ready_text(check, LengthUnit::mm), "Not checked");
-  EXPECT_EQ(wall_text(check, LengthUnit::mm), "Walls unknown: the pot is not checked");
+  check.why_not = "no memory";
+  EXPECT_EQ(ready_text(check, LengthUnit::mm), "Not checked: no memory");
+  EXPECT_EQ(wall_text(check, LengthUnit::mm), "Walls unknown: no memory");
 }
 
 TEST(Verdict, NamesPlaceAndMeasureInTheUnit) {

@@ -22,6 +22,24 @@ TEST(Quality, DividesASlowPictureIntoPartsOf40Ms) {
   EXPECT_EQ(quality.frames(4e6), 1);
 }
 
+/// At the lowest resolution a frame has a ninth of the pixels, at the highest four samples for
+/// each.
+TEST(Quality, BeginsCoarseAndThenFollowsTheMachine) {
+  const auto after = [](double coarse_s) {
+    Quality quality;
+    EXPECT_EQ(quality.fineness(true), (Fineness{1, 3})) << "quick on any machine";
+    EXPECT_EQ(quality.fineness(false), (Fineness{4, 1})) << "at rest";
+    quality.took(0.3, 1e5);
+    EXPECT_EQ(quality.fineness(true), (Fineness{1, 3})) << "a driver compiles in the first frame";
+    quality.took(coarse_s, 1e5);
+    return quality.fineness(true);
+  };
+  EXPECT_EQ(after(0.0009), (Fineness{4, 1})) << "32 ms";
+  EXPECT_EQ(after(0.001), (Fineness{1, 1})) << "36 ms with four samples";
+  EXPECT_EQ(after(0.004), (Fineness{1, 2}));
+  EXPECT_EQ(after(0.1), (Fineness{1, 3}));
+}
+
 /// What a window shows: the canvas, copied to a framebuffer.
 std::vector<std::uint8_t> shown(const ViewCanvas& canvas) {
   const auto window = render::Canvas::create(kView.width_px, kView.height_px, 0).value();

@@ -113,6 +113,36 @@ TEST_F(Window, ArrowsWorkInMenusAndLettersDoNot) {
   EXPECT_NE(pinch, std::string::npos) << ran.out;
 }
 
+TEST_F(Window, BehindADialogKeysDoNotTurnTheView) {
+  const std::string keys = "key 3\nkey Shift+C\nkey PageUp\nkey Home\nkey Num7\nkey G\n";
+  const Ran ran = run("key 1\nkey Ctrl+E\n" + keys + "key Ctrl+L\nkey Esc\nkey F1\n" + keys +
+                          "key Esc\nexpect azimuth_deg 0\nkey 3\nexpect azimuth_deg 90\n",
+                      "--size 960x640 --log");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto count = [&](const std::string& id) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = ran.out.find("action: " + id, at)) != std::string::npos; ++at)
+      ++found;
+    return found;
+  };
+  EXPECT_EQ(count("view."), 3u) << "front, theme and right side\n" << ran.out;
+}
+
+TEST_F(Window, F6GoesThroughThePanelsAndEscBack) {
+  const std::string ellipse = "key Down\nkey Down\nkey Right\nkey Space\n";
+  const Ran ran = run("key S\n" + about("tool_mm", 10.0) + "key F6\nkey H\n" + ellipse +
+                          "expect paused no\nkey ]\nkey Ctrl+E\nexpect overlay export\nkey Esc\n"
+                          "key Esc\nkey H\nkey F6\nkey F6\nkey T\n",
+                      "--size 1280x800 --log");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto pinch = ran.out.find("action: tool.pinch"), exported = ran.out.find("file.export");
+  EXPECT_NE(exported, std::string::npos) << "keys with Ctrl are those of commands\n" << ran.out;
+  EXPECT_GT(pinch, exported) << "letters are for the panels";
+  EXPECT_NE(pinch, std::string::npos) << "and after Esc for the pot\n" << ran.out;
+  EXPECT_NE(ran.out.find("action: tool.trim"), std::string::npos) << "after the last column too";
+  EXPECT_EQ(ran.out.find("action: tool.larger"), std::string::npos) << ran.out;
+}
+
 TEST_F(Window, LeftAndRightGoFromMenuToMenu) {
   const Ran ran =
       run("key F10\nkey Right\nkey Right\nkey Left\nkey Right\nkey Up\nkey Enter\n"
