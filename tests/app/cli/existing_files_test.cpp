@@ -218,9 +218,11 @@ TEST(ExistingFilesOfACommand, StandardOutputTakesOneDocument) {
 
 TEST(ExistingFilesOfACommand, StandardInputHoldsOneDocument) {
   const ScratchFolder folder;
-  for (const std::string& command :
-       {"throw - -s -", "throw - -s a.session --from -",
-        "strokes - - -o " + folder.file("a.session"), std::string("check - --certificate -")}) {
+  const std::string session = folder.file("a.session");
+  const std::vector<std::string> commands = {"throw - -s -", "throw - -s a.session --from -",
+                                             "strokes - - -o " + session,
+                                             "check - --certificate -"};
+  for (const std::string& command : commands) {
     const Ran run = claystack(command + " </dev/null");
     EXPECT_EQ(run.status, 2);
     EXPECT_EQ(run.err, "claystack: -: expected at most one input on standard input, found 2\n")
