@@ -23,8 +23,9 @@ Cone cone_of(const Tool& tool, const Shoulders& shoulders, double h, double hip_
   const bool before = up ? ring > level : ring < level;
   cone.from_mm = before ? (ring + 0.5) * h : from;
   cone.beside = static_cast<std::size_t>(ring);
-  // On the tool, not on the clay: a ring that an end has just entered still projects far.
-  const double out = tool.radius(cone.from_mm - hip_y);
+  // On the tool, not on the clay: a ring that an end has just entered still projects far. Rounding
+  // must not put an end beyond the tool.
+  const double out = tool.radius(std::clamp(cone.from_mm - hip_y, tool.low(), tool.high()));
   cone.base_mm = contact.axis_distance_mm + (cone.outside ? step_mm - out : out - step_mm);
   return cone;
 }

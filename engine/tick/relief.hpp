@@ -15,8 +15,8 @@
 
 namespace clay {
 
-/// Farthest from a contact that an overhang yields [mm].
-inline constexpr double kReliefMm = 12.0;
+/// Farthest from a contact that an overhang yields [mm]: bounds the work of a tick for any pot.
+inline constexpr double kReliefMm = 35.0;
 
 inline constexpr double kReliefSlope = 2.0;
 

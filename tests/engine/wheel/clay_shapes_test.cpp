@@ -106,6 +106,40 @@ TEST(ClayShapes, NoStrokeLeavesASteepUndercut) {
   expect_balanced(pinched);
 }
 
+/// The undercut of a press of 32 mm begins 16 mm above the contact.
+TEST(ClayShapes, ADeepPressLeavesNoLedge) {
+  SceneSpec scene = cylinder_scene({});
+  scene.removal = {20.0, 2.0, 3.0, {}};
+  Wheel wheel = wheel_with(
+      scene, 90.0, [](double) { return 90.0; }, [](double) { return 22.0; });
+  Hand finger(wheel);
+  finger.place_at(10.0, 40.0);
+  finger.move_to(44.0, 40.0, 20.0);
+  finger.move_to(44.0, 40.01, 0.05);
+  EXPECT_GT(ring_at(wheel, 40.0).inner_mm(), 53.0);
+  EXPECT_LT(largest_ledge(wheel, &Ring::inner_mm), 1.0);
+  expect_balanced(wheel);
+}
+
+/// Wherever its flat ends lie between the rings.
+TEST(ClayShapes, ARibLeavesNoLedgeAtItsEnds) {
+  SceneSpec scene = cylinder_scene({});
+  scene.removal = {20.0, 2.0, 3.0, {}};
+  scene.tool.shape = RibSpec{20.7, 5.0};
+  for (int k = 0; k < 12; ++k) {
+    Wheel wheel = wheel_with(
+        scene, 70.0, [](double) { return 55.0; }, [](double) { return 22.0; });
+    Hand hand(wheel);
+    const double up = 30.0 + 0.37 * k;
+    hand.place_at(10.0, up);
+    hand.move_to(25.0, up, 10.0);
+    hand.move_to(25.0, up + 0.01, 0.05);
+    EXPECT_GT(ring_at(wheel, up).inner_mm(), 28.0);
+    EXPECT_LT(largest_ledge(wheel, &Ring::inner_mm), 1.5) << up;
+    expect_balanced(wheel);
+  }
+}
+
 /// A solid lump, opened by a ball that goes down the axis to 15 mm, and out.
 Wheel opened_lump(double out_mm, std::optional<double> finger_mm) {
   SceneSpec scene = cylinder_scene({.floor_mm = 5.0, .finger_mm = finger_mm});
