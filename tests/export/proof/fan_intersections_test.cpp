@@ -5,6 +5,7 @@
 
 #include "claystack/export/proof.hpp"
 #include "export/proof/intersecting_pairs.hpp"
+#include "export/proof/pair_test.hpp"
 #include "export/solid/cgal_versions.hpp"
 #include "tests/export/solid/shapes.hpp"
 
@@ -161,6 +162,37 @@ RC_GTEST_PROP(FanIntersections, MatchCgalOnRandomSoups, ()) {
   RC_ASSERT(found(mesh).count == expected.size());
   RC_ASSERT(found(mesh).triangles == first_of(expected));
   RC_ASSERT(intersecting_pairs(mesh, 1'000'000) == expected);
+}
+
+/// Both orders of two triangles, in each of the planes between two axes.
+void expect_exact(TriangleMesh mesh) {
+  for (int turn = 0; turn < 3; ++turn) {
+    const PairTest test(mesh);
+    const bool expected = meet_by_construction(mesh, 0, 1);
+    EXPECT_EQ(test.meet(mesh.triangles[0], mesh.triangles[1]), expected);
+    EXPECT_EQ(test.meet(mesh.triangles[1], mesh.triangles[0]), expected);
+    for (glm::dvec3& p : mesh.points) p = {p.z, p.x, p.y};
+  }
+}
+
+TEST(PairTest, IsExactNearALineThroughTheSharedSide) {
+  // From Kettner et al., "Classroom examples of robustness problems in geometric computations"
+  // (2008): near the line through these two points, floating point gets many sides wrong.
+  const glm::dvec3 from{17.300000000000001, 17.300000000000001, 0.0};
+  const glm::dvec3 to{24.000000000000050, 24.000000000000051777, 0.0};
+  constexpr int kPlaces = 24;
+  std::size_t meeting = 0;
+  for (int i = 0; i < kPlaces * kPlaces; ++i) {
+    const glm::dvec3 near{0.50000000000002531 + 0x1p-53 * (i / kPlaces),
+                          0.5000000000000171 + 0x1p-53 * (i % kPlaces), 0.0};
+    for (const double x : {0.25, 0.75}) {  // on either side of the line
+      const TriangleMesh mesh{{from, to, near, {x, 0.5, 0.0}}, {{0, 1, 2}, {0, 1, 3}}};
+      if (PairTest(mesh).degenerate(mesh.triangles[0])) continue;
+      meeting += meet_by_construction(mesh, 0, 1);
+      expect_exact(mesh);
+    }
+  }
+  EXPECT_GT(meeting, 100u);
 }
 
 TEST(FanIntersections, SoundFansOfManyTrianglesAreFast) {
