@@ -22,8 +22,9 @@ class ThrownPot : public testing::TestWithParam<const char*> {};
 TEST_P(ThrownPot, IsIndependentOfRingHeightAndRate) {
   const std::string folder = CLAYSTACK_SAMPLES "/paper/", name = GetParam();
   const SceneSpec scene = parse_file(folder + name + ".scene.json", parse_scene);
-  const auto poses =
-      play(parse_file(folder + "strokes/" + name + ".strokes.json", parse_strokes), scene).value();
+  const auto poses = play(parse_file(folder + "strokes/" + name + ".strokes.json", parse_strokes),
+                          scene, Wheel::build(scene).value())
+                         .value();
   const double percent = 100.0 / scene.lump.outer_radius_mm;
 
   const auto pot = bench::played(scene, poses);

@@ -32,8 +32,9 @@ SceneSpec scene_of(const std::string& sample) {
 }
 
 std::vector<Pose> poses_of(const std::string& sample) {
-  return play(parse_file(kFolder + "strokes/" + sample + ".strokes.json", parse_strokes),
-              scene_of(sample))
+  const SceneSpec scene = scene_of(sample);
+  return play(parse_file(kFolder + "strokes/" + sample + ".strokes.json", parse_strokes), scene,
+              Wheel::build(scene).value())
       .value();
 }
 
