@@ -14,9 +14,10 @@
 namespace clay::solid::inline job {
 namespace {
 
-/// Curves count as lines within this part of the tolerance, and at most this far, in the proof.
-constexpr double kPartOfTolerance = 0.05, kFarthestMm = 2e-4;
-/// Parts of the tolerance for curves of which a wall limit demands more.
+/// In the proof, curves count as lines within this part of the tolerance and of the thinnest wall,
+/// but at most and at least so far.
+constexpr double kPart = 0.05, kFarthestMm = 2e-4, kNearestMm = 1e-7;
+/// Parts of the tolerance for curves that must be closer.
 constexpr double kCloser = 0.25, kClosest = 0.01;
 
 /// The solid in the file must be that of the brep: its volume within 1e-12, with all faces.
@@ -30,57 +31,70 @@ Result<void> agrees(const StepSolid& found, const RevolvedBrep& brep) {
                                          number_text(found.volume_mm3));
 }
 
-/// A solid for CAD and what is proved of it.
-struct ProvedBrep {
+/// A solid for CAD, and what is proved of it: an error where its walls cross each other.
+struct FittedBrep {
   RevolvedBrep brep;
-  StepReport report;
+  Result<StepReport> proof;
 };
 
-Result<ProvedBrep> proved(RevolvedBrep brep, double counted_volume_mm3,
-                          const ExportOptions& options) {
+Result<StepReport> proof_of(const RevolvedBrep& brep, const ExportReport& of,
+                            const ExportOptions& options) {
+  const double finest_mm = std::min(options.tolerance_mm, of.walls.thinnest.thickness_mm);
   const double error_mm =
-      brep.curved() ? std::min(kPartOfTolerance * options.tolerance_mm, kFarthestMm) : 0.0;
+      brep.curved() ? std::clamp(kPart * finest_mm, kNearestMm, kFarthestMm) : 0.0;
   const Profile section = brep.flattened(error_mm);
   return certify(section).map([&](const PlanarCertificate&) {
+    const double counted_mm3 = of.prepared.counted_volume_mm3;
     StepReport report;
     report.walls = options.step_walls;
     report.faces = brep.faces();
     report.deviation_mm = brep.deviation_mm;
     report.volume_mm3 = brep.volume_mm3;
-    report.volume_error_relative =
-        std::abs(brep.volume_mm3 - counted_volume_mm3) / counted_volume_mm3;
-    report.min_wall_mm = min_wall_mm(section) - 2.0 * error_mm;
-    return ProvedBrep{std::move(brep), report};
+    report.volume_error_relative = std::abs(brep.volume_mm3 - counted_mm3) / counted_mm3;
+    report.min_wall_mm = std::max(0.0, min_wall_mm(section) - 2.0 * error_mm);
+    return report;
   });
 }
 
 /// The curves of one tolerance.
-Result<ProvedBrep> fitted(const ExportReport& report, const ExportOptions& options,
+Result<FittedBrep> fitted(const ExportReport& report, const ExportOptions& options,
                           double tolerance_mm, Stages& stages) {
   return stages
       .run(
           "fit_step",
           [&] { return revolved_brep(report.section.profile(), options.step_walls, tolerance_mm); })
-      .and_then([&](RevolvedBrep brep) {
-        return stages.run("prove_step", [&] {
-          return proved(std::move(brep), report.prepared.counted_volume_mm3, options);
-        });
+      .map([&](RevolvedBrep brep) {
+        auto proof = stages.run("prove_step", [&] { return proof_of(brep, report, options); });
+        return FittedBrep{std::move(brep), std::move(proof)};
       });
 }
 
-/// Closer curves, as long as only they make a wall thinner than its limit.
-Result<ProvedBrep> fitted_within_limit(const ExportReport& report, const ExportOptions& options,
-                                       Stages& stages) {
+tl::unexpected<Error> crossing_curves(const Wall& thinnest, double tolerance_mm) {
+  return failure(ErrorKind::unsound,
+                 "STEP: expected curves within the tolerance of " + nine_digit_text(tolerance_mm) +
+                     " mm that stay apart, found that they cross; the thinnest wall has " +
+                     nine_digit_text(thinnest.thickness_mm) + " mm at a height of " +
+                     nine_digit_text(thinnest.from.y) +
+                     " mm; straight lines instead of curves are exact, and a smaller tolerance "
+                     "brings the curves closer");
+}
+
+/// Closer curves, as long as those so far cross, or only they make a wall thinner than its limit.
+Result<FittedBrep> fitted_closely(const ExportReport& report, const ExportOptions& options,
+                                  Stages& stages) {
   const std::optional<WallLimit>& limit = report.walls.limit;
   const bool met = limit && limit->met_by(report.walls.min_wall_mm);
   auto made = fitted(report, options, options.tolerance_mm, stages);
-  for (double part = kCloser;
-       made && met && !limit->met_by(made->report.min_wall_mm) && part >= kClosest;
-       part *= kCloser) {
+  if (!made || options.step_walls == StepWalls::lines) return made;
+  const auto too_far = [&] {
+    return !made->proof || (met && !limit->met_by(made->proof->min_wall_mm));
+  };
+  for (double part = kCloser; too_far() && part >= kClosest; part *= kCloser) {
     auto closer = fitted(report, options, part * options.tolerance_mm, stages);
     if (!closer) break;
-    made = std::move(closer);
+    if (closer->proof) made = std::move(closer);
   }
+  if (!made->proof) return crossing_curves(report.walls.thinnest, options.tolerance_mm);
   return made;
 }
 
@@ -88,10 +102,11 @@ Result<ProvedBrep> fitted_within_limit(const ExportReport& report, const ExportO
 
 Result<FileReport> write_step(const ExportReport& report, const ExportOptions& options,
                               FileStore& store, Stages& stages) {
-  const auto made = fitted_within_limit(report, options, stages);
+  const auto made = fitted_closely(report, options, stages);
   if (!made) return tl::make_unexpected(made.error());
+  if (!made->proof) return tl::make_unexpected(made->proof.error());
   const RevolvedBrep& brep = made->brep;
-  const StepReport& proof = made->report;
+  const StepReport& proof = *made->proof;
   const std::string bytes =
       stages.run("encode_step", [&] { return encode_step(brep, options.name); });
   return stages

@@ -150,6 +150,49 @@ TEST_F(ExportFiles, CurvesForCadKeepAWallAtTheLimit) {
   EXPECT_LT(coarse->files.at(0).step->min_wall_mm, report->walls.limit->least_mm());
 }
 
+/// A smooth outside and a rough bore, so that their curves differ: walls from `thinnest_mm` to
+/// `swing_mm` more, in pieces.
+Pot rough_bore(double thinnest_mm, double swing_mm) {
+  std::vector<shapes::Radii> rings(4, {20.0, 0.0});
+  for (int i = 0; i < 40; ++i) {
+    const double outside = 20.0 + swing_mm * std::sin(0.25 * i);
+    rings.push_back({outside, outside - thinnest_mm - swing_mm * std::fmod(0.37 * i * i, 1.0)});
+  }
+  return pot_of(stack_of(0.5, rings));
+}
+
+TEST_F(ExportFiles, CurvesForCadThatCrossGetCloser) {
+  ExportRequest request;
+  request.files.push_back(file_request(path("a.step")).value());
+  request.options.allow_pieces = true;
+  const auto report = export_files(rough_bore(0.007, 0.05), request);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_LE(report->files.at(0).max_error_mm, 0.25 * request.options.tolerance_mm);
+  EXPECT_GT(report->files.at(0).step->min_wall_mm, 0.0);
+}
+
+TEST_F(ExportFiles, CurvesForCadHaveABoundOfTheirWallHoweverThin) {
+  ExportRequest request;
+  request.files.push_back(file_request(path("a.step")).value());
+  request.options.allow_pieces = true;
+  const auto report = export_files(rough_bore(1e-4, 0.05), request);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_GT(report->files.at(0).step->min_wall_mm, 0.5e-4);
+  EXPECT_LE(report->files.at(0).step->min_wall_mm, 1e-4);
+}
+
+TEST_F(ExportFiles, CurvesForCadThatAlwaysCrossAreRefusedWithRemedies) {
+  ExportRequest request;
+  request.files.push_back(file_request(path("a.step")).value());
+  request.options.allow_pieces = true;
+  EXPECT_TRUE(refused(export_files(rough_bore(1e-6, 2.0), request), ErrorKind::unsound,
+                      "straight lines instead of curves are exact"));
+  EXPECT_FALSE(std::filesystem::exists(path("a.step")));
+  request.options.step_walls = StepWalls::lines;
+  const auto lines = export_files(rough_bore(1e-6, 2.0), request);
+  EXPECT_TRUE(lines) << lines.error().message;
+}
+
 TEST_F(ExportFiles, ADrawingShowsTheDrain) {
   // A cavity of 4 mm between a solid foot and a lid.
   const Pot pot = pot_of(stack_of(2.0, {{30, 0}, {30, 20}, {30, 20}, {30, 0}}));
