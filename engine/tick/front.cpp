@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <variant>
 
 namespace clay {
@@ -130,34 +131,45 @@ void measure_lead(const Profile& profile, const StepPlan& plan, const ClayStack&
   if (rings[1].depth_mm != nullptr) *rings[1].coverage = std::min(all - reach, h) / h;
 }
 
-/// The depth of an end of the tool in the clay that it has not passed, or has left behind.
+/// The depth of an end of the tool in the clay that it has not passed, or has left behind. `lead`:
+/// the end that leads, if its front was measured. It is as deep as the clay ahead of it: there
+/// nothing has yielded yet.
 double depth_at_end(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
-                    bool upper) noexcept {
+                    const Lead* lead, bool upper) noexcept {
+  if (lead != nullptr && lead->up == upper) return lead->ahead_mm;
   const double t = upper ? tool.high() : tool.low(), h = stack.ring_height_mm();
-  const double level = (hip_y + t) / h, size = static_cast<double>(stack.size());
+  const double level = (hip_y + t) / h;
   if (!(level > 0.0 && level * h < stack.height_mm())) return 0.0;
-  if (contact.has_front && (contact.rise_mm > 0.0) == upper && contact.rise_mm != 0.0)
-    return contact.front[0].depth_mm;
-  auto ring = static_cast<std::size_t>(std::min(level, size - 1.0));
-  // An end between two rings belongs to the ring inside the tool, at both ends.
-  if (upper && ring > 0 && static_cast<double>(ring) == level) --ring;
+  const bool in_crown = level >= static_cast<double>(stack.size());
   for (std::size_t k = 0; k < contact.edge_count; ++k)
-    if (contact.edge_end[k] == (level >= size ? 0 : upper ? 1 : -1))
-      return contact.edges[k].depth_mm;
-  if (level >= size || !contact.rings.has(ring)) return 0.0;
-  // The ring's depth was measured in the middle of the part that the tool covers.
-  const double low = std::max(static_cast<double>(ring) * h - hip_y, tool.low());
-  const double high = std::min(static_cast<double>(ring + 1) * h - hip_y, tool.high());
+    if (contact.edge_end[k] == (in_crown ? 0 : upper ? 1 : -1)) return contact.edges[k].depth_mm;
+  if (in_crown) return 0.0;
+  // The ring's depth was measured in the middle of the part that the tool covers, as here.
+  const auto covered_middle = [&](std::size_t ring) -> std::optional<double> {
+    const double middle = (static_cast<double>(ring) + 0.5) * h - hip_y;
+    const double low = std::max(middle - 0.5 * h, tool.low());
+    const double high = std::min(middle + 0.5 * h, tool.high());
+    return high > low ? std::optional(0.5 * (low + high)) : std::nullopt;
+  };
+  std::size_t ring = upper ? contact.top : contact.bottom;
+  std::optional<double> middle = covered_middle(ring);
+  // An end between two rings belongs to the ring inside the tool, wherever rounding puts it.
+  if (!middle && contact.top > contact.bottom) {
+    ring = upper ? ring - 1 : ring + 1;
+    middle = covered_middle(ring);
+  }
+  if (!middle || !contact.rings.has(ring)) return 0.0;
   const double depth = contact.rings.get(ring).depth_mm;
-  return depth > 0.0 ? depth + tool.radius(t) - tool.radius(0.5 * (low + high)) : 0.0;
+  return depth > 0.0 ? depth + tool.radius(t) - tool.radius(*middle) : 0.0;
 }
 
-void feel_ends(const Tool& tool, const ClayStack& stack, double hip_y, Contact& contact) noexcept {
+void feel_ends(const Tool& tool, const ClayStack& stack, double hip_y, const Lead* lead,
+               Contact& contact) noexcept {
   contact.end_depth2 = {};
   if (std::holds_alternative<EllipseProfile>(tool.profile())) return;  // cos theta = 0 at its poles
   for (const bool upper : {false, true}) {
     const double t = upper ? tool.high() : tool.low(), slope = tool.slope(t);
-    const double depth = std::max(depth_at_end(tool, stack, hip_y, contact, upper), 0.0);
+    const double depth = std::max(depth_at_end(tool, stack, hip_y, contact, lead, upper), 0.0);
     contact.end_depth2[upper ? 1 : 0] = depth * depth / (1.0 + slope * slope);
   }
 }
@@ -166,14 +178,14 @@ void feel_ends(const Tool& tool, const ClayStack& stack, double hip_y, Contact& 
 
 void measure_front(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
                    Contact& contact) noexcept {
+  Lead lead;
   if (dt_s > 0.0) {
     level_edges(contact);
-    Lead lead;
     if (contact.rise_mm != 0.0 && find_lead(plan, stack, hip_y, dt_s, contact, lead))
       std::visit([&](const auto& p) { measure_lead(p, plan, stack, lead, contact); },
                  plan.tool.profile());
   }
-  feel_ends(plan.tool, stack, hip_y, contact);
+  feel_ends(plan.tool, stack, hip_y, contact.has_front ? &lead : nullptr, contact);
 }
 
 }  // namespace clay

@@ -18,13 +18,16 @@ constexpr double kBlend = 0.45;
 // Bound of the relative error of a radius in single precision.
 constexpr float kRounding = 1e-6f;
 constexpr float kLargest2 = static_cast<float>(kMaxRadiusMm * kMaxRadiusMm) * (1.0f - kRounding);
+constexpr float kSmallest2 = static_cast<float>(kMinRadiusMm * kMinRadiusMm) * (1.0f + kRounding);
 constexpr float kMost = static_cast<float>(kMostLaneQuanta * kMm2PerQuantum);  // for conversions
 
-/// How far R^2 and r^2 of some rings go down, where the wall is pushed in by u.
+/// How far R^2 and r^2 of some rings go down, where the wall is pushed in by u: no R becomes less
+/// than the smallest radius.
 template <class F>
 CLAYSTACK_INLINE inline F pushed_in(F outer, F inner, F u) noexcept {
+  const F spare = outer * outer * (1.0f - kRounding) - kSmallest2;
   return lesser(F(lesser(u, outer) * (2.0f * outer - lesser(u, outer))),
-                F(kMostOfBore * inner * inner));
+                F(lesser(F(kMostOfBore * inner * inner), F(spare > 0.0f ? spare : F{}))));
 }
 /// How far they go up, where it is pushed out by u: not beyond the largest radius, and no wall
 /// becomes thinner than the minimum.
@@ -41,16 +44,19 @@ CLAYSTACK_INLINE inline F pushed_out(F outer, F inner, F u, float per_min_wall) 
 // on few rows at once.
 
 /// Less where the wall is not thin. `rises`: (R^2 - r^2) / (R^2 + r^2); times the change of R^2 it
-/// is the clay of the hoop strain.
+/// is the clay of the hoop strain. Returns whether some wall is so thin that this is rounding.
 template <std::size_t n>
-CLAYSTACK_INLINE inline void soften(const float* outers, const float* inners, std::size_t count,
+CLAYSTACK_INLINE inline bool soften(const float* outers, const float* inners, std::size_t count,
                                     float* by, float* rises) noexcept {
   using F = TwiceFloats<n>;
+  F most{};
   for (std::size_t k = 0; k < count; k += 2 * n) {
     const F bore = load_floats<n>(inners + k) / load_floats<n>(outers + k), bore2 = bore * bore;
     store(by + k, F(load_floats<n>(by + k) * pliancy(bore2)));
     store(rises + k, F((1.0f - bore2) / (1.0f + bore2)));
+    most = greater(bore2, most);
   }
+  return most_of(most) > 1.0f - 8.0f * kRounding;
 }
 /// From mm to the change of R^2 and r^2 [mm^2].
 template <std::size_t n>
@@ -141,16 +147,18 @@ void Shift::trail(double h, const Band& band, const Shell& shell, std::size_t fi
   });
 }
 
-void Shift::move(const WallRadii& walls, const Push& push, std::size_t first, std::size_t count,
-                 float* by) noexcept {
+void Shift::move(const ClayStack& stack, const WallRadii& walls, const Push& push,
+                 std::size_t first, std::size_t count, float* by) noexcept {
   Quanta sum = 0;  // of 128 rings: fits
+  bool hair_thin = false;
   alignas(kPackBytes) float rises[kRows];
   in_packs([=, outers = walls.outer(first), inners = walls.inner(first), rises = &rises[0],
             changes = &changes_[first - from_], hoop = push.hoop ? 0.5f : 0.0f,
             per_min_wall = static_cast<float>(1.0 / push.min_wall_mm),
             min_wall = static_cast<float>(push.min_wall_mm), outward = push.outward,
-            stretches = push.outward && push.stretch, total = &sum](auto n) CLAYSTACK_INLINE {
-    soften<n>(outers, inners, count, by, rises);
+            stretches = push.outward && push.stretch, total = &sum,
+            thin = &hair_thin](auto n) CLAYSTACK_INLINE {
+    *thin = soften<n>(outers, inners, count, by, rises);
     if (stretches)
       stretch<n>(outers, inners, count, hoop, min_wall, by, rises);
     else
@@ -172,6 +180,19 @@ void Shift::move(const WallRadii& walls, const Push& push, std::size_t first, st
     *total = sum_of(raised);
   });
   raised_total_ += sum;
+  if (hair_thin) keep_quanta(stack.rings(), first, count);
+}
+
+/// Every ring keeps a quantum, whatever rounding does.
+void Shift::keep_quanta(std::span<const Ring> rings, std::size_t first,
+                        std::size_t count) noexcept {
+  for (std::size_t i = first; i < first + count; ++i) {
+    Ring& change = changes_[i - from_];
+    const Quanta too_much = change.inner2 - change.outer2 - (rings[i].volume() - 1);
+    if (too_much <= 0) continue;
+    change.inner2 -= too_much;
+    raised_total_ -= too_much;
+  }
 }
 
 /// A wall that sinks needs its clay above it. Without that it does not sink: it thins, or, if it

@@ -70,7 +70,7 @@ class Shift {
         trail(stack.ring_height_mm(), band, shell, first, count, by);
       least(first, std::span(by).first(count));
       std::fill(by + count, by + in_packs_of(count), 0.0f);
-      move(walls, push, first, count, by);
+      move(stack, walls, push, first, count, by);
     }
     settle(stack, push.stretch);
   }
@@ -85,8 +85,9 @@ class Shift {
                     std::size_t count, float* by) noexcept;
   /// `by`, of whole packs: how far the rings move [mm], less where the wall is not thin. Afterwards
   /// by how much R^2 and r^2 change [mm^2].
-  void move(const WallRadii& walls, const Push& push, std::size_t first, std::size_t count,
-            float* by) noexcept;
+  void move(const ClayStack& stack, const WallRadii& walls, const Push& push, std::size_t first,
+            std::size_t count, float* by) noexcept;
+  void keep_quanta(std::span<const Ring> rings, std::size_t first, std::size_t count) noexcept;
   void settle(const ClayStack& stack, bool stretch) noexcept;
 
   std::size_t from_ = 0, count_ = 0;

@@ -63,7 +63,9 @@ class Smear {
         const auto outer2 = doubles_of(pack.outer2), inner2 = doubles_of(pack.inner2);
         const Doubles<n> surface = outside ? outer2 : inner2;
         const auto other = root((outside ? inner2 : outer2) * kMm2PerQuantum);
-        const Doubles<n> thinnest = outside ? other + least_wall : other - least_wall;
+        // A ring narrower than the minimum wall has none to give to its bore.
+        const Doubles<n> thinnest =
+            outside ? other + least_wall : greater(Doubles<n>(other - least_wall), 0.0);
         const Doubles<n> kept = thinnest * thinnest * kQuantaPerMm2;
         const Doubles<n> spare = outside ? outer2 - kept : kept - inner2;
         store(at->surface + to + k, surface);

@@ -115,5 +115,45 @@ TEST(FlatEnds, DoNoWorkOverTheRim) {
     }
 }
 
+/// A rib that stands in a wall of equal rings. Its ends lie on borders between rings, as exactly as
+/// floating point permits: the force is that of a rib a little higher or lower.
+TEST(FlatEnds, ForceDoesNotDependOnRoundingAtABorderOfRings) {
+  constexpr double h = 0.335;
+  SceneSpec scene;
+  scene.lump.ring_height_mm = h;
+  scene.lump.inner_radius_mm = 30.0;
+  scene.tool.shape = RibSpec{12.0 * h, 6.0};
+  const auto force_at = [&](double up_mm) {
+    Wheel wheel = Wheel::build(scene).value();
+    wheel.step({0, {49.0, up_mm, 0.0}, false, 0.0});
+    return wheel.step({1000, {49.0, up_mm, 0.0}, false, 0.0}).force_n();
+  };
+  for (int border = 20; border < 100; ++border) {
+    const double up_mm = border * h;
+    EXPECT_NEAR(force_at(up_mm).y, force_at(up_mm + 1e-7).y, 1e-6) << border;
+  }
+}
+
+/// A rib sinks into solid clay. -dE/dy of its lower end is K' depth^2 / 2, depth that of the end in
+/// the clay below it: 4 + 6 mm, as no clay has yielded before the end comes.
+TEST(FlatEnds, ForceOfALeadingEndDependsNeitherOnRingsNorOnSpeed) {
+  for (const double h : {0.5, 0.125})
+    for (const double speed_mm_s : {40.0, 80.0}) {
+      SceneSpec scene;
+      scene.lump.rings = static_cast<std::size_t>(50.0 / h);
+      scene.lump.ring_height_mm = h;
+      scene.tool.shape = RibSpec{20.0, 6.0};
+      Wheel wheel = Wheel::build(scene).value();
+      std::int64_t time_us = 0;
+      for (double up = 60.5; up > 56.0; up -= 1e-3 * speed_mm_s) {
+        const glm::dvec3 force =
+            wheel.step({time_us += 1000, {4.0, up, 0.0}, false, 0.0}).force_n();
+        if (up > 58.0) continue;  // the end is not yet one ring deep
+        ASSERT_NEAR(force.y, 0.5 * scene.force->stiffness_n_per_mm2 * 100.0, 1e-6)
+            << h << ' ' << speed_mm_s << ' ' << up;
+      }
+    }
+}
+
 }  // namespace
 }  // namespace clay

@@ -100,7 +100,7 @@ std::uint64_t hash_of(const Thrown& thrown) {
 /// Recorded with four lanes, so that a machine without AVX2 compares its two lanes with these.
 TEST(LanesRecorded, GiveTheBitsOfAnotherMachine) {
   EXPECT_EQ(hash_of(throw_with(SphereSpec{12}, true)), 192666849042331055u);
-  EXPECT_EQ(hash_of(throw_with(RibSpec{11, 5}, true)), 10594037236924233922u);
+  EXPECT_EQ(hash_of(throw_with(RibSpec{11, 5}, true)), 16919175248206992200u);
 }
 
 TEST_P(Lanes, TwoAndFourLanesGiveTheSameBits) {

@@ -69,6 +69,52 @@ TEST(ClayAudit, AccountsForEveryQuantumAfterEveryTick) {
   }
 }
 
+/// Whether a pot with these rings could be read from a file.
+bool is_valid(const ClayStack& stack) {
+  const auto rings = stack.rings();
+  return ClayStack::from_rings(stack.ring_height_mm(), {rings.begin(), rings.end()}, stack.crown())
+      .has_value();
+}
+
+/// A press pushes it in by more than its radius.
+TEST(ClayAudit, KeepsARingOfOneQuantumValid) {
+  for (const double radius_mm : {1.0, 5.0, 20.0})
+    for (const bool hoop : {false, true}) {
+      SceneSpec scene = small_scene();
+      scene.stability.reset();
+      scene.removal.rate_per_s = 200.0;
+      scene.clay = no_rules();
+      scene.clay->shift = true;
+      scene.clay->hoop = hoop;
+      std::vector<Ring> rings(41, Ring{quanta_from_radius(radius_mm), 0});
+      rings[20].inner2 = rings[20].outer2 - 1;
+      Pot pot = Wheel::build(scene)->pot();
+      pot.stack = ClayStack::from_rings(0.5, rings, 0, 600).value();
+      pot.ledger.initial = pot.stack.volume();
+      Wheel wheel = Wheel::build(scene, pot).value();
+      for (int k = 1; k <= 100; ++k) {
+        wheel.step({1000 * k, {12.0 + radius_mm - 0.1 * k, 10.25, 0.0}, false, 0.0});
+        ASSERT_TRUE(is_valid(wheel.stack())) << radius_mm << ' ' << hoop << ' ' << k;
+      }
+      expect_balanced(wheel);
+    }
+}
+
+/// A neck of 1 mm, where the minimum wall is 3 mm, between wider bores.
+TEST(ClayAudit, SpongeKeepsANeckThatIsNarrowerThanTheMinimumWall) {
+  SceneSpec scene = small_scene();
+  scene.stability.reset();
+  scene.clay = ClaySpec{};
+  scene.tool.mode = ToolMode::smooth;
+  const auto in_neck = [](double up) { return std::abs(up - 40.0) < 0.3; };
+  Wheel wheel = wheel_with(
+      scene, 75.0, [&](double up) { return in_neck(up) ? 1.0 : 20.0; },
+      [&](double up) { return in_neck(up) ? 0.9 : 3.0; }, 0.5);
+  for (int k = 1; k <= 500; ++k) wheel.step({1000 * k, {0.0, 40.0, 0.0}, false, 0.0});
+  EXPECT_TRUE(is_valid(wheel.stack()));
+  expect_balanced(wheel);
+}
+
 /// How deep a tool at this height is in a ring; negative without contact.
 double depth_in(const Ring& ring, std::size_t i, const SceneSpec& scene, const Tool& tool,
                 double hip_y, const Contact& contact) {
