@@ -6,6 +6,7 @@
 #include "engine/tick/heave.hpp"
 #include "engine/tick/joints.hpp"
 #include "engine/tick/relief.hpp"
+#include "engine/tick/rim_growth.hpp"
 #include "engine/tick/shell.hpp"
 #include "engine/tick/smear.hpp"
 

@@ -1,9 +1,9 @@
 #include "engine/tick/redistribution.hpp"
 
 #include "engine/clay/stack_writer.hpp"
+#include "engine/tick/rim_growth.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -11,18 +11,6 @@ namespace clay {
 namespace {
 
 constexpr int kShareBits = 30;
-
-// A tick has a bounded length; the crown holds what is left for the next one.
-constexpr std::size_t kMostGrowthPerTick = 64;
-
-// How fast a thick rim tapers: loss of thickness over height.
-constexpr double kTaper = 0.5;
-
-constexpr double kHighestLipMm = 12.0;  // bounds what a tick moves
-// A lip is rounded: its largest thickness at the rim and half-way down, relative to the wall below.
-constexpr double kThinRim = 0.7, kThinLip = 0.93;
-// Steps of the search from the rim down for the wall that is twice as thick as the lip is high.
-constexpr int kLipPasses = 4;
 
 WideQuanta take(std::span<const ToolRemoval> removals, ClayStack& stack) noexcept {
   StackWriter writer(stack);
@@ -111,131 +99,6 @@ void level(Rim* rim, std::span<const ToolRemoval> removals, std::size_t count) n
       (contact.side == Side::compressive ? rim->outside : rim->inside) = 0;
 }
 
-/// A copy of the top ring, plus the excess of the rim. A quarter of the ring at most, so that it
-/// stays a ring.
-Ring next_ring(const Ring& top, const Rim* rim) noexcept {
-  if (rim == nullptr) return top;
-  const WideQuanta most = top.volume() / 4;
-  const auto more = [&](WideQuanta q) {
-    return static_cast<Quanta>(std::clamp<WideQuanta>(q, -most, most));
-  };
-  Ring ring = top;
-  ring.outer2 = std::clamp(top.outer2 + more(rim->outside), kSmallestOuter2, kLargestOuter2);
-  if (top.inner2 > 0) ring.inner2 = std::max<Quanta>(top.inner2 - more(rim->inside), 0);
-  return ring;
-}
-
-/// A ring, and below which ring it rises: the stack's size for one on top.
-struct Growth {
-  Ring ring;
-  std::size_t at;
-};
-
-/// Steps (a), (b): whole rings from the excess. `paper` keeps the remainder outside the body,
-/// below one top ring after every tick; `conserving` shows it as the crown.
-template <Model model, class NextRing>
-void grow(Flow& flow, ClayStack& stack, Ledger& ledger, StackWriter& writer, Rim* rim,
-          NextRing next) noexcept {
-  const auto excess = [&] { return model == Model::paper ? ledger.outside : stack.crown(); };
-  // With less than half of the top ring no ring can grow: no ring above it is smaller.
-  while (2 * excess() >= stack.rings().back().volume()) {
-    const auto [ring, at] = next();
-    if (ring.volume() <= 0 || excess() < ring.volume()) return;
-    flow.ring_limit = stack.size() >= stack.max_rings();
-    if (flow.ring_limit) return;
-    if (model == Model::conserving && flow.grown >= kMostGrowthPerTick) return;
-    if constexpr (model == Model::paper)
-      ledger.outside -= ring.volume();
-    else
-      writer.put_on_crown(-ring.volume());
-    writer.grow(at, ring);
-    if (rim != nullptr) *rim = {};
-    flow.lip = std::min(flow.lip, at);
-    flow.grown_volume += ring.volume();
-    ++flow.grown;
-  }
-}
-template <Model model>
-void grow(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim, StackWriter& writer) noexcept {
-  grow<model>(flow, stack, ledger, writer, rim, [&] {
-    return Growth{next_ring(stack.rings().back(), model == Model::paper ? nullptr : rim),
-                  stack.size()};
-  });
-}
-
-/// The unchanged rim: its middle line continues upright, because a lifted wall keeps its radius,
-/// and a rim thicker than the wall below it tapers back to that wall.
-Ring copied_rim(const ClayStack& stack) noexcept {
-  const auto rings = stack.rings();
-  const Ring& top = rings.back();
-  if (rings.size() < 2 || top.inner2 == 0) return top;
-  const double h = stack.ring_height_mm(), outer = top.outer_mm(), inner = top.inner_mm();
-  const double wall = outer - inner;
-  const double below = std::clamp(wall / h + 0.5, 1.0, static_cast<double>(rings.size()) - 1.0);
-  const Ring& old = rings[rings.size() - 1 - static_cast<std::size_t>(below)];
-  if (old.inner2 == 0) return top;
-  const double thinner = wall - wall_mm(old);
-  if (!(thinner > 0.0)) return top;
-  const double by = 0.5 * std::min(thinner, kTaper * h);
-  return {quanta_from_radius(outer - by), quanta_from_radius(inner + by)};
-}
-
-/// The lowest ring of a lip: the rounded rim of a wall, which rises and sinks unchanged. A lip is
-/// half as high as the wall below it is thick, and begins above the tools and above the bottom of
-/// the bore. The stack's size if there is none, or if a tool stands beside it.
-std::size_t lip_of(const ClayStack& stack, const Tool& tool, double hip_y,
-                   std::span<const ToolRemoval> removals) noexcept {
-  const auto rings = stack.rings();
-  const double h = stack.ring_height_mm(), size = static_cast<double>(rings.size());
-  double from = 1.0;
-  for (const auto& [contact, removed] : removals)
-    if (!contact.rings.empty()) from = std::max(from, std::ceil((hip_y + tool.high()) / h));
-  const double top_mm = wall_mm(rings.back());
-  double thickest_mm = top_mm, first = size - 1.0;
-  for (int pass = 0; pass < kLipPasses && first > 0.0; ++pass) {
-    first = std::max(size - std::floor(std::min(0.5 * thickest_mm, kHighestLipMm) / h + 0.5), 1.0);
-    thickest_mm = std::max(thickest_mm, wall_mm(rings[static_cast<std::size_t>(first) - 1]));
-  }
-  const double least = std::max(first, from);
-  const double half_way = std::ceil(0.5 * (size + first));
-  const double half_mm = wall_mm(rings[static_cast<std::size_t>(std::min(half_way, size - 1.0))]);
-  const bool rounded = top_mm < kThinRim * thickest_mm && half_mm > kThinRim * thickest_mm &&
-                       half_mm < kThinLip * thickest_mm;
-  if (!(rounded && least < size)) return rings.size();
-  std::size_t lip = static_cast<std::size_t>(least);
-  while (lip < rings.size() && rings[lip - 1].inner2 == 0) ++lip;
-  return lip;
-}
-
-/// The middle of one wall with the thickness of another.
-Ring as_thick(const Ring& ring, const Ring& other) noexcept {
-  const double middle = 0.5 * (ring.outer_mm() + ring.inner_mm()), half = 0.5 * wall_mm(other);
-  if (ring.inner2 == 0 || !(half < middle)) return ring;
-  const Ring reshaped{quanta_from_radius(middle + half), quanta_from_radius(middle - half)};
-  return reshaped.inner2 > 0 && reshaped.volume() > 0 ? reshaped : ring;
-}
-
-/// The part of a ring above the rim that fits beside the tools: no wall where less than half of it
-/// fits, or less than the minimum wall.
-Ring beside_tools(const Ring& next, const ClayStack& stack, const StepPlan& plan, double hip_y,
-                  std::span<const ToolRemoval> removals) noexcept {
-  const Tool& tool = plan.tool;
-  Ring ring = next;
-  const double t = (static_cast<double>(stack.size()) + 0.5) * stack.ring_height_mm() - hip_y;
-  if (!(t >= tool.low() && t <= tool.high())) return ring;
-  const double f = tool.radius(t);
-  for (const auto& [contact, removed] : removals) {
-    if (!(depth_of(ring, f, contact) > 0.0)) continue;
-    const double d = contact.axis_distance_mm;
-    if (contact.side == Side::compressive)
-      ring.outer2 = std::min(ring.outer2, quanta_from_radius(std::max(d - f, 0.0)));
-    else
-      ring.inner2 = std::max(ring.inner2, quanta_from_radius(d + f));
-  }
-  const bool thin = ring != next && wall_mm(ring) < plan.removal.min_wall_mm;
-  return 2 * ring.volume() >= next.volume() && !thin ? ring : Ring{};
-}
-
 }  // namespace
 
 template <Model model>
@@ -259,7 +122,7 @@ Flow press_clay(const StepPlan& plan, std::span<const ToolRemoval> removals, boo
   const std::size_t reach = flow_reach(*plan.kernel);
   flow.lowest = upward ? contact.bottom : contact.bottom - std::min(contact.bottom, reach);
   flow.highest = contact.top + std::min(reach, count - 1 - contact.top);
-  grow<model>(flow, stack, ledger, rim, writer);
+  grow_rings<model>(flow, stack, ledger, rim, writer);
   return flow;
 }
 
@@ -273,7 +136,7 @@ Flow trim_clay(std::span<const ToolRemoval> removals, ClayStack& stack, Ledger& 
   flow.lowest = removals.front().contact.bottom;
   flow.highest = removals.front().contact.top;
   // A thinner top ring may hold less than the excess.
-  grow<model>(flow, stack, ledger, rim, writer);
+  grow_rings<model>(flow, stack, ledger, rim, writer);
   return flow;
 }
 
@@ -292,37 +155,6 @@ WideQuanta flow_by_kernel(const StepPlan& plan, WideQuanta amount, bool up, cons
   const Split clay = split(amount, plan.inside_share, stack);
   return up ? flow_up(*plan.kernel, clay, contact, stack.size(), rim, stack)
             : flow_down(*plan.kernel, clay, contact, stack);
-}
-
-void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const ToolRemoval> removals,
-              ClayStack& stack, Rim* rim, StackWriter& writer) noexcept {
-  Ledger none;
-  grow<Model::conserving>(flow, stack, none, writer, rim, [&] {
-    const auto rings = stack.rings();
-    // The wall below a lip holds more than the top ring. The lip rises into a new ring's place.
-    if (rim == nullptr && stack.crown() >= rings.back().volume() &&
-        beside_tools(rings.back(), stack, plan, hip_y, removals) == rings.back())
-      if (const std::size_t lip = lip_of(stack, plan.tool, hip_y, removals); lip < rings.size())
-        return Growth{rings[lip - 1], lip};
-    const Ring top = rim != nullptr ? next_ring(rings.back(), rim) : copied_rim(stack);
-    return Growth{beside_tools(top, stack, plan, hip_y, removals), rings.size()};
-  });
-}
-
-void sink_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> removals,
-              ClayStack& stack, StackWriter& writer) noexcept {
-  const WideQuanta before = stack.crown();
-  while (stack.crown() < 0 && stack.size() > 1) {
-    const auto rings = stack.rings();
-    const std::size_t top = rings.size() - 1, lip = lip_of(stack, tool, hip_y, removals);
-    // On a wall that leans the lip follows the wall.
-    const std::size_t first = lip > top ? top : lip - 1;
-    for (std::size_t i = first; i < top; ++i) writer.reshape(i, as_thick(rings[i], rings[i + 1]));
-    flow.lip = std::min(flow.lip, first);
-    ++flow.sunk;
-    writer.sink();
-  }
-  flow.sunk_volume = stack.crown() - before;
 }
 
 template Flow press_clay<Model::paper>(const StepPlan&, std::span<const ToolRemoval>, bool,

@@ -3,7 +3,7 @@
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/plan.hpp"
-#include "engine/clay/stack_writer.hpp"
+#include "engine/tick/flow.hpp"
 #include "engine/tick/rayleigh_kernel.hpp"
 #include "engine/tick/removal.hpp"
 
@@ -12,18 +12,6 @@
 #include <span>
 
 namespace clay {
-
-/// The effect of a tick's flow on the stack.
-struct Flow {
-  std::size_t lowest = 0;  ///< rings lowest..highest may have changed
-  std::size_t highest = 0;
-  std::size_t grown = 0;  ///< rings added
-  std::size_t sunk = 0;   ///< rings taken out; then none is added
-  WideQuanta grown_volume = 0, sunk_volume = 0;
-  std::size_t lip = SIZE_MAX;  ///< rings from here on have moved up by `grown`, down by `sunk`
-  bool weak = true;            ///< some of the changed rings may not touch their neighbours
-  bool ring_limit = false;     ///< clay waits for a ring that max_rings does not allow
-};
 
 /// Rings above and below the candidate range that a flow may reach.
 [[nodiscard]] inline std::size_t flow_reach(const RayleighKernel& kernel) noexcept {
@@ -57,15 +45,5 @@ WideQuanta remove_clay(std::span<const ToolRemoval> removals, ClayStack& stack, 
 /// Spreads an amount by the kernel; returns the clay that finds no ring.
 WideQuanta flow_by_kernel(const StepPlan& plan, WideQuanta amount, bool up, const Contact& contact,
                           Rim* rim, ClayStack& stack) noexcept;
-/// Whole rings from the crown: with a rim as `press_clay` makes them, without one below the lip,
-/// which is lifted as it is. Where a tool stands beside the lip, on top, as copies of the rim that
-/// taper to the wall below where the rim is thicker. A ring rises beside the tools, not into them;
-/// if they leave room for less than half of it, the clay waits in the crown.
-void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const ToolRemoval> removals,
-              ClayStack& stack, Rim* rim, StackWriter& writer) noexcept;
-/// Takes rings out below the lip until the crown is no longer below 0; where a tool stands beside
-/// the lip, on top. Expects that the stack holds enough clay.
-void sink_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> removals,
-              ClayStack& stack, StackWriter& writer) noexcept;
 
 }  // namespace clay

@@ -115,7 +115,7 @@ std::optional<Failure> StabilityWatch::check(const StabilityPlan& plan, const Cl
   else
     find_weakest(plan, rings, above_cursor_ + stack.crown(), cursor_,
                  std::min({flow.lowest, flow.lip, cursor_}), worst);
-  if (plan.parts) note_parted(plan, stack, flow, worst);
+  if (plan.gaps_fail) note_parted(plan, stack, flow, worst);
   return worst;
 }
 

@@ -4,7 +4,7 @@
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/plan.hpp"
 #include "engine/clay/ring_sums.hpp"
-#include "engine/tick/redistribution.hpp"
+#include "engine/tick/flow.hpp"
 
 #include <cstddef>
 #include <optional>

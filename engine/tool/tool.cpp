@@ -41,8 +41,7 @@ Result<Built> build_profile(const EllipseSpec& s) {
 Result<Built> build_profile(const RibSpec& s) {
   if (!is_size(s.height_mm)) return bad_size("a height", s.height_mm);
   if (!is_size(s.radius_mm)) return bad_size("a radius", s.radius_mm);
-  return Built{RibProfile{0.5 * s.height_mm, s.radius_mm}, -0.5 * s.height_mm, 0.5 * s.height_mm,
-               s.radius_mm};
+  return Built{RibProfile{s.radius_mm}, -0.5 * s.height_mm, 0.5 * s.height_mm, s.radius_mm};
 }
 
 /// End slope of a monotone cubic: three-point formula, limited to keep the shape.

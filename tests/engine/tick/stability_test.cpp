@@ -189,7 +189,7 @@ TEST(Stability, ARingThatDoesNotTouchTheOneAboveFailsAtAnyStress) {
     return watch.check(plan, stack, flow);
   };
   EXPECT_FALSE(failed({.lowest = 5, .highest = 6}));  // a scene without clay rules
-  plan.parts = true;
+  plan.gaps_fail = true;
   for (const Flow& flow :
        {Flow{.lowest = 5, .highest = 5}, Flow{.lowest = 6, .highest = 6},
         Flow{.lowest = 0, .highest = 11}, Flow{.lowest = 9, .highest = 9, .lip = 6, .weak = false},
@@ -208,7 +208,7 @@ TEST(Stability, ARingThatDoesNotTouchTheOneAboveFailsAtAnyStress) {
 TEST(Stability, TheLowerOfAGapAndAnOverloadedRingFails) {
   const ClayStack stack = parted_stack();
   StabilityPlan plan = plan_of(1.0).stability;
-  plan.parts = true;
+  plan.gaps_fail = true;
   const auto stresses = stresses_kpa(stack, 1.9);
   const auto failed_ring = [&](double threshold_kpa) {
     plan.max_stress_kpa = threshold_kpa;

@@ -56,7 +56,7 @@ struct ForcePlan {
 struct StabilityPlan {
   double max_stress_kpa = 0.0;
   double kpa_per_ratio = 0.0;  ///< beta_i = this * (quanta above ring i) / (quanta of ring i)
-  bool parts = false;  ///< a ring that does not touch the one above fails: scenes with clay rules
+  bool gaps_fail = false;      ///< a ring that does not touch the one above fails: with clay rules
 };
 
 struct RulesPlan {

@@ -71,7 +71,7 @@ struct EllipseProfile {
 };
 
 struct RibProfile {
-  double half_height = 1.0, b = 1.0;
+  double b = 1.0;
   [[nodiscard]] double radius(double) const noexcept { return b; }
   [[nodiscard]] double slope(double) const noexcept { return 0.0; }
   [[nodiscard]] Surface surface(double, double) const noexcept { return {b, {}}; }

@@ -1,0 +1,34 @@
+#pragma once
+// The height of a pot: rings are added at its rim or taken out there.
+
+#include "claystack/engine/clay.hpp"
+#include "claystack/engine/plan.hpp"
+#include "engine/clay/stack_writer.hpp"
+#include "engine/tick/flow.hpp"
+#include "engine/tick/removal.hpp"
+
+#include <span>
+
+namespace clay {
+
+/// Steps (a), (b) of section 5.1 without clay rules: whole rings on top from the excess of clay.
+/// `conserving` takes them from the crown, and gives them the excess in `rim`; without a rim they
+/// are copies. `paper` takes copies from `ledger.outside`.
+template <Model model>
+void grow_rings(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim,
+                StackWriter& writer) noexcept;
+
+// For the clay rules.
+
+/// Whole rings from the crown: with a rim as `press_clay` makes them, without one below the lip,
+/// which is lifted as it is. Where a tool stands beside the lip, on top, as copies of the rim that
+/// taper to the wall below where the rim is thicker. A ring rises beside the tools, not into them;
+/// if they leave room for less than half of it, the clay waits in the crown.
+void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const ToolRemoval> removals,
+              ClayStack& stack, Rim* rim, StackWriter& writer) noexcept;
+/// Takes rings out below the lip until the crown is no longer below 0; where a tool stands beside
+/// the lip, on top. Expects that the stack holds enough clay.
+void sink_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> removals,
+              ClayStack& stack, StackWriter& writer) noexcept;
+
+}  // namespace clay
