@@ -81,8 +81,8 @@ TEST(StrokesCommand, NamesTheFileThatTheWheelRefuses) {
 /// A stroke of kind lip goes to the rim of the pot that it is planned on.
 double nearest_to_axis_mm(const std::string& session) {
   double nearest = 1e9;
-  for (const Pose& pose : parse_session(read_text(session), session)->poses)
-    nearest = std::min(nearest, pose.position_mm.x);
+  const Session played = parse_session(read_text(session), session).value();
+  for (const Pose& pose : played.poses) nearest = std::min(nearest, pose.position_mm.x);
   return nearest;
 }
 
