@@ -100,7 +100,8 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
     std::error_code none;
     return std::filesystem::exists(file, none);
   };
-  if (options.session_beside && exists(options.replay.scene) && !exists(options.replay.session))
+  if (options.session_beside && ends_ignoring_case(options.replay.scene, ".scene.json") &&
+      exists(options.replay.scene) && !exists(options.replay.session))
     return failure(ErrorKind::io, options.replay.session + ": expected the session of " +
                                       options.replay.scene +
                                       " beside it, found none; -s NAME.session plays another one");

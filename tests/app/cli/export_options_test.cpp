@@ -137,7 +137,8 @@ TEST_F(ExportOptions, ErrorsOfTheRequestNameTheOptionAndNotThePot) {
          "claystack: --smooth-length: expected --smooth fair, found none"},
         {"--fired --height 100",
          "claystack: --fired: expected --shrinkage above 0% or --glaze-allowance too"},
-        {"--height 120 --diameter 60 --holds 350ml", "claystack: goal: expected one figure"}}) {
+        {"--height 120 --diameter 60 --holds 350ml",
+         "claystack: --holds, --height, --diameter: expected one figure"}}) {
     const Ran refused = run(options);
     EXPECT_EQ(refused.status, 2) << options;
     EXPECT_NE(refused.err.find(says), std::string::npos) << refused.err;
