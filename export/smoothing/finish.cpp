@@ -247,7 +247,7 @@ class Finisher {
     return {};
   }
 
-  /// With so many digits that a smaller wall prints as one.
+  /// The error for a wall that is too thin. Both figures get enough decimals to differ.
   static tl::unexpected<Error> too_thin(const std::string& part, const std::string& comparison,
                                         double required_mm, const Wall& wall) {
     const bool smaller = wall.thickness_mm < required_mm;

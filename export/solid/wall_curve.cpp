@@ -15,8 +15,9 @@ namespace {
 
 constexpr double kShortestSpan = 0x1p-20;
 
-/// Beyond so many spans, a knot has no influence on a curve of least squares: with each span it
-/// falls to about 0.54.
+/// A new knot changes a cubic least-squares spline only near it: the change falls by a factor of
+/// 0.535 per span, the largest root of the Gram matrix of uniform cubic B-splines. After 40 spans
+/// it is below 2e-11 of its size at the knot.
 constexpr std::size_t kReachOfKnot = 40;
 constexpr double kNearly = 1.0 - 1e-9;  ///< what a knot may still move beyond its reach
 

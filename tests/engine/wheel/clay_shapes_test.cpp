@@ -81,19 +81,28 @@ double largest_ledge(const Wheel& wheel, double (Ring::*surface)() const) {
   return largest;
 }
 
-/// A ball that is pressed into a thick wall by more than its radius, and a pinch that stops there.
-TEST(ClayShapes, NoStrokeLeavesASteepUndercut) {
+/// A tube with a bore of 22 mm radius.
+Wheel thick_tube(double height_mm, double outer_mm, const ToolShapeSpec& tool) {
   SceneSpec scene = cylinder_scene({});
   scene.removal = {20.0, 2.0, 3.0, {}};
-  const auto thick = [&] {
-    return wheel_with(
-        scene, 70.0, [](double) { return 55.0; }, [](double) { return 22.0; });
-  };
+  scene.tool.shape = tool;
+  return wheel_with(
+      scene, height_mm, [=](double) { return outer_mm; }, [](double) { return 22.0; });
+}
+
+/// Presses from the bore outward, and stays there for 0.2 s.
+void press_out(Wheel& wheel, double up_mm, double to_mm, double speed_mm_s) {
+  Hand hand(wheel);
+  hand.place_at(10.0, up_mm);
+  hand.move_to(to_mm, up_mm, speed_mm_s);
+  hand.move_to(to_mm, up_mm + 0.01, 0.05);
+}
+
+/// A ball that is pressed into a thick wall by more than its radius, and a pinch that stops there.
+TEST(ClayShapes, NoStrokeLeavesASteepUndercut) {
+  const auto thick = [] { return thick_tube(70.0, 55.0, SphereSpec{10.0}); };
   Wheel pressed = thick();
-  Hand finger(pressed);
-  finger.place_at(10.0, 35.0);
-  finger.move_to(29.0, 35.0, 20.0);
-  finger.move_to(29.0, 35.01, 0.05);
+  press_out(pressed, 35.0, 29.0, 20.0);
   EXPECT_GT(ring_at(pressed, 35.0).inner_mm(), 36.0);
   EXPECT_LT(largest_ledge(pressed, &Ring::inner_mm), 1.0);
   Wheel pinched = thick();
@@ -108,14 +117,8 @@ TEST(ClayShapes, NoStrokeLeavesASteepUndercut) {
 
 /// The undercut of a press of 32 mm begins 16 mm above the contact.
 TEST(ClayShapes, ADeepPressLeavesNoLedge) {
-  SceneSpec scene = cylinder_scene({});
-  scene.removal = {20.0, 2.0, 3.0, {}};
-  Wheel wheel = wheel_with(
-      scene, 90.0, [](double) { return 90.0; }, [](double) { return 22.0; });
-  Hand finger(wheel);
-  finger.place_at(10.0, 40.0);
-  finger.move_to(44.0, 40.0, 20.0);
-  finger.move_to(44.0, 40.01, 0.05);
+  Wheel wheel = thick_tube(90.0, 90.0, SphereSpec{10.0});
+  press_out(wheel, 40.0, 44.0, 20.0);
   EXPECT_GT(ring_at(wheel, 40.0).inner_mm(), 53.0);
   EXPECT_LT(largest_ledge(wheel, &Ring::inner_mm), 1.0);
   expect_balanced(wheel);
@@ -123,17 +126,10 @@ TEST(ClayShapes, ADeepPressLeavesNoLedge) {
 
 /// Wherever its flat ends lie between the rings.
 TEST(ClayShapes, ARibLeavesNoLedgeAtItsEnds) {
-  SceneSpec scene = cylinder_scene({});
-  scene.removal = {20.0, 2.0, 3.0, {}};
-  scene.tool.shape = RibSpec{20.7, 5.0};
   for (int k = 0; k < 12; ++k) {
-    Wheel wheel = wheel_with(
-        scene, 70.0, [](double) { return 55.0; }, [](double) { return 22.0; });
-    Hand hand(wheel);
+    Wheel wheel = thick_tube(70.0, 55.0, RibSpec{20.7, 5.0});
     const double up = 30.0 + 0.37 * k;
-    hand.place_at(10.0, up);
-    hand.move_to(25.0, up, 10.0);
-    hand.move_to(25.0, up + 0.01, 0.05);
+    press_out(wheel, up, 25.0, 10.0);
     EXPECT_GT(ring_at(wheel, up).inner_mm(), 28.0);
     EXPECT_LT(largest_ledge(wheel, &Ring::inner_mm), 1.5) << up;
     expect_balanced(wheel);
