@@ -29,16 +29,12 @@ constexpr double kOffClayMm = 62.0, kInClayMm = 54.0, kDeepMm = 35.0, kHeightMm 
 constexpr double kMovingMm = 0.4;  // per frame
 constexpr std::size_t kEnoughFrames = 100;
 
-/// Stays at a place, or presses until it is moved. Called under the gadget's lock.
+/// Stays at a place, or presses until it is placed. Called under the gadget's lock.
 class Hand {
  public:
-  void move_to(double x_mm) {
-    pressing_ = false;
-    goal_mm_ = x_mm;
-  }
   void place_at(double x_mm) {
-    move_to(x_mm);
-    x_mm_ = x_mm;
+    pressing_ = false;
+    x_mm_ = goal_mm_ = x_mm;
   }
   void press_to(double x_mm) {
     if (!pressing_) frames_without_force_ = 0;

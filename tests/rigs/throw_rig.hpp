@@ -175,6 +175,7 @@ class ThrowRig : public testing::Test {
     const Session session = parse_session(test::read_text(path), path).value();
     ASSERT_GT(session.poses.size(), 100u);
     const auto mapping = servo::Mapping::build({}).value();
+    constexpr double kClearN = 0.05;  // some steps of the motors, so that they show the direction
     double farthest_mm = 0.0, along = 0.0, lengths = 0.0, displayed_ns = 0.0, clay_ns = 0.0;
     for (const Pose& pose : session.poses) {
       const glm::dvec3 position_mm = kFalconCentreMm + mapping.to_device(pose.position_mm);
@@ -185,8 +186,10 @@ class ThrowRig : public testing::Test {
       const glm::dvec3 clay_n = wheel.step(pose).force_n();
       if (at + 1 == log.end()) continue;
       const glm::dvec3& displayed_n = (at + 1)->force_n;
-      along += glm::dot(displayed_n, clay_n);
-      lengths += glm::length(displayed_n) * glm::length(clay_n);
+      if (glm::length(displayed_n) > kClearN) {
+        along += glm::dot(displayed_n, clay_n);
+        lengths += glm::length(displayed_n) * glm::length(clay_n);
+      }
       displayed_ns += 1e-3 * glm::length(displayed_n);
       clay_ns += 1e-3 * glm::length(mapping.force_to_device(clay_n));
     }
