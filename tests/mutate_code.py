@@ -25,7 +25,7 @@ TESTS = {
     "guard": ("falcon", "falcon_tests", ["falcon/safety/force_guard.cpp", "falcon/safety/basic_guard.hpp",
                                          "falcon/safety/guard_rules.cpp"], "*"),
     "passivity": ("falcon", "falcon_tests", ["falcon/safety/passivity_law.cpp", "falcon/safety/energy_observer.cpp",
-                                             "falcon/safety/swing_counter.cpp"], "*"),
+                                             "falcon/safety/reading_period.cpp", "falcon/safety/swing_counter.cpp"], "*"),
     "bound": ("falcon", "falcon_tests", ["falcon/safety/sampled_bound.cpp"], "*"),
     "watchdog": ("app", "servo_tests", ["app/servo/servo.cpp", "app/servo/servo_loop.cpp"], "*"),
     "certificate": ("export", "export_tests",

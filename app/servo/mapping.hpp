@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <utility>
 
 namespace clay::servo {
@@ -70,6 +71,9 @@ class HandForce {
   /// After a pause: energy from before the pause does not count.
   void reset() noexcept { controller_.reset(); }
   [[nodiscard]] falcon::PassivityState state() const noexcept { return controller_.state(); }
+  [[nodiscard]] std::optional<double> slow_rate_hz() const noexcept {
+    return controller_.slow_rate_hz();
+  }
 
  private:
   falcon::PassivityController controller_;

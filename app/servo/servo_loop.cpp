@@ -216,6 +216,7 @@ void ServoLoop::publish(LiveView& view, std::int64_t late_ns) noexcept {
   status_.guard = guarded_.state;
   status_.cause = guarded_.cause;
   status_.passivity = hand_.state();
+  status_.slow_hz = hand_.slow_rate_hz().value_or(0.0);
   status_.tool_mm = tool_mm_;
   status_.gap_mm = controls_.gap_mm();
   status_.force_n = guarded_.force_n;

@@ -18,6 +18,8 @@ constexpr std::uint8_t kZeroFrame[] = {'<', 'A', 'A', 'A', 'A', 'A', 'A', 'A',
                                        'A', 'A', 'A', 'A', 'A', 'A', 'A', '>'};
 // A transport with less remaining room than this may have stopped because of it.
 constexpr std::size_t kMostInPiece = 64;
+// More than a transport keeps: a device that floods the line must not hold the servo.
+constexpr int kMostReads = 8;
 constexpr int kQuestions = 10;
 constexpr std::int64_t kAnswerUs = 20'000;  // ten times the duration of a frame and its answer
 
@@ -162,6 +164,7 @@ DeviceSample FalconDevice::read(std::int64_t wait_us) noexcept {
   std::int64_t left_us = wait_us;
   std::array<std::uint8_t, 512> bytes{};
   bool more = false;  // after a pause of the host, the newest frame is the last one
+  int reads = 0;
   do {
     const Received got = line_->read(bytes, std::max<std::int64_t>(left_us, 0));
     take(std::span(bytes).first(got.size), got.time_us);
@@ -170,7 +173,7 @@ DeviceSample FalconDevice::read(std::int64_t wait_us) noexcept {
                                                : DeviceFault::transfer_failed);
       return sample_;
     }
-    more = bytes.size() - got.size < kMostInPiece;
+    more = bytes.size() - got.size < kMostInPiece && ++reads < kMostReads;
     left_us = more ? 0 : end_us - line_->now_us();
   } while (more || (!sample_.fresh && left_us > 0));
   if (unanswered_since_us_ != 0 && line_->now_us() - unanswered_since_us_ > settings_.silence_us)

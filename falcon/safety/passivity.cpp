@@ -31,4 +31,8 @@ void PassivityController::reset() noexcept { law_->reset(); }
 
 PassivityState PassivityController::state() const noexcept { return law_->state(); }
 
+std::optional<double> PassivityController::slow_rate_hz() const noexcept {
+  return law_->slow_rate_hz();
+}
+
 }  // namespace clay::falcon::inline safety

@@ -18,11 +18,11 @@ constexpr double kGoodWhileS = 2.0;
 constexpr double kYield = 0.5;
 constexpr double kPayWithinS = 0.5;  // or it counts again
 
-double most_damping(const PassivitySettings& settings, double stiffness) noexcept {
-  const double borne = 0.5 * stable_damping(settings.loop, stiffness);
+double most_damping(const PassivitySettings& settings, const SampledLoop& loop,
+                    double stiffness) noexcept {
+  const double borne = 0.5 * stable_damping(loop, stiffness);
   if (!(settings.step_mm > 0.0)) return borne;
-  return std::min(borne,
-                  0.25 * settings.reversal_force_n / (settings.step_mm * settings.loop.rate_hz));
+  return std::min(borne, 0.25 * settings.reversal_force_n / (settings.step_mm * loop.rate_hz));
 }
 
 }  // namespace
@@ -42,8 +42,9 @@ tl::expected<void, OutOfRange> check(const PassivitySettings& settings) noexcept
 
 PassivityLaw::PassivityLaw(const PassivitySettings& settings) noexcept
     : settings_(settings),
+      period_(settings.loop.period_s()),
       stiffness_(accepted_stiffness(settings.loop)),
-      most_damping_(most_damping(settings, stiffness_)),
+      most_damping_(most_damping(settings, settings.loop, stiffness_)),
       observer_(settings.loop, settings.step_mm, settings.energy_window_s),
       swings_(settings.reversal_limit, settings.reversal_window_s, settings.reversal_force_n) {}
 
@@ -61,6 +62,7 @@ PassiveForce PassivityLaw::tick(std::int64_t time_us, const glm::dvec3& reading_
   const glm::dvec3 way = reading_mm - before.at_mm;
   last_ = Reading{time_us, reading_mm};
   now_s_ += dt_s;
+  if (dt_s > 0.0 && period_.follow(dt_s)) set_period(period_.in_use_s());
 
   judge(observer_.observe(dt_s, sent_[oldest_], way, force_n), force_n);
   const glm::dvec3 force = answer(dt_s, way, force_n);
@@ -70,6 +72,20 @@ PassiveForce PassivityLaw::tick(std::int64_t time_us, const glm::dvec3& reading_
 
 void PassivityLaw::displayed(const glm::dvec3& force_n) noexcept {
   if (is_finite(force_n)) sent_[newest_] = force_n;
+}
+
+std::optional<double> PassivityLaw::slow_rate_hz() const noexcept {
+  return period_.is_slow() ? std::optional(1.0 / period_.in_use_s()) : std::nullopt;
+}
+
+/// Force that was built up at a greater stiffness is reduced in the same ratio: otherwise the way
+/// out would return more energy than the way in has taken.
+void PassivityLaw::set_period(double period_s) noexcept {
+  SampledLoop loop = settings_.loop;
+  loop.rate_hz = 1.0 / period_s;
+  const double before = std::exchange(stiffness_, accepted_stiffness(loop));
+  most_damping_ = most_damping(settings_, loop, stiffness_);
+  if (stiffness_ < before) earned_n_ *= stiffness_ / before;
 }
 
 void PassivityLaw::judge(bool contact_ended, const glm::dvec3& asked_n) noexcept {

@@ -3,6 +3,7 @@
 
 #include "claystack/falcon/passivity.hpp"
 #include "falcon/safety/energy_observer.hpp"
+#include "falcon/safety/reading_period.hpp"
 #include "falcon/safety/swing_counter.hpp"
 
 #include <array>
@@ -29,12 +30,14 @@ class PassivityLaw {
 
   [[nodiscard]] const EnergyObserver& observer() const noexcept { return observer_; }
   [[nodiscard]] PassivityState state() const noexcept { return state_; }
+  [[nodiscard]] std::optional<double> slow_rate_hz() const noexcept;
   /// Maximum damping that the controller adds [N s/mm]: half of the stable maximum on top of the
   /// accepted stiffness, and small enough that one encoder step per period changes the force by at
   /// most a quarter of `reversal_force_n`.
   [[nodiscard]] double most_damping_ns_per_mm() const noexcept { return most_damping_; }
 
  private:
+  void set_period(double period_s) noexcept;
   void judge(bool contact_ended, const glm::dvec3& asked_n) noexcept;
   void count_debt() noexcept;
   void escalate() noexcept;
@@ -45,7 +48,8 @@ class PassivityLaw {
   void send(const glm::dvec3& force_n) noexcept;
 
   PassivitySettings settings_;
-  double stiffness_, most_damping_;
+  ReadingPeriod period_;
+  double stiffness_, most_damping_;  // at this period
   EnergyObserver observer_;
   SwingCounter swings_;
   PassivityState state_ = PassivityState::watching;

@@ -21,6 +21,7 @@ namespace {
 constexpr unsigned char kLoadingLatencyMs = 16, kRunningLatencyMs = 1;
 constexpr unsigned kOut = 0x02;
 constexpr unsigned kLastWordMs = 20;
+constexpr unsigned kAskMs = 100;
 constexpr int kLastWords = 50;  // with the time of each, 1 s for a stalled line
 
 /// The file descriptor that libusb uses for the only open device of its context.
@@ -64,7 +65,8 @@ class FtdiTransport final : public Transport {
   DeviceResult<void> set_mode(LineMode mode) override {
     const bool running = mode == LineMode::running, greeting = mode == LineMode::greeting;
     const auto set = [this](int done, const char* action) -> DeviceResult<void> {
-      return done < 0 ? tl::make_unexpected(line_error(action)) : DeviceResult<void>();
+      if (done >= 0) return {};
+      return tl::make_unexpected(line_error(action, ftdi_get_error_string(ftdi_)));
     };
     auto done = set(ftdi_set_latency_timer(ftdi_, running ? kRunningLatencyMs : kLoadingLatencyMs),
                     "set the latency timer");
@@ -120,13 +122,15 @@ class FtdiTransport final : public Transport {
     owed_size_.store(0);
   }
 
-  /// The codes of libftdi are not those of libusb, so the device is asked whether it is there.
-  [[nodiscard]] DeviceError line_error(const char* action) const {
-    int configuration = 0;
-    const int code = libusb_get_configuration(ftdi_->usb_dev, &configuration);
+  /// The codes of libftdi are not those of libusb, so the device is asked whether it is there: on
+  /// the line, because libusb answers other questions from what the system has stored.
+  [[nodiscard]] DeviceError line_error(const char* action, const char* why) const {
+    std::array<unsigned char, 2> status{};
+    const int code =
+        libusb_control_transfer(ftdi_->usb_dev, LIBUSB_ENDPOINT_IN, LIBUSB_REQUEST_GET_STATUS, 0, 0,
+                                status.data(), status.size(), kAskMs);
     if (code == LIBUSB_ERROR_NO_DEVICE) return usb_error(place_, action, code);
-    return {DeviceFault::transfer_failed,
-            place_ + ": could not " + action + ": " + ftdi_get_error_string(ftdi_),
+    return {DeviceFault::transfer_failed, place_ + ": could not " + action + ": " + why,
             "unplug it and plug it in again"};
   }
 
@@ -154,13 +158,16 @@ class FtdiTransport final : public Transport {
     // libftdi reports little about the cause; it detaches a bound kernel driver itself.
     auto access = check_usb_access(device);
     if (!access && access.error().fault != DeviceFault::driver_bound) return access;
-    if (const int code = ftdi_usb_open_dev(ftdi_, device); code < 0)
+    if (const int code = ftdi_usb_open_dev(ftdi_, device); code < 0) {
+      // Since the check, it may have been unplugged or opened by another program.
+      access = check_usb_access(device);
+      if (!access && access.error().fault != DeviceFault::driver_bound) return access;
       return device_failure(DeviceFault::transfer_failed,
                             place_ + ": could not open: " + ftdi_get_error_string(ftdi_),
                             "unplug it and plug it in again");
+    }
     if (!stream_.start(ftdi_->usb_ctx, ftdi_->usb_dev))
-      return device_failure(DeviceFault::transfer_failed, place_ + ": could not queue a transfer",
-                            "unplug it and plug it in again");
+      return tl::make_unexpected(line_error("queue a transfer", "the system refused it"));
     descriptor_.store(descriptor_of(ftdi_->usb_ctx));
     if (descriptor_.load() < 0)  // watchdog and signal handlers could not end the force
       return device_failure(DeviceFault::transfer_failed,

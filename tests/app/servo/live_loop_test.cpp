@@ -455,6 +455,23 @@ TEST(Words, ReportAForceThatIsOffBeforeTheRingLimit) {
   EXPECT_NE(words_of(status, "r").find("press r"), std::string::npos) << words_of(status, "r");
 }
 
+/// Every second answer is missing. A tick without a frame takes 1.5 periods, so frames come at 400
+/// Hz.
+TEST(LiveLoop, ReportsSlowSamples) {
+  VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
+  live.run(3.5);
+  EXPECT_EQ(live.status().slow_hz, 0.0);
+  EXPECT_EQ(words_of(live.status(), "r"), "throwing");
+  for (int i = 0; i < 500; ++i) {
+    live.fault(falcon::WireFault::no_frame);
+    live.run(0.0025);
+  }
+  EXPECT_NEAR(live.status().slow_hz, 400.0, 0.15 * 400.0);
+  EXPECT_NE(words_of(live.status(), "r").find(" Hz"), std::string::npos);
+  live.run(0.5);
+  EXPECT_EQ(live.status().slow_hz, 0.0);
+}
+
 TEST(LiveLoop, ProvidesTheOutlineOfTheClay) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.5);

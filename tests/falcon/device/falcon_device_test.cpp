@@ -6,6 +6,10 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace clay::falcon {
@@ -107,6 +111,41 @@ TEST(FalconDevice, ReadsTheNewestOfManyFrames) {
   const glm::dvec3 newest = on_circle(bench.frame - 1) - kFalconCentreMm;
   EXPECT_LT(glm::distance(sample.position_mm, newest), kEncoderMm);
   EXPECT_FALSE(bench.device->read(0).fresh);
+}
+
+/// A line that sends homed frames without end: each reading fills the buffer.
+class FloodLine final : public Transport {
+ public:
+  explicit FloodLine(int& readings) : readings_(readings) {}
+  [[nodiscard]] std::string describe() const override { return "flood"; }
+  [[nodiscard]] bool loads_firmware() const noexcept override { return false; }
+  DeviceResult<void> open() override { return {}; }
+  void close() noexcept override {}
+  DeviceResult<void> set_mode(LineMode) override { return {}; }
+  WireStatus write(std::span<const std::uint8_t>) noexcept override { return WireStatus::ok; }
+  Received read(std::span<std::uint8_t> bytes, std::int64_t) noexcept override {
+    constexpr std::string_view kFrame =
+        "<AAAAAAAAAAAA\xB1"
+        "A>";
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      bytes[i] = static_cast<std::uint8_t>(kFrame[i % kFrame.size()]);
+    return {++readings_ < 1'000'000 ? bytes.size() : 0, now_us(), WireStatus::ok};
+  }
+  void write_last(std::span<const std::uint8_t>) noexcept override {}
+
+ private:
+  int& readings_;
+};
+
+TEST(FalconDevice, AFloodOfFramesDoesNotHoldTheReader) {
+  int readings = 0;
+  const auto device = make_falcon(std::make_unique<FloodLine>(readings), {});
+  ASSERT_TRUE(device->open());
+  readings = 0;
+  const DeviceSample sample = device->read(kTickUs);
+  EXPECT_TRUE(sample.fresh);
+  EXPECT_EQ(sample.state, DeviceState::ready);
+  EXPECT_EQ(readings, 8) << "twice what a transport keeps";
 }
 
 TEST(FalconDevice, RejectsAnglesWithoutAPose) {

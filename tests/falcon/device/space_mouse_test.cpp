@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -122,6 +125,31 @@ RC_GTEST_PROP(RateControl, StaysInItsWorkspaceAndMovesNoFasterThanSet, ()) {
     RC_ASSERT(glm::distance(before, control.position_mm()) <= 80.0 * seconds + 1e-9);
     for (int k = 0; k < 3; ++k) RC_ASSERT(std::abs(control.position_mm()[k]) <= 100.0);
   }
+}
+
+/// A controller that sends without end: each reading brings another report.
+class FloodPort final : public ReportPort {
+ public:
+  explicit FloodPort(int& readings) : readings_(readings) {}
+  DeviceResult<void> open(const std::string&) override { return {}; }
+  int read(std::span<std::uint8_t> bytes) noexcept override {
+    const Bytes full_right = report(1, {350, 0, 0});
+    std::copy(full_right.begin(), full_right.end(), bytes.begin());
+    return ++readings_ < 1'000'000 ? static_cast<int>(full_right.size()) : 0;
+  }
+  void write(std::span<const std::uint8_t>) noexcept override {}
+
+ private:
+  int& readings_;
+};
+
+TEST(SpaceMouse, AFloodOfReportsDoesNotHoldTheReader) {
+  int readings = 0;
+  const auto mouse =
+      make_space_mouse("flood", "nowhere", {}, std::make_unique<FloodPort>(readings));
+  ASSERT_TRUE(mouse->open());
+  EXPECT_EQ(mouse->read(0).state, DeviceState::ready);
+  EXPECT_EQ(readings, 64) << "as many reports as the kernel keeps";
 }
 
 TEST(SpaceMouseSettings, AreRefusedOutsideTheirRanges) {

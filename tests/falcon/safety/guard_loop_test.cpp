@@ -25,6 +25,11 @@ struct Swing {
 class Loop {
  public:
   explicit Loop(bool with_controller) : with_controller_(with_controller) {}
+  /// A device that measures, and executes a force, only once in so many ticks.
+  explicit Loop(int ticks_per_frame)
+      : with_controller_(true),
+        ticks_per_frame_(ticks_per_frame),
+        arm_(held_arm({1000.0, 0.1, 0.002, ticks_per_frame})) {}
 
   Swing press(double stiffness_n_per_mm) {
     Swing swing;
@@ -46,24 +51,35 @@ class Loop {
   GuardedForce tick(double stiffness_n_per_mm) {
     now_us_ += kPeriodUs;
     const glm::dvec3 at = arm_.reading_mm();
-    (void)guard_.admit(now_us_, {now_us_, at, true, true});
-    WantedForce wanted{{0.0, 0.0, std::max(0.0, -stiffness_n_per_mm * at.z)}, now_us_, true};
-    if (with_controller_) {
-      const PassiveForce passive = controller_.tick(now_us_, at, wanted.force_n);
-      wanted.force_n = passive.force_n;
-      wanted.passive = passive.state != PassivityState::safe;
+    const bool frame = now_us_ / kPeriodUs % ticks_per_frame_ == 0;
+    (void)guard_.admit(now_us_, {now_us_, at, frame, true});
+    wanted_.clay_time_us = now_us_;
+    if (frame) {
+      wanted_.force_n = {0.0, 0.0, std::max(0.0, -stiffness_n_per_mm * at.z)};
+      if (with_controller_) {
+        const PassiveForce passive = controller_.tick(now_us_, at, wanted_.force_n);
+        wanted_.force_n = passive.force_n;
+        wanted_.passive = passive.state != PassivityState::safe;
+      }
     }
-    return guard_.force(now_us_, wanted);
+    const GuardedForce out = guard_.force(now_us_, wanted_);
+    controller_.displayed(out.force_n);
+    return out;
+  }
+
+  static SimulatedArm held_arm(const SampledLoop& loop) {
+    return SimulatedArm::build({loop, 0.0, kStepMm}, {{}, glm::dvec3(0.1), glm::dvec3(0.0005)},
+                               {0.0, 0.0, 10.0})
+        .value();
   }
 
   static constexpr SampledLoop kLoop{1000.0, 0.1, 0.002, 1};
   bool with_controller_;
+  int ticks_per_frame_ = 1;
+  WantedForce wanted_;
   std::int64_t now_us_ = 0;
   ForceGuard guard_ = ForceGuard::build({}).value();
-  SimulatedArm arm_ =
-      SimulatedArm::build({kLoop, 0.0, kStepMm}, {{}, glm::dvec3(0.1), glm::dvec3(0.0005)},
-                          {0.0, 0.0, 10.0})
-          .value();
+  SimulatedArm arm_ = held_arm(kLoop);
   PassivityController controller_ = PassivityController::build({kLoop, kStepMm}).value();
 };
 
@@ -86,6 +102,16 @@ TEST(GuardLoop, ControllerStopsTheVibration) {
     EXPECT_LE(swing.max_n, 5.0);
     EXPECT_LT(swing.mm, 0.2) << stiffness;
   }
+}
+
+/// The servo assumes 1000 Hz; the device gives 500, 250 and 200 Hz.
+TEST(GuardLoop, DeviceSlowerThanStatedDoesNotVibrate) {
+  for (const int ticks_per_frame : {2, 4, 5})
+    for (const double stiffness : {0.6, 2.0, 10.0, 1000.0}) {
+      const Swing swing = Loop(ticks_per_frame).press(stiffness);
+      EXPECT_LT(swing.mm, 0.2) << ticks_per_frame << " " << stiffness;
+      EXPECT_EQ(swing.state, GuardState::engaged);
+    }
 }
 
 }  // namespace

@@ -136,6 +136,49 @@ TEST(Passivity, DisplaysAStiffContactAtTheAcceptedStiffness) {
   });
 }
 
+/// Pushes 1 mm at 1 mm/s into a wall that is far too stiff, with readings at this interval;
+/// returns the largest force.
+double force_after_1_mm(PassivityLaw& controller, std::int64_t& time_us, std::int64_t interval_us) {
+  const double step_mm = 1e-6 * static_cast<double>(interval_us);
+  double force_n = 0.0;
+  for (double depth_mm = -0.1; depth_mm <= 1.0; depth_mm += step_mm)
+    force_n = controller
+                  .tick(time_us += interval_us, along(-depth_mm),
+                        along(depth_mm > 0.0 ? 1e3 * depth_mm : 0.0))
+                  .force_n.x;
+  (void)controller.tick(time_us += interval_us, along(0.1), along(0.0));
+  return force_n;
+}
+
+TEST(Passivity, SlowReadingsLowerTheAcceptedStiffness) {
+  PassivityLaw controller = controller_of(kLoop);  // accepted: b / T, 2 N/mm at 1000 Hz
+  std::int64_t time_us = 0;
+  EXPECT_NEAR(force_after_1_mm(controller, time_us, 1000), 2.0, 0.02);
+  EXPECT_FALSE(controller.slow_rate_hz());
+  (void)force_after_1_mm(controller, time_us, 4000);  // 275 readings
+  ASSERT_TRUE(controller.slow_rate_hz());
+  EXPECT_NEAR(*controller.slow_rate_hz(), 250.0, 0.15 * 250.0);
+  EXPECT_NEAR(force_after_1_mm(controller, time_us, 4000), 0.002 * *controller.slow_rate_hz(),
+              0.02);
+  (void)force_after_1_mm(controller, time_us, 1000);
+  EXPECT_FALSE(controller.slow_rate_hz());
+  EXPECT_NEAR(force_after_1_mm(controller, time_us, 1000), 2.0, 0.02);
+}
+
+/// A force built up at 1000 Hz, 2 N/mm, must not stay when only 250 Hz remain.
+TEST(Passivity, ReadingsThatBecomeSlowReduceAForceInPlace) {
+  PassivityLaw controller = controller_of(kLoop);
+  std::int64_t time_us = 0;
+  const auto tick = [&](double x, std::int64_t interval_us) {
+    return controller.tick(time_us += interval_us, along(x), along(x < 0.0 ? 5.0 : 0.0)).force_n.x;
+  };
+  (void)tick(0.0, 1000);
+  EXPECT_NEAR(tick(-2.0, 1000), 4.0, 1e-12);
+  double force_n = 4.0;
+  for (int k = 0; k < 300; ++k) force_n = tick(-2.0, 4000);
+  EXPECT_NEAR(force_n, 4.0 * *controller.slow_rate_hz() / 1000.0, 1e-9);
+}
+
 TEST(Passivity, InwardMotionBuildsUpTheForce) {
   PassivityLaw controller = controller_of(kLoop);
   std::int64_t time_us = 0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <tl/expected.hpp>
 
 namespace clay::falcon::inline safety {
@@ -95,7 +96,8 @@ struct StiffnessTooHigh {
 // removes it. Before it stands a bound, after J.-P. Kim, J. Ryu, "Robustly stable haptic
 // interaction control using an energy-bounding algorithm", Int. J. Robotics Research 29(6), 2010:
 // force builds up only by motion into the contact, at accepted_stiffness at most. A softer contact
-// passes unchanged. After it, for cases in which damping does not help (a larger delay than
+// passes unchanged. Where readings come more slowly than stated, the accepted stiffness is that of
+// their rate. After it, for cases in which damping does not help (a larger delay than
 // stated), the bound is halved, and finally the force is switched off.
 //
 //   watching <-> damping     builds up at accepted_stiffness; damping while there is a debt
@@ -148,6 +150,9 @@ class PassivityController {
   void reset() noexcept;
 
   [[nodiscard]] PassivityState state() const noexcept;
+  /// The mean rate of the readings, if it is clearly lower than that of the loop: the accepted
+  /// stiffness is then that of this rate.
+  [[nodiscard]] std::optional<double> slow_rate_hz() const noexcept;
 
  private:
   explicit PassivityController(std::unique_ptr<PassivityLaw> law) noexcept;

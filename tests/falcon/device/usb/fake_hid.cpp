@@ -45,7 +45,13 @@ void hid_close(hid_device* device) { delete device; }
 int hid_write(hid_device*, const unsigned char*, std::size_t size) {
   return static_cast<int>(size);
 }
-int hid_read_timeout(hid_device*, unsigned char*, std::size_t, int) {
+int hid_read_timeout(hid_device*, unsigned char* report, std::size_t size, int) {
+  ++fake_hid().readings;
+  if (fake_hid().reports > 0) {
+    --fake_hid().reports;
+    std::memset(report, 0, size);
+    return static_cast<int>(size);
+  }
   if (!fake_hid().read_fails) return 0;
   if (fake_hid().read_error != 0) errno = fake_hid().read_error;
   return -1;

@@ -25,6 +25,8 @@ struct FakeHid {
   std::vector<std::string> paths;  ///< of the connected devices
   int read_error = 0;              ///< errno of a reading that fails; 0: none arrives in time
   bool read_fails = false;
+  int reports = 0;   ///< that wait for a reader, each without a byte of the stream
+  int readings = 0;  ///< so far
 };
 
 /// Reset by each test.

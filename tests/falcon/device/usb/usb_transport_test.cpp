@@ -116,5 +116,17 @@ TEST_F(HidFiles, ASignalIsNotAnUnplugging) {
   EXPECT_EQ(bridge->read(bytes, 1000).status, WireStatus::unplugged);
 }
 
+TEST_F(HidFiles, AFloodOfReportsDoesNotHoldTheReader) {
+  const auto bridge = make_bridge_transport(path_);
+  ASSERT_TRUE(bridge->open());
+  std::array<std::uint8_t, 256> bytes{};
+  fake_hid().reports = 1'000'000;
+  fake_hid().readings = 0;
+  const Received received = bridge->read(bytes, 1000);
+  EXPECT_EQ(received.status, WireStatus::ok);
+  EXPECT_EQ(received.size, 0u);
+  EXPECT_EQ(fake_hid().readings, 64) << "as many reports as the kernel keeps";
+}
+
 }  // namespace
 }  // namespace clay::falcon

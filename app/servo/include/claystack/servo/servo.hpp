@@ -120,12 +120,15 @@ struct LiveStatus {
   falcon::SafeCause cause = falcon::SafeCause::none;
   falcon::PassivityState passivity = falcon::PassivityState::watching;
   bool clutched = false, paused = false, contact = false;
-  bool ring_limit = false;    ///< the stack cannot grow further: raise lump.max_rings
-  glm::dvec3 tool_mm{0.0};    ///< position of the tool, in the wheel's frame
-  double gap_mm = 0.0;        ///< gap of a pinch; 0: one tool, or the gap of the scene
-  glm::dvec3 clay_n{0.0};     ///< force of the clay on the tool, before mapping and guard
-  glm::dvec3 force_n{0.0};    ///< force sent, in the device's frame
-  double force_gain = 0.0;    ///< GuardedForce::gain
+  bool ring_limit = false;  ///< the stack cannot grow further: raise lump.max_rings
+  glm::dvec3 tool_mm{0.0};  ///< position of the tool, in the wheel's frame
+  double gap_mm = 0.0;      ///< gap of a pinch; 0: one tool, or the gap of the scene
+  glm::dvec3 clay_n{0.0};   ///< force of the clay on the tool, before mapping and guard
+  glm::dvec3 force_n{0.0};  ///< force sent, in the device's frame
+  double force_gain = 0.0;  ///< GuardedForce::gain
+  /// Rate of the samples, if it is clearly below the rate of servo and arm, so that the contact is
+  /// displayed softer; 0: it is not.
+  double slow_hz = 0.0;
   double volume_error = 0.0;  ///< Ledger::volume_error [quanta]; exact below 2^53
   double imbalance = 0.0;     ///< Ledger::imbalance, clay unaccounted for [quanta]
   double stack_mm3 = 0.0, trimmed_mm3 = 0.0, outside_mm3 = 0.0;  ///< as in Ledger
