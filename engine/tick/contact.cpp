@@ -224,8 +224,6 @@ void touch_middles(const Profile& profile, const Tool& tool, const ClayStack& st
 template <Model model>
 void touch_rings(const Tool& tool, const ClayStack& stack, double hip_y,
                  Contact& contact) noexcept {
-  contact.edge_count = 0;
-  contact.has_front = false;
   contact.rings.lay_out(contact.bottom, contact.top + 1);
   std::visit(
       [&](const auto& profile) {
@@ -247,6 +245,13 @@ void stand(double at, double before, double radial_x, double radial_z, Contact& 
   contact.radial_z = sense * radial_z;
 }
 
+void clear(Contact& contact) noexcept {
+  contact.rings.clear();
+  contact.edge_count = 0;
+  contact.has_front = false;
+  contact.end_depth2 = {};
+}
+
 template <class Past>
 void drop_if(Contact& contact, Past past) noexcept {
   for (std::size_t i = contact.rings.from(); i < contact.rings.to(); ++i)
@@ -266,7 +271,8 @@ std::size_t most_contacts(const Tool& tool, double ring_height_mm, std::size_t m
 template <Model model>
 void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm,
                   Contact& contact, const glm::dvec3& moved_mm, HandAt hand) noexcept {
-  contact.rings.clear();
+  clear(contact);
+  contact.rise_mm = moved_mm.y;
   const double d = std::sqrt(hip_mm.x * hip_mm.x + hip_mm.z * hip_mm.z);
   contact.axis_distance_mm = d;
   contact.radial_x = d > 0.0 ? hip_mm.x / d : 0.0;
@@ -276,15 +282,14 @@ void find_contact(const Tool& tool, const ClayStack& stack, const glm::dvec3& hi
   const double x = hip_mm.x - moved_mm.x, z = hip_mm.z - moved_mm.z;
   const double way = std::sqrt(x * x + z * z) - d;
   contact.approach_mm = contact.side == Side::compressive ? way : -way;
-  contact.rise_mm = moved_mm.y;
   touch_rings<model>(tool, stack, hip_mm.y, contact);
 }
 
 template <Model model>
 void find_pinch(const Tool& tool, const ClayStack& stack, const glm::dvec3& hip_mm, double gap_mm,
                 Contact& outer, Contact& inner, const glm::dvec3& moved_mm) noexcept {
-  outer.rings.clear();
-  inner.rings.clear();
+  clear(outer);
+  clear(inner);
   const double d = std::sqrt(hip_mm.x * hip_mm.x + hip_mm.z * hip_mm.z);
   const double radial_x = d > 0.0 ? hip_mm.x / d : 0.0, radial_z = d > 0.0 ? hip_mm.z / d : 0.0;
   const double reach = 0.5 * gap_mm + tool.widest();

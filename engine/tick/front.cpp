@@ -33,14 +33,18 @@ void level_edges(Contact& contact) noexcept {
   }
 }
 
-/// The end that leads, and the clay ahead of it.
-struct Lead {
+/// An end of the tool in the clay, and the clay ahead of it.
+struct End {
   bool up = false;          ///< which end of the tool
   std::size_t ring = 0;     ///< that the end is in
   double covered_mm = 0.0;  ///< of it
   double ahead_mm = 0.0;    ///< depth of the end in the clay ahead
   double wall_mm = 0.0;     ///< R - r there
-  double decay = 0.0;       ///< kappa over the speed of the end [1/mm]
+};
+
+/// The end that leads.
+struct Lead : End {
+  double decay = 0.0;  ///< kappa over the speed of the end [1/mm]
 
   /// How far the end goes until a depth has yielded, by the logarithmic mean of the wall.
   [[nodiscard]] double way_to_yield(double depth_mm, double min_wall_mm) const noexcept {
@@ -52,26 +56,33 @@ struct Lead {
   }
 };
 
-bool find_lead(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
-               const Contact& contact, Lead& lead) noexcept {
-  const bool up = lead.up = contact.rise_mm > 0.0;
+/// Whether there is clay ahead of `end.up`.
+bool find_end(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
+              End& end) noexcept {
   const double h = stack.ring_height_mm();
-  const double end_t = up ? plan.tool.high() : plan.tool.low(), level = (hip_y + end_t) / h;
+  const double end_t = end.up ? tool.high() : tool.low(), level = (hip_y + end_t) / h;
   if (!(level > 0.0 && level < static_cast<double>(stack.size()))) return false;
-  lead.ring = static_cast<std::size_t>(level);
-  const double part = level - static_cast<double>(lead.ring);
-  const double covered = up ? part : 1.0 - part;
-  lead.covered_mm = covered * h;
-  std::size_t ahead = lead.ring;
+  end.ring = static_cast<std::size_t>(level);
+  const double part = level - static_cast<double>(end.ring);
+  const double covered = end.up ? part : 1.0 - part;
+  end.covered_mm = covered * h;
+  std::size_t ahead = end.ring;
   if (covered >= 0.5) {
-    if (up ? ahead + 1 >= stack.size() : ahead == 0) return false;
-    ahead = up ? ahead + 1 : ahead - 1;
+    if (end.up ? ahead + 1 >= stack.size() : ahead == 0) return false;
+    ahead = end.up ? ahead + 1 : ahead - 1;
   }
   const Ring& ring = stack.rings()[ahead];
-  lead.ahead_mm = depth_of(ring, plan.tool.radius(end_t), contact);
-  if (!(lead.ahead_mm > 0.0)) return false;
-  lead.wall_mm = wall_mm(ring);
-  lead.decay = plan.removal.rate_per_s * dt_s / std::abs(contact.rise_mm);
+  end.ahead_mm = depth_of(ring, tool.radius(end_t), contact);
+  end.wall_mm = wall_mm(ring);
+  return end.ahead_mm > 0.0;
+}
+
+/// Whether an end leads into clay that yields. `rise_mm`: of the tool in `dt_s`.
+bool find_lead(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
+               double rise_mm, const Contact& contact, Lead& lead) noexcept {
+  lead.up = rise_mm > 0.0;
+  if (rise_mm == 0.0 || !find_end(plan.tool, stack, hip_y, contact, lead)) return false;
+  lead.decay = plan.removal.rate_per_s * dt_s / std::abs(rise_mm);
   return lead.wall_mm > plan.removal.min_wall_mm;
 }
 
@@ -131,12 +142,10 @@ void measure_lead(const Profile& profile, const StepPlan& plan, const ClayStack&
   if (rings[1].depth_mm != nullptr) *rings[1].coverage = std::min(all - reach, h) / h;
 }
 
-/// The depth of an end of the tool in the clay that it has not passed, or has left behind. `lead`:
-/// the end that leads, if its front was measured. It is as deep as the clay ahead of it: there
-/// nothing has yielded yet.
+/// The depth of an end of the tool in the clay beside it, which has yielded. `settled`: a ring that
+/// yields late, as a whole, counts as deep as the one behind it at most.
 double depth_at_end(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
-                    const Lead* lead, bool upper) noexcept {
-  if (lead != nullptr && lead->up == upper) return lead->ahead_mm;
+                    bool upper, bool settled) noexcept {
   const double t = upper ? tool.high() : tool.low(), h = stack.ring_height_mm();
   const double level = (hip_y + t) / h;
   if (!(level > 0.0 && level * h < stack.height_mm())) return 0.0;
@@ -159,33 +168,55 @@ double depth_at_end(const Tool& tool, const ClayStack& stack, double hip_y, cons
     middle = covered_middle(ring);
   }
   if (!middle || !contact.rings.has(ring)) return 0.0;
-  const double depth = contact.rings.get(ring).depth_mm;
+  double depth = contact.rings.get(ring).depth_mm;
+  if (settled) depth = std::min(depth, contact.rings.get(upper ? ring - 1 : ring + 1).depth_mm);
   return depth > 0.0 ? depth + tool.radius(t) - tool.radius(*middle) : 0.0;
 }
 
+/// `lead`: the end that leads, if its front was measured. It is as deep as the clay ahead of it:
+/// there nothing has yielded yet.
 void feel_ends(const Tool& tool, const ClayStack& stack, double hip_y, const Lead* lead,
-               Contact& contact) noexcept {
+               EndMotion* motion, Contact& contact) noexcept {
   contact.end_depth2 = {};
   if (std::holds_alternative<EllipseProfile>(tool.profile())) return;  // cos theta = 0 at its poles
   for (const bool upper : {false, true}) {
-    const double t = upper ? tool.high() : tool.low(), slope = tool.slope(t);
-    const double depth = std::max(depth_at_end(tool, stack, hip_y, contact, lead, upper), 0.0);
-    contact.end_depth2[upper ? 1 : 0] = depth * depth / (1.0 + slope * slope);
+    const auto square = [](double depth) { return depth > 0.0 ? depth * depth : 0.0; };
+    double depth2 = square(depth_at_end(tool, stack, hip_y, contact, upper, motion != nullptr));
+    if (motion != nullptr) {
+      End end{.up = upper};
+      if (!find_end(tool, stack, hip_y, contact, end)) end.ahead_mm = 0.0;
+      FlatEnd& flat = motion->ends[upper ? 1 : 0];
+      flat.advance(upper ? contact.rise_mm : -contact.rise_mm, end.ahead_mm);
+      depth2 += flat.part() * (square(end.ahead_mm) - depth2);
+    } else if (lead != nullptr && lead->up == upper) {
+      depth2 = square(lead->ahead_mm);
+    }
+    const double slope = tool.slope(upper ? tool.high() : tool.low());
+    contact.end_depth2[upper ? 1 : 0] = depth2 / (1.0 + slope * slope);
   }
 }
 
 }  // namespace
 
+/// Where the tool gets deeper in the clay ahead, the force of the end stays, and where it gets less
+/// deep, the way stays: the stored energy never rises without a way.
+void FlatEnd::advance(double way_mm, double ahead_mm) noexcept {
+  if (ahead_mm > depth_mm) pressed_mm *= depth_mm / ahead_mm;
+  depth_mm = ahead_mm;
+  pressed_mm = std::clamp(pressed_mm + way_mm, 0.0, 0.5 * depth_mm);
+}
+
 void measure_front(const StepPlan& plan, const ClayStack& stack, double hip_y, double dt_s,
-                   Contact& contact) noexcept {
+                   Contact& contact, EndMotion* motion) noexcept {
   Lead lead;
   if (dt_s > 0.0) {
+    const double rise = motion != nullptr ? motion->upward_mm_s * dt_s : contact.rise_mm;
     level_edges(contact);
-    if (contact.rise_mm != 0.0 && find_lead(plan, stack, hip_y, dt_s, contact, lead))
+    if (find_lead(plan, stack, hip_y, dt_s, rise, contact, lead))
       std::visit([&](const auto& p) { measure_lead(p, plan, stack, lead, contact); },
                  plan.tool.profile());
   }
-  feel_ends(plan.tool, stack, hip_y, contact.has_front ? &lead : nullptr, contact);
+  feel_ends(plan.tool, stack, hip_y, contact.has_front ? &lead : nullptr, motion, contact);
 }
 
 }  // namespace clay

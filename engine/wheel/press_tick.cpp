@@ -78,10 +78,21 @@ void yield(WheelState& s, const ToolState& tool, std::span<ToolRemoval> removals
     s.rules.yield(rule_press(s, tool), s.stack, removals, s.work);
   else
     remove<stages>(s, tool, removals);
-  if constexpr ((stages & kForce) && kModel<stages> == Model::conserving)
-    for (ToolRemoval& removal : removals)
-      measure_front(s.plan, s.stack, tool.hip_mm.y, tool.dt_s, removal.contact);
 }
+
+/// The ends of the tool, for the force. With clay rules also where no ring is touched, as between
+/// two rings on the way down.
+template <unsigned stages>
+void measure_ends(WheelState& s, const ToolState& tool, std::span<ToolRemoval> removals) noexcept {
+  if constexpr ((stages & kForce) && kModel<stages> == Model::conserving)
+    for (std::size_t k = 0; k < removals.size(); ++k) {
+      EndMotion motion{s.motion.upward_mm_s, s.ends[k]};
+      measure_front(s.plan, s.stack, tool.hip_mm.y, tool.dt_s, removals[k].contact,
+                    (stages & kRules) ? &motion : nullptr);
+    }
+}
+template <unsigned stages>
+constexpr bool kFeelsUntouched = (stages & kRules) != 0;
 
 /// Checks whether the stack still stands after a flow. Returns the flags of the flow and of a
 /// collapse.
@@ -139,7 +150,10 @@ template <unsigned stages>
 void press(WheelState& s, const ToolState& tool, std::span<ToolRemoval> removals,
            StepReport& report) noexcept {
   const std::uint32_t touched = rings_of(removals);
-  if (touched == 0) return;
+  if (touched == 0) {
+    if constexpr (kFeelsUntouched<stages>) measure_ends<stages>(s, tool, removals);
+    return;
+  }
   report.flags |= kContact;
   report.rings_touched = touched;
   if constexpr (kModel<stages> == Model::conserving) {
@@ -148,6 +162,7 @@ void press(WheelState& s, const ToolState& tool, std::span<ToolRemoval> removals
     removals[0].contact.down_offset += std::max(-half_way, 0.0);
   }
   yield<stages>(s, tool, removals);
+  measure_ends<stages>(s, tool, removals);
   // The first pose takes no time. With clay rules a ring could still rise or be joined, and then a
   // session would not continue where it was cut.
   if ((stages & kRules) && !(tool.dt_s > 0.0)) return;
@@ -209,7 +224,8 @@ StepReport tick(WheelState& s, const Pose& pose) noexcept {
   }
   if constexpr (stages & kForce)
     // After a collapse nothing is left to push against.
-    if (!s.failure && rings_of(removals) > 0) add_force<stages>(s.plan.force, removals, report);
+    if (!s.failure && (kFeelsUntouched<stages> || rings_of(removals) > 0))
+      add_force<stages>(s.plan.force, removals, report);
   return report;
 }
 
@@ -226,14 +242,18 @@ StepReport probe(WheelState& s, const Pose& pose) noexcept {
   tool.moved_mm /= parts;
   const std::span<ToolRemoval> removals = touch<stages>(s, tool);
   report.rings_touched = rings_of(removals);
-  if (report.rings_touched == 0) return report;
-  report.flags |= kContact;
+  const bool touches = report.rings_touched > 0;
+  if (touches) report.flags |= kContact;
+  if (!touches && !kFeelsUntouched<stages>) return report;
   if constexpr (stages & kForce) {
     if constexpr (kModel<stages> == Model::conserving) {
-      const Motion before = s.motion;
+      const Motion motion = s.motion;
+      const auto ends = s.ends;
       if constexpr (stages & kRules) follow(s.motion, whole);
-      yield<stages>(s, tool, removals);
-      s.motion = before;
+      if (touches) yield<stages>(s, tool, removals);
+      measure_ends<stages>(s, tool, removals);
+      s.motion = motion;
+      s.ends = ends;
     }
     add_force<stages>(s.plan.force, removals, report);
   }

@@ -4,6 +4,7 @@
 #include "claystack/engine/wheel.hpp"
 #include "engine/collapse/collapse.hpp"
 #include "engine/tick/clay_rules.hpp"
+#include "engine/tick/front.hpp"
 #include "engine/tick/redistribution.hpp"
 #include "engine/tick/removal.hpp"
 #include "engine/tick/stability.hpp"
@@ -37,7 +38,8 @@ struct WheelState {
   bool touching = false;  // at the last pose
   StabilityWatch watch;
   std::array<ToolRemoval, 2> removals;  // scratch, reserved once; the second is for pinches alone
-  Motion motion;                        // of scenes with clay rules, as these two
+  Motion motion;                        // of scenes with clay rules, as these three
+  std::array<FlatEnds, 2> ends;         // of the tools of `removals`
   RuleWork work;
   RuleSteps rules;
   std::optional<double> turned_mm;  // height of a pot that stands upside down

@@ -10,8 +10,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 namespace clay {
@@ -153,6 +155,71 @@ TEST(FlatEnds, ForceOfALeadingEndDependsNeitherOnRingsNorOnSpeed) {
             << h << ' ' << speed_mm_s << ' ' << up;
       }
     }
+}
+
+/// Forces of a tool that sinks into solid clay with clay rules, at the speed and with the steps of
+/// an encoder: from 6 mm below the rim on.
+std::vector<glm::dvec3> sinking(const ToolShapeSpec& shape, double x_mm, double speed_mm_s,
+                                double step_mm) {
+  SceneSpec scene;
+  scene.lump.rings = 200;
+  scene.lump.ring_height_mm = 0.25;
+  scene.tool.shape = shape;
+  scene.clay = ClaySpec{};
+  Wheel wheel = Wheel::build(scene).value();
+  const double start_mm = 50.2 - wheel.plan().tool.low();
+  const auto lasts = static_cast<int>(8.0 / speed_mm_s * 1000.0);
+  std::vector<glm::dvec3> forces;
+  for (int k = 0; k < lasts; ++k) {
+    const double up = start_mm - 1e-3 * speed_mm_s * k;
+    const Pose pose{1000 * (k + 1), {x_mm, std::round(up / step_mm) * step_mm, 0.0}, false, 0.0};
+    const glm::dvec3 force = wheel.step(pose).force_n();
+    if (up < start_mm - 6.2) forces.push_back(force);
+  }
+  return forces;
+}
+
+/// As above: K' depth^2 / 2 with a depth of 4 + 6 mm.
+TEST(FlatEnds, ASlowRibIsFeltWithoutPulses) {
+  for (const double speed_mm_s : {1.0, 4.0, 16.0, 64.0})
+    for (const double step_mm : {0.001, 0.06, 0.1})
+      for (const glm::dvec3& force : sinking(RibSpec{20.0, 6.0}, 4.0, speed_mm_s, step_mm))
+        ASSERT_NEAR(force.y, 0.5 * ForceSpec{}.stiffness_n_per_mm2 * 100.0, 0.01)
+            << speed_mm_s << ' ' << step_mm;
+}
+
+/// The front behind the tip of a ball has the mean speed of the hand, not that of an encoder's
+/// step.
+TEST_F(Front, HasNoPulsesFromStepsOfAnEncoder) {
+  for (const double step_mm : {0.001, 0.06}) {
+    const auto forces = sinking(SphereSpec{10.0}, 20.0, 4.0, step_mm);
+    for (std::size_t k = 1; k < forces.size(); ++k)
+      ASSERT_LT(glm::distance(forces[k], forces[k - 1]), 0.05) << step_mm;
+  }
+}
+
+/// The hand's work on an end that moves at random, in clay of random depth, is never negative: the
+/// end returns only what it took. Each step is linear in the way, so its work is exact.
+TEST(FlatEnds, NeverReturnMoreEnergyThanTheyTook) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int run = 0; run < 200; ++run) {
+    FlatEnd end;
+    double depth = 5.0, work = 0.0, most = 0.0;
+    for (int k = 0; k < 2000; ++k) {
+      depth = std::clamp(depth + 0.5 * (unit(random) - 0.5), 0.0, 10.0);
+      end.advance(0.0, depth);
+      const double before = end.pressed_mm, way = 2.0 * (unit(random) - 0.5);
+      end.advance(way, depth);
+      // A way beyond half the depth meets a constant force, one beyond 0 none.
+      const double elastic = end.pressed_mm - before;
+      work += 0.5 * depth * (end.pressed_mm + before) * elastic;
+      if (way > 0.0) work += 0.5 * depth * depth * (way - elastic);
+      ASSERT_GE(work, -1e-9) << run << ' ' << k;
+      most = std::max(most, work);
+    }
+    EXPECT_GT(most, 1.0);
+  }
 }
 
 }  // namespace
