@@ -14,12 +14,6 @@ std::string in_quotes(std::string_view name) {
   return std::string("\"").append(printable(name)).append("\"");
 }
 
-/// "; is "mode" meant?", or empty if no candidate is near.
-std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates) {
-  const std::string_view nearest = nearest_word(name, candidates);
-  return nearest.empty() ? "" : "; is " + in_quotes(nearest) + " meant?";
-}
-
 std::string found_text(const Json& value) {
   if (value.is_object()) return "an object with " + std::to_string(value.size()) + " fields";
   if (value.is_array()) return "an array of " + std::to_string(value.size());
@@ -41,9 +35,10 @@ void ObjectReader::require(std::initializer_list<std::string_view> names) {
     for (const auto& [key, member] : object_.items())
       if (std::ranges::find(names, key) == names.end() && !is_known(key))
         strangers.emplace_back(key);
-    keep(context_.document.field_error(
-        context_.path,
-        "expected a field " + in_quotes(name) + ", found none" + suggestion(name, strangers)));
+    const std::string_view near = nearest_word(name, strangers);
+    keep(context_.document.field_error(context_.path,
+                                       "expected a field " + in_quotes(name) + ", found " +
+                                           (near.empty() ? "none" : in_quotes(near))));
   }
 }
 
@@ -284,10 +279,12 @@ void ObjectReader::refuse_unknown_members() {
     if (context_.error) return;
     if (is_known(name)) continue;
     const std::string owner = to_string(context_.path);
+    const std::string_view near = nearest_word(name, known_);
     context_.path.emplace_back(name);
     keep(context_.document.error_at(
         context_.path, "unknown field " + in_quotes(name) + (owner.empty() ? "" : " in " + owner) +
-                           "; expected one of " + listed(known_) + suggestion(name, known_)));
+                           "; expected one of " + listed(known_) +
+                           (near.empty() ? "" : "; did you mean " + in_quotes(near) + "?")));
     context_.path.pop_back();
   }
 }

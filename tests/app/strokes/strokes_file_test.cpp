@@ -173,7 +173,7 @@ TEST(StrokeFile, RefusesUnknownFields) {
           .starts_with(R"(pot.strokes.json:1: unknown field "tempo"; expected one of )"));
   const std::string near =
       message_of(R"({"start_mm": [9, 9], "strokes": [{"kind": "lip", "speed_mms": 3}]})");
-  EXPECT_TRUE(near.ends_with(R"(; is "speed_mm_s" meant?)")) << near;
+  EXPECT_TRUE(near.ends_with(R"(; did you mean "speed_mm_s"?)")) << near;
   EXPECT_EQ(message_of("{\"seed\": 1,\n\"seed\": 2}"),
             "pot.strokes.json:2: duplicate field \"seed\"");
   EXPECT_EQ(message_of(std::string(100'000, '[')),

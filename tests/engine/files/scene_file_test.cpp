@@ -168,11 +168,11 @@ TEST(SceneFile, ErrorsNameUnknownFields) {
   expect_scene_error(
       "\"friction\"", "\"fricton\"",
       "unknown field \"fricton\" in force; expected one of stiffness_n_per_mm2, limit_n, "
-      "friction, wheel, paper_stiffness_n_per_mm; is \"friction\" meant?");
+      "friction, wheel, paper_stiffness_n_per_mm; did you mean \"friction\"?");
   expect_scene_error(
       "\"limit_n\"", "\"limti_n\"",
       "unknown field \"limti_n\" in force; expected one of stiffness_n_per_mm2, limit_n, "
-      "friction, wheel, paper_stiffness_n_per_mm; is \"limit_n\" meant?");
+      "friction, wheel, paper_stiffness_n_per_mm; did you mean \"limit_n\"?");
   expect_scene_error(
       "\"stability\"", "\"colour\"",
       "unknown field \"colour\"; expected one of schema, written_by, name, model, lump, "
@@ -181,9 +181,8 @@ TEST(SceneFile, ErrorsNameUnknownFields) {
 }
 
 TEST(SceneFile, ErrorsNameMissingFields) {
-  expect_scene_error(
-      "\"sampled\": {\n        \"t_mm\"", "\"sampled\": {\n        \"tmm\"",
-      "tool.shape.sampled: expected a field \"t_mm\", found none; is \"tmm\" meant?");
+  expect_scene_error("\"sampled\": {\n        \"t_mm\"", "\"sampled\": {\n        \"tmm\"",
+                     "tool.shape.sampled: expected a field \"t_mm\", found \"tmm\"");
   test::expect_refused(parse_scene(R"({"schema": "claystack-scene-1", "lump": {},
                                        "tool": {"mode": "pinch"}})",
                                    "pinch"),
