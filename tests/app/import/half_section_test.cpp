@@ -68,6 +68,25 @@ TEST(HalfSection, ReportsClayLeftOfTheAxisThatIsNotUsed) {
   EXPECT_THAT(notes[0], HasSubstr("right of it (56.5 cm3)"));
 }
 
+TEST(HalfSection, AnOutlineOpenTowardsItsAxisIsNoDrawingOfBothHalves) {
+  // Its corners alone are symmetric about x = 20 mm.
+  const double volume = std::numbers::pi * 1600.0 * 80.0;
+  for (const double axis : {0.0, -7.0}) {
+    const Line outside{{{axis, 0}, {axis + 40, 0}, {axis + 40, 80}, {axis, 80}}, false};
+    const auto section = half_section({{outside}, false}, {}, "pot");
+    ASSERT_TRUE(section) << refusal_of(section);
+    EXPECT_EQ(section->axis, AxisRule::left);
+    EXPECT_EQ(section->axis_mm, axis);
+    EXPECT_NEAR(section->volume_mm3(), volume, 1e-6);
+  }
+  // Both halves of the outside of the same pot, open at the rim.
+  const Line both{{{-40, 80}, {-40, 0}, {40, 0}, {40, 80}}, false};
+  const auto section = half_section({{both}, false}, {}, "pot");
+  ASSERT_TRUE(section) << refusal_of(section);
+  EXPECT_EQ(section->axis, AxisRule::middle);
+  EXPECT_NEAR(section->volume_mm3(), volume, 1e-6);
+}
+
 TEST(HalfSection, RecognisesAnAxisLineAnywhere) {
   const std::vector<glm::dvec2> cone{{40, 0}, {20, 90}};
   const double volume = std::numbers::pi * 90.0 / 3.0 * (1600.0 + 800.0 + 400.0);
