@@ -377,8 +377,11 @@ TEST(SvgDrawing, RefusesEncodingsThatHideTags) {
     EXPECT_THAT(refusal_of(read_drawing(declared(encoding), "pot.svg")),
                 HasSubstr("pot.svg:1: expected the encoding UTF-8 or UTF-16, found "))
         << encoding;
+  // Also from standard input, which has no ending.
   for (const char* encoding : {"UTF-16", "utf-16le"})
-    EXPECT_TRUE(read_drawing(wide(declared(encoding), false), "pot.svg")) << encoding;
+    for (const char* name : {"pot.svg", "-"})
+      EXPECT_TRUE(read_drawing(wide(declared(encoding), false), name)) << encoding << name;
+  EXPECT_TRUE(read_drawing(wide(declared("UTF-16"), true), "-"));
   EXPECT_THAT(refusal_of(read_drawing(wide(declared("UTF-16BE"), false), "pot.svg")),
               HasSubstr("expected the encoding UTF-8 or UTF-16, found 'utf-16be'"));
 }
