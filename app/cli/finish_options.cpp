@@ -28,7 +28,7 @@ Result<solid::FootRing> foot_of(const std::string& text) {
     const std::size_t end = part.find_last_not_of(' ');
     const bool bare = end != std::string::npos && (part[end] == '.' || is_digit(part[end]));
     if (bare) part += last.substr(unit);
-    if (const auto size = length_of(part, kSmallestPartMm, solid::kLongestMm))
+    if (const auto size = length_of(part, solid::kSmallestPartMm, solid::kLongestMm))
       sizes.push_back(*size);
   }
   const bool all = sizes.size() == parts.size() && !text.ends_with('x');
@@ -37,7 +37,16 @@ Result<solid::FootRing> foot_of(const std::string& text) {
   return failure(ErrorKind::bad_input,
                  fmt::format("expected DIAMETERxWIDTHxDEPTH or WIDTHxDEPTH, each a length from "
                              "{:g} to {:g} mm, such as 60x6x4 or 6mmx4mm, found {}",
-                             kSmallestPartMm, solid::kLongestMm, text));
+                             solid::kSmallestPartMm, solid::kLongestMm, text));
+}
+
+/// An option for a part of the section: 0, or a length from kSmallestPartMm.
+template <class Value>
+void add_part_length(CLI::App& command, const std::string& name, Value& value,
+                     const std::string& help, double high_mm) {
+  command.add_option(name, value, help)
+      ->type_name(kLengthName)
+      ->transform(length_within(solid::kSmallestPartMm, high_mm, OrNone::yes));
 }
 
 }  // namespace

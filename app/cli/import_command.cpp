@@ -116,7 +116,8 @@ const char* axis_source(const ImportOptions& options, const HalfSection& section
 void print_summary(const Console& console, const ImportOptions& options, const HalfSection& section,
                    const DrawnPot& drawn, const Json& json) {
   console.print(fmt::format("axis at x = {:.3f} mm of the drawing ({})",
-                            json["axis_mm"].get<double>(), axis_source(options, section)));
+                            rounded_to(json["axis_mm"].get<double>(), 1e-3),
+                            axis_source(options, section)));
   console.print(fmt::format(
       "{} of {:.4g} mm: {} mm high, {} cm3 of clay ({} cm3 {})",
       counted(json["rings"].get<std::size_t>(), "ring"), number_in(json, "ring_height_mm"),

@@ -2,7 +2,6 @@
 // Numbers with a unit on the command line: "350ml", "1.5 kg", "10mm".
 
 #include "claystack/core/result.hpp"
-#include "claystack/export/option_ranges.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -40,7 +39,6 @@ Result<double> length_of(std::string_view text, double low_mm, double high_mm);
 /// "expected 0 or a length ...": the error of an option that takes a word, too.
 [[nodiscard]] Error or_else(std::string_view word, const Error& error);
 
-using solid::kSmallestPartMm;
 /// Whether 0 is read, too: the part is absent.
 enum class OrNone : bool { no, yes };
 
@@ -60,15 +58,6 @@ CLI::Option* add_length(CLI::App& command, const std::string& name, Value& value
   return command.add_option(name, value, help)
       ->type_name(kLengthName)
       ->transform(length_within(low_mm, high_mm));
-}
-
-/// An option for a part of the section: 0, or a length from kSmallestPartMm.
-template <class Value>
-CLI::Option* add_part_length(CLI::App& command, const std::string& name, Value& value,
-                             const std::string& help, double high_mm) {
-  return command.add_option(name, value, help)
-      ->type_name(kLengthName)
-      ->transform(length_within(kSmallestPartMm, high_mm, OrNone::yes));
 }
 
 }  // namespace clay::cli

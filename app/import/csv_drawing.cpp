@@ -36,7 +36,8 @@ class Table {
 
   Result<void> row(std::string_view text, std::size_t number) {
     text = text.substr(0, text.find('#'));
-    if (trimmed(text).empty()) {
+    constexpr std::string_view kOfEmptyCells = " \t\r;,\"";  // as spreadsheets write an empty row
+    if (trimmed(text, kOfEmptyCells).empty()) {
       open_ = false;
       return {};
     }

@@ -21,6 +21,9 @@ constexpr double kFarthestMm = 1e6;
 /// Standard input has no name: the ending that its first bytes suggest.
 std::string_view ending_of(std::string_view bytes) {
   constexpr std::string_view kBlank = " \t\r\n";
+  constexpr std::string_view kWide[] = {"\xFF\xFE<", {"\xFE\xFF\0<", 4}};  // XML in UTF-16
+  if (std::ranges::any_of(kWide, [&](auto begin) { return bytes.starts_with(begin); }))
+    return ".svg";
   bytes = without_byte_order_mark(bytes);
   bytes.remove_prefix(std::min(bytes.find_first_not_of(kBlank), bytes.size()));
   if (bytes.starts_with('<')) return ".svg";

@@ -18,6 +18,18 @@ struct Line {
   bool closed = false;
 };
 
+/// Calls `use` with the ends of each piece; of an open line, without the one that would close it.
+template <class Use>
+void for_each_piece(const Line& line, Use use) {
+  const std::size_t count = line.points_mm.size();
+  for (std::size_t i = 0; i + (line.closed ? 0 : 1) < count; ++i)
+    use(line.points_mm[i], line.points_mm[(i + 1) % count]);
+}
+template <class Use>
+void for_each_piece(const std::vector<Line>& lines, Use use) {
+  for (const Line& line : lines) for_each_piece(line, use);
+}
+
 struct Drawing {
   std::vector<Line> lines;
   /// The file defines the axis at x = 0, as a table of radii does.
@@ -41,7 +53,8 @@ inline constexpr std::size_t kMostBytes = 32u << 20;
 ///   inserted blocks, in its units ($INSUNITS), by default mm. Layers that are frozen, off, not
 ///   plotted or for construction (for_construction) are ignored;
 /// - .csv: radius and height in mm per row, or as a first row of names states (csv_columns); an
-///   empty row begins a new line of the drawing; text after # is ignored. The axis is at radius 0.
+///   empty row, also one of empty cells, begins a new line of the drawing; text after # is ignored.
+///   The axis is at radius 0.
 /// For the name "-", standard input, the first bytes select it.
 /// `layer`: the only layer to read, by its name (SVG: label or id); empty: all that are shown.
 /// `scale`: multiplies all lengths, before curves become chords.

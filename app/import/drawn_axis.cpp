@@ -14,16 +14,17 @@
 namespace clay::importing {
 namespace {
 
-/// Whether every corner has a mirror image among the corners, in its cell or a neighbouring one: a
-/// drawing of both halves.
+/// Whether the ends and the middle of every piece have a mirror image among them, in its cell or a
+/// neighbouring one: a drawing of both halves. Without the middles, a half section that is open
+/// towards its axis would be one.
 bool mirrored(const std::vector<Line>& lines, double middle) {
   std::vector<Cell> cells, images;
-  for (const Line& line : lines) {
-    for (const glm::dvec2& p : line.points_mm) {
+  for_each_piece(lines, [&](glm::dvec2 a, glm::dvec2 b) {
+    for (const glm::dvec2& p : {a, 0.5 * (a + b), b}) {
       cells.push_back(cell_of(p));
       images.push_back(cell_of({2.0 * middle - p.x, p.y}));
     }
-  }
+  });
   std::sort(cells.begin(), cells.end());
   return std::all_of(images.begin(), images.end(), [&](const Cell& image) {
     for (const std::int64_t beside : {0, -1, 1}) {

@@ -78,7 +78,14 @@ struct DrawnRings {
   Deviation deviation;
 };
 
-/// Rings of at most this height.
+/// The most rings that a stack of this height can have.
+std::size_t most_rings(double height_mm) {
+  double most = std::floor(height_mm / kMinRingHeightMm);
+  if (height_mm / most < kMinRingHeightMm) most -= 1.0;  // rounding
+  return static_cast<std::size_t>(std::clamp(most, 1.0, static_cast<double>(kMaxRings)));
+}
+
+/// Rings of at most this height, as far as a stack can have such low ones.
 Result<DrawnRings> drawn_rings(const HalfSection& section, const std::vector<double>& levels,
                                double highest_mm, const std::string& name) {
   // A height that is a multiple up to rounding needs no ring more.
@@ -87,8 +94,9 @@ Result<DrawnRings> drawn_rings(const HalfSection& section, const std::vector<dou
     return failure(ErrorKind::bad_input,
                    fmt::format("{}: expected at most {} rings, found {:g} mm in rings of {:g} mm",
                                name, kMaxRings, section.height_mm, highest_mm));
+  const std::size_t most = most_rings(section.height_mm);
   const std::size_t count =
-      std::min(fitting_ring_count(levels, static_cast<std::size_t>(wanted)), kMaxRings);
+      fitting_ring_count(levels, std::min(static_cast<std::size_t>(wanted), most), most);
   const double ring_mm = section.height_mm / static_cast<double>(count);
   const std::vector<Slab> slabs = on_ring_bounds(section, levels, count);
   auto rings = rings_of(sums_of(slabs, ring_mm, count), ring_mm, name);

@@ -19,6 +19,8 @@ constexpr std::size_t kHighestDegree = 10;
 constexpr double kMostTurns = 10.0;
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 constexpr double kSameAngle = 1e-9;  // [rad]
+// A flatter arc is less than kFlatMm from the longest chord of a drawing, so it is straight.
+constexpr double kLeastBulge = 1e-10;
 
 tl::unexpected<Error> refusal(const DxfEntity& entity, const std::string& name,
                               const std::string& problem) {
@@ -42,8 +44,12 @@ Result<std::array<double, N>> values(const DxfEntity& entity, const std::array<i
   return found;
 }
 
-/// From one angle on, counterclockwise, to the next equal to the other.
+/// From one angle on, counterclockwise, to the next equal to the other. A full turn may be written
+/// with few digits: 6.28319 is more than 2 pi.
 double turn_between(double from_rad, double to_rad) {
+  constexpr double kRounded = 1e-4;
+  const double over = to_rad - from_rad - kFullTurn;
+  if (over > 0.0 && over <= kRounded) return kFullTurn;
   const double turn = std::remainder(to_rad - from_rad, kFullTurn);
   return turn <= kSameAngle ? turn + kFullTurn : turn;
 }
@@ -116,7 +122,7 @@ Result<Line> through(const std::vector<Vertex>& vertices, bool closed, const Dxf
     const glm::dvec2 to = vertices[i % vertices.size()].point;
     const std::size_t before = line.points_mm.size();
     const double bulge = i == 0 ? 0.0 : vertices[i - 1].bulge;
-    if (bulge != 0.0) {
+    if (std::abs(bulge) > kLeastBulge) {
       const BulgeArc bent = bulge_arc(vertices[i - 1].point, to, bulge);
       append_arc(line.points_mm, place.at(bent.centre), place.along(bent.u), place.along(bent.v),
                  0.0, bent.turn);
@@ -208,6 +214,7 @@ Result<Line> spline_line(const DxfEntity& entity, const DxfPlacement& place,
   bool sound = order >= 2 && order <= kHighestDegree + 1 && control.size() >= order &&
                knots.size() == control.size() + order;
   for (std::size_t i = 1; sound && i < knots.size(); ++i) sound = knots[i] >= knots[i - 1];
+  sound = sound && knots[order - 1] < knots[control.size()];  // between them is the curve
   for (const glm::dvec3& p : control) sound = sound && p.z > 0.0;
   if (control.empty() && !entity.text(11).empty())
     return refusal(entity, name,

@@ -59,21 +59,30 @@ Result<void> close(std::vector<Line>& lines, const std::string& name) {
   return {};
 }
 
-/// The segments right of the axis, except horizontal ones, which do not bound clay sideways.
+/// Calls `use` with the ends of each piece that rises or falls beside the axis, x = 0, as far as it
+/// is there. Level pieces do not bound clay sideways. `side`: right of the axis for 1; left for -1,
+/// mirrored.
+template <class Use>
+void for_each_bound(const Line& line, double side, Use use) {
+  for_each_piece(line, [&](glm::dvec2 a, glm::dvec2 b) {
+    a.x *= side, b.x *= side;
+    if (a.y == b.y || (a.x <= 0.0 && b.x <= 0.0)) return;
+    const auto& [low, high] = a.y < b.y ? std::pair(a, b) : std::pair(b, a);
+    const double crossing = low.y + (high.y - low.y) * (low.x / (low.x - high.x));
+    if (a.x < 0.0) a = {0.0, crossing};
+    if (b.x < 0.0) b = {0.0, crossing};
+    if (a.y != b.y) use(a, b);
+  });
+}
+
+/// The segments of closed lines right of the axis.
 std::vector<Edge> edges_of(const std::vector<Line>& lines) {
   std::vector<Edge> edges;
-  for (std::size_t index = 0; index < lines.size(); ++index) {
-    const Line& line = lines[index];
-    for (std::size_t i = 0; i < line.points_mm.size(); ++i) {
-      glm::dvec2 a = line.points_mm[i], b = line.points_mm[(i + 1) % line.points_mm.size()];
+  for (std::size_t index = 0; index < lines.size(); ++index)
+    for_each_bound(lines[index], 1.0, [&](glm::dvec2 a, glm::dvec2 b) {
       if (a.y > b.y) std::swap(a, b);
-      if (a.y == b.y || (a.x <= 0.0 && b.x <= 0.0)) continue;
-      const double crossing = a.y + (b.y - a.y) * (a.x / (a.x - b.x));
-      if (a.x < 0.0) a = {0.0, crossing};
-      if (b.x < 0.0) b = {0.0, crossing};
-      if (a.y < b.y) edges.push_back({a, b, index});
-    }
-  }
+      edges.push_back({a, b, index});
+    });
   std::sort(edges.begin(), edges.end(),
             [](const Edge& a, const Edge& b) { return a.low.y < b.low.y; });
   return edges;
@@ -84,15 +93,9 @@ std::vector<Edge> edges_of(const std::vector<Line>& lines) {
 double volume_beside(const std::vector<Line>& lines, double side) {
   double sum = 0.0;
   for (const Line& line : lines)
-    for (std::size_t i = 0; i < line.points_mm.size(); ++i) {
-      glm::dvec2 a = line.points_mm[i], b = line.points_mm[(i + 1) % line.points_mm.size()];
-      a.x *= side, b.x *= side;
-      if (a.x <= 0.0 && b.x <= 0.0) continue;
-      const double crossing = a.y + (b.y - a.y) * (a.x / (a.x - b.x));
-      if (a.x < 0.0) a = {0.0, crossing};
-      if (b.x < 0.0) b = {0.0, crossing};
+    for_each_bound(line, side, [&](glm::dvec2 a, glm::dvec2 b) {
       sum += (b.y - a.y) * (a.x * a.x + a.x * b.x + b.x * b.x) / 3.0;
-    }
+    });
   return std::numbers::pi * std::abs(sum);
 }
 
@@ -253,7 +256,8 @@ Result<std::vector<Slab>> slabs_within_tolerance(const std::vector<Line>& lines,
   return again ? again : slabs;
 }
 
-/// Moves the lines to the axis and the foot, and scales what the reader has not scaled.
+/// Moves the lines to the axis and the foot, and scales what the reader has not scaled. Foot and
+/// height are those of the clay right of the axis, the only clay that is used.
 Result<void> move_to_axis(Drawing& drawing, double axis_mm, std::optional<double> height_mm,
                           const std::string& name) {
   const Bounds bounds = bounds_of(drawing.lines);
@@ -266,9 +270,21 @@ Result<void> move_to_axis(Drawing& drawing, double axis_mm, std::optional<double
                     name, axis_mm / drawing.scale, bounds.low.x / drawing.scale,
                     bounds.high.x / drawing.scale, drawn_mm / drawing.scale,
                     drawn_mm > 0.0 ? "" : "; z is ignored: export the sketch in its own plane"));
-  const double scale = height_mm.value_or(drawn_mm) / drawn_mm;
+  double low = 1e300, high = -1e300;
+  for (Line& line : drawing.lines) {
+    for (glm::dvec2& p : line.points_mm) p.x -= axis_mm;
+    for_each_bound(line, 1.0, [&](glm::dvec2 a, glm::dvec2 b) {
+      low = std::min({low, a.y, b.y});
+      high = std::max({high, a.y, b.y});
+    });
+  }
+  constexpr double kRounding = 1e-9;  // of where a line crosses the axis
+  const bool none = !(low < high);    // refused later
+  if (none || low - bounds.low.y <= kRounding * drawn_mm) low = bounds.low.y;
+  if (none || bounds.high.y - high <= kRounding * drawn_mm) high = bounds.high.y;
+  const double scale = height_mm.value_or(high - low) / (high - low);
   for (Line& line : drawing.lines)
-    for (glm::dvec2& p : line.points_mm) p = scale * (p - glm::dvec2{axis_mm, bounds.low.y});
+    for (glm::dvec2& p : line.points_mm) p = scale * (p - glm::dvec2{0.0, low});
   return {};
 }
 
@@ -282,6 +298,9 @@ double size_of(const std::vector<Line>& lines) {
 Result<HalfSection> section_as_drawn(Drawing drawing, const HalfSectionSettings& settings,
                                      const std::string& name) {
   drawing.lines = joined(std::move(drawing.lines));
+  if (drawing.lines.empty())
+    return failure(ErrorKind::bad_input,
+                   name + ": expected the outline of a pot, found only points in it");
   HalfSection section;
   if (auto placed = place_axis(section, drawing, settings, name); !placed)
     return tl::make_unexpected(placed.error());

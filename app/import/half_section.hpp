@@ -60,8 +60,9 @@ Result<HalfSection> half_section(Drawing drawing, const HalfSectionSettings& set
 
 /// Reads a drawing, and its half section. With a height, the drawing is read in the scale of the
 /// pot, so that chords (kFlatMm) and the 0.01 mm for ends and the axis are lengths of the pot: a
-/// drawing in metres gives the pot of the same drawing in mm. An axis line that is longer than the
-/// outline counts for that scale; the pot has the height exactly.
+/// drawing in metres gives the pot of the same drawing in mm. For that scale, everything in the
+/// drawing counts, such as an axis line that is longer than the outline; the pot has the height
+/// exactly.
 Result<HalfSection> read_half_section(std::string_view bytes, const std::string& name,
                                       const std::string& layer,
                                       const HalfSectionSettings& settings);

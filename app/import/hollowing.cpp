@@ -152,11 +152,14 @@ Result<std::vector<BorePiece>> open_bore(const std::vector<BorePiece>& pieces, d
                                          double wall_mm, const std::string& name) {
   std::vector<BorePiece> open;
   double ends_mm = rim_mm;  // of the bore below
-  const auto closed_at = [&](double height_mm) {
+  const auto refused = [&](const std::string& why) {
     return failure(ErrorKind::bad_input,
                    fmt::format("{}: wall: expected a wall that leaves a bore up to the rim, found "
-                               "{:g} mm; the bore would close {:.3g} mm above the foot",
-                               name, wall_mm, height_mm));
+                               "{:g} mm; {}",
+                               name, wall_mm, why));
+  };
+  const auto closed_at = [&](double height_mm) {
+    return refused(fmt::format("the bore would close {:.3g} mm above the foot", height_mm));
   };
   for (BorePiece piece : pieces) {
     if (!(std::max(piece.radius_from_mm, piece.radius_to_mm) > 0.0)) continue;
@@ -169,7 +172,8 @@ Result<std::vector<BorePiece>> open_bore(const std::vector<BorePiece>& pieces, d
     ends_mm = piece.to_mm;
     open.push_back(piece);
   }
-  if (open.empty() || ends_mm < rim_mm) return closed_at(ends_mm);
+  if (open.empty()) return refused("there would be no bore");
+  if (ends_mm < rim_mm) return closed_at(ends_mm);
   return open;
 }
 

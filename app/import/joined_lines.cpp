@@ -129,7 +129,7 @@ std::size_t remove_repeats(std::vector<Line>& lines) {
 std::vector<Line> joined(std::vector<Line> lines) {
   std::vector<Line> whole, open;
   for (Line& line : lines) {
-    if (line.points_mm.size() < 2 || (!line.closed && a_point(line))) continue;
+    if (a_point(line)) continue;
     (line.closed ? whole : open).push_back(std::move(line));
   }
   LooseEnds loose(open);

@@ -17,7 +17,8 @@ using Cell = std::pair<std::int64_t, std::int64_t>;
 /// they are closed. Returns their number.
 std::size_t remove_repeats(std::vector<Line>& lines);
 
-/// Joins open lines end to end, in either direction; closes those whose ends meet.
+/// Joins open lines end to end, in either direction; closes those whose ends meet. Leaves out lines
+/// that are only a point, such as a circle of radius 0.
 [[nodiscard]] std::vector<Line> joined(std::vector<Line> lines);
 
 }  // namespace clay::importing

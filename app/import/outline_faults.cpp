@@ -10,19 +10,6 @@
 #include <glm/geometric.hpp>
 
 namespace clay::importing {
-namespace {
-
-/// Calls `use` with the ends of each piece; of an open line, without the one that would close it.
-template <class Use>
-void for_each_piece(const std::vector<Line>& lines, Use use) {
-  for (const Line& line : lines) {
-    const std::size_t count = line.points_mm.size();
-    for (std::size_t i = 0; i + (line.closed ? 0 : 1) < count; ++i)
-      use(line.points_mm[i], line.points_mm[(i + 1) % count]);
-  }
-}
-
-}  // namespace
 
 bool mirrored_within(const std::vector<Line>& lines, double middle_mm, double within_mm) {
   std::vector<Segment> outline;

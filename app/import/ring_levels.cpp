@@ -26,10 +26,12 @@ std::vector<double> drawn_levels(const HalfSection& section) {
   return levels;
 }
 
-std::size_t fitting_ring_count(const std::vector<double>& levels, std::size_t fewest) {
+std::size_t fitting_ring_count(const std::vector<double>& levels, std::size_t fewest,
+                               std::size_t most) {
   if (levels.size() <= 2) return fewest;
-  const auto candidates = static_cast<std::size_t>(std::min(
+  const auto tried = static_cast<std::size_t>(std::min(
       static_cast<double>(fewest) + 1.0, 1.0 + kMostTried / static_cast<double>(levels.size())));
+  const std::size_t candidates = std::min(tried, most - fewest + 1);
   std::size_t best = fewest;
   double best_mm = 1e300;
   for (std::size_t count = fewest; count < fewest + candidates && best_mm > kExactMm; ++count) {

@@ -11,8 +11,10 @@ namespace clay::importing {
 /// Heights at which the drawing has a level line: foot and rim, floors, treads.
 [[nodiscard]] std::vector<double> drawn_levels(const HalfSection& section);
 
-/// The number of rings, from `fewest` to twice as many, whose bounds are nearest to all levels.
-[[nodiscard]] std::size_t fitting_ring_count(const std::vector<double>& levels, std::size_t fewest);
+/// The number of rings, from `fewest` to twice as many, but not above `most`, whose bounds are
+/// nearest to all levels.
+[[nodiscard]] std::size_t fitting_ring_count(const std::vector<double>& levels, std::size_t fewest,
+                                             std::size_t most);
 
 /// The section with each level moved to the nearest bound of `count` rings, and everything between
 /// stretched with it. A level whose bound is taken by a lower one is moved with its surroundings.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <new>
 
 namespace clay::importing {
@@ -21,6 +22,14 @@ bool has_unit(std::string_view length) {
 
 }  // namespace
 
+void note_svg_line(xmlNode& element, int line) {
+  element._private = reinterpret_cast<void*>(static_cast<std::intptr_t>(line));
+}
+
+long svg_line(const xmlNode* element) {
+  return static_cast<long>(reinterpret_cast<std::intptr_t>(element->_private));
+}
+
 const std::size_t SvgCopy::kMostBytesOfAttributes = 2 * kMostBytes;
 
 xmlNode* SvgCopy::add(const xmlNode* source, xmlNode* parent, std::string_view kind) {
@@ -28,7 +37,7 @@ xmlNode* SvgCopy::add(const xmlNode* source, xmlNode* parent, std::string_view k
       xmlNewDocNode(document_.get(), nullptr,
                     reinterpret_cast<const xmlChar*>(std::string(kind).c_str()), nullptr);
   if (node == nullptr) throw std::bad_alloc();
-  node->line = source->line;
+  node->_private = source->_private;  // see svg_line
   if (parent == nullptr) {
     xmlDocSetRootElement(document_.get(), node);
     space_ = xmlNewNs(node, reinterpret_cast<const xmlChar*>(kSvgSpace.data()), nullptr);

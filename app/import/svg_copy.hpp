@@ -15,6 +15,10 @@ using XmlDocument = std::unique_ptr<xmlDoc, decltype(&xmlFreeDoc)>;
 
 inline constexpr std::string_view kSvgSpace = "http://www.w3.org/2000/svg";
 
+/// Keeps the line of an element that the parser reads, which `xmlNode::line` does up to 65535 only.
+void note_svg_line(xmlNode& element, int line);
+[[nodiscard]] long svg_line(const xmlNode* element);
+
 /// Throws std::bad_alloc. The values of all attributes together are limited, because a short
 /// drawing may use a long path very often.
 class SvgCopy {

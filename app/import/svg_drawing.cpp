@@ -5,6 +5,7 @@
 #include "core/xml_attributes.hpp"
 
 #include <fmt/format.h>
+#include <libxml/SAX2.h>
 #include <libxml/parser.h>
 #include <libxml/tree.h>
 
@@ -234,7 +235,28 @@ std::string libxml_problem(const std::string& name) {
 std::string line_of(const boost::exception& error) {
   using Element = boost::error_info<svgpp::tag::error_info::xml_element, xmlNode*>;
   xmlNode* const* element = boost::get_error_info<Element>(error);
-  return element == nullptr ? "" : fmt::format(":{}", xmlGetLineNo(*element));
+  return element == nullptr ? "" : fmt::format(":{}", svg_line(*element));
+}
+
+void start_element(void* parser, const xmlChar* name, const xmlChar* prefix, const xmlChar* space,
+                   int spaces, const xmlChar** all_spaces, int attributes, int defaulted,
+                   const xmlChar** all_attributes) {
+  xmlSAX2StartElementNs(parser, name, prefix, space, spaces, all_spaces, attributes, defaulted,
+                        all_attributes);
+  const auto* context = static_cast<xmlParserCtxt*>(parser);
+  if (context->node != nullptr) note_svg_line(*context->node, context->input->line);
+}
+
+/// Null for what is no XML. Fetches nothing and expands no entities: only the file itself is read.
+XmlDocument parsed(std::string_view bytes, int options) {
+  const std::unique_ptr<xmlParserCtxt, decltype(&xmlFreeParserCtxt)> parser(xmlNewParserCtxt(),
+                                                                            &xmlFreeParserCtxt);
+  if (!parser) throw std::bad_alloc();
+  parser->sax->startElementNs = start_element;
+  xmlDoc* document = xmlCtxtReadMemory(
+      parser.get(), bytes.data(), static_cast<int>(bytes.size()), nullptr, nullptr,
+      XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | options);
+  return {document, &xmlFreeDoc};
 }
 
 }  // namespace
@@ -250,14 +272,10 @@ Result<Drawing> read_svg(std::string_view bytes, const std::string& name, const 
   XmlAttributeLimit limit;
   if (const auto fault = limit.take(bytes))
     return failure(ErrorKind::bad_input, fmt::format("{}:{}: {}", name, fault->line, fault->what));
-  // Fetches nothing and expands no entities: only the file itself is read. Long attributes are
-  // allowed where there are no entities, because the option also lifts the limit of their growth.
+  // Long attributes are allowed where there are no entities, because the option also lifts the
+  // limit of their growth.
   const bool entities = limit.wide() || bytes.find("<!ENTITY") != std::string_view::npos;
-  const XmlDocument document(
-      xmlReadMemory(bytes.data(), static_cast<int>(bytes.size()), nullptr, nullptr,
-                    XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING |
-                        (entities ? 0 : XML_PARSE_HUGE)),
-      &xmlFreeDoc);
+  const XmlDocument document = parsed(bytes, entities ? 0 : XML_PARSE_HUGE);
   if (!document || xmlDocGetRootElement(document.get()) == nullptr)
     return failure(ErrorKind::bad_input, libxml_problem(name));
   auto shapes = svg_shapes(*document, layer, name);

@@ -58,8 +58,13 @@ bool of_svg(const xmlNode* node) {
 struct Inherited {
   bool visible = true;
   bool filled = true, stroked = false;
+  bool fill_opaque = true, stroke_opaque = true;
   bool in_layer = true;
   int depth = 0;
+
+  [[nodiscard]] bool shown() const {
+    return visible && in_layer && ((filled && fill_opaque) || (stroked && stroke_opaque));
+  }
 };
 
 /// Walks the drawing, and adds what it shows to a new document.
@@ -119,7 +124,7 @@ class Copier {
                       const std::optional<std::string>& value) {
     if (!value || *value == "none" || !noted_.insert(kind).second) return;
     notes_.push_back(fmt::format("{}:{}: a {} is not applied: the whole shape was read", name_,
-                                 xmlGetLineNo(node), kind));
+                                 svg_line(node), kind));
   }
 
   Result<void> element(xmlNode* node, xmlNode* parent, Inherited state) {
@@ -142,6 +147,8 @@ class Copier {
     inherit(state.visible, value(SvgProperty::visibility), "visible");
     inherit(state.filled, value(SvgProperty::fill), nullptr);
     inherit(state.stroked, value(SvgProperty::stroke), nullptr);
+    inherit_opacity(state.fill_opaque, value(SvgProperty::fill_opacity));
+    inherit_opacity(state.stroke_opaque, value(SvgProperty::stroke_opacity));
     if (kind == "g" && !enter_layer(node, state)) return {};
     if (const auto& transform = value(SvgProperty::transform); transform && *transform != "none") {
       const auto functions = svg_transform(*transform, value(SvgProperty::transform_origin));
@@ -153,8 +160,7 @@ class Copier {
     if (kind == "svg") return viewport(node, node, parent, state);
     if (kind == "switch") return chosen(node, parent, state);
     if (group) return children(node, parent, state);
-    if (state.visible && state.in_layer && (state.filled || state.stroked))
-      copy_shape(node, parent, shape->second);
+    if (state.shown()) copy_shape(node, parent, shape->second);
     return {};
   }
 
@@ -188,6 +194,10 @@ class Copier {
   static void inherit(bool& state, const std::optional<std::string>& value, const char* on) {
     if (!value || *value == "inherit") return;
     state = on == nullptr ? *value != "none" && *value != "transparent" : *value == on;
+  }
+
+  static void inherit_opacity(bool& opaque, const std::optional<std::string>& value) {
+    if (value && *value != "inherit") opaque = !is_zero(value);
   }
 
   /// Returns false for layers that are not drawn.
@@ -276,8 +286,7 @@ class Copier {
 
   [[nodiscard]] tl::unexpected<Error> refusal(const xmlNode* node,
                                               const std::string& problem) const {
-    return failure(ErrorKind::bad_input,
-                   fmt::format("{}:{}: {}", name_, xmlGetLineNo(node), problem));
+    return failure(ErrorKind::bad_input, fmt::format("{}:{}: {}", name_, svg_line(node), problem));
   }
 
   const std::string& name_;
@@ -300,7 +309,7 @@ Result<SvgShapes> svg_shapes(xmlDoc& drawing, const std::string& layer, const st
   if (!of_svg(root) || name_of(root) != "svg")
     return failure(ErrorKind::bad_input,
                    fmt::format("{}:{}: expected an SVG drawing, found the element \"{}\"", name,
-                               xmlGetLineNo(root), shown(name_of(root))));
+                               svg_line(root), shown(name_of(root))));
   return Copier(drawing, layer, name).shapes(root);
 }
 

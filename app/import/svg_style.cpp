@@ -18,8 +18,8 @@ constexpr std::size_t kBytesPerComparison = 16, kKeysPerComparison = 8;
 constexpr std::size_t kMostKeptBytes = 16u << 20;  // of the classes of elements
 constexpr std::string_view kXlink = "http://www.w3.org/1999/xlink";
 constexpr std::array<std::string_view, kSvgProperties> kNames = {
-    "display",          "visibility", "fill",      "stroke", "transform",
-    "transform-origin", "opacity",    "clip-path", "mask"};
+    "display",   "visibility",       "fill",    "fill-opacity", "stroke", "stroke-opacity",
+    "transform", "transform-origin", "opacity", "clip-path",    "mask"};
 
 std::string_view stripped(std::string_view text) { return trimmed(text, kSvgBlank); }
 

@@ -20,14 +20,16 @@ enum class SvgProperty {
   display,
   visibility,
   fill,
+  fill_opacity,
   stroke,
+  stroke_opacity,
   transform,
   transform_origin,
   opacity,
   clip_path,
   mask,
 };
-inline constexpr std::size_t kSvgProperties = 9;
+inline constexpr std::size_t kSvgProperties = 11;
 
 /// White space of style sheets and lists.
 inline constexpr std::string_view kSvgBlank = " \t\r\n\f";

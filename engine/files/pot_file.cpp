@@ -112,8 +112,6 @@ void describe(auto& io, Is<PotRecord> auto& pot) {
     const std::size_t count = pot.size();
     reader.expect(pot.max_rings >= count, "max_rings",
                   "at least the number of rings, " + std::to_string(count));
-    reader.expect(!pot.collapse || pot.collapse->failed_ring < count, "collapse",
-                  "a failed_ring below the number of rings, " + std::to_string(count));
   });
 }
 
@@ -153,7 +151,13 @@ Result<Pot> pot_from(const LocatedJson& document, const PotRecord& record) {
   RingArrays exact;
   if (rounded) exact = exact_rings(*rounded, *RadiusGrid::of(rounded->rounded_to_mm));
   const RingArrays& arrays = rounded ? exact : *record.rings;
-  std::vector<Ring> rings(arrays.outer2.size());
+  const std::size_t count = arrays.outer2.size();
+  if (record.collapse && record.collapse->failed_ring >= count)
+    return tl::make_unexpected(document.field_error(
+        {"collapse", "failed_ring"}, "expected a ring below their number, " +
+                                         std::to_string(count) + ", found " +
+                                         std::to_string(record.collapse->failed_ring)));
+  std::vector<Ring> rings(count);
   for (std::size_t i = 0; i < rings.size(); ++i) rings[i] = {arrays.outer2[i], arrays.inner2[i]};
   auto stack = ClayStack::from_rings(record.ring_height_mm, std::move(rings), record.crown,
                                      record.max_rings);

@@ -19,14 +19,16 @@ struct HashCode {
 
 /// A wide count of at most 30 decimal digits: the sum of five such counts does not overflow.
 struct DecimalCode {
-  static constexpr std::string_view kExpected = "a text of 1 to 30 decimal digits";
+  static constexpr std::string_view kExpected =
+      "a text of 1 to 30 decimal digits without leading zeros";
   static std::string encode(WideQuanta count) { return clay::to_string(count); }
   static std::optional<WideQuanta> decode(std::string_view text);
 };
 
 /// The same for a count that may be negative.
 struct SignedDecimalCode {
-  static constexpr std::string_view kExpected = "a text of 1 to 30 decimal digits, or - and those";
+  static constexpr std::string_view kExpected =
+      "a text of 1 to 30 decimal digits without leading zeros, or - and those, but not -0";
   static std::string encode(WideQuanta count) { return clay::to_string(count); }
   static std::optional<WideQuanta> decode(std::string_view text);
 };

@@ -31,6 +31,19 @@ TEST(CsvDrawing, ReadsTablesWithEmptyCells) {
   }
 }
 
+TEST(CsvDrawing, ARowOfEmptyCellsIsEmpty) {
+  // As spreadsheets write it: with all separators of its columns.
+  for (const char* empty : {";", ";;", "\t", " , ", "\"\";\"\"", ";;\r"}) {
+    const std::string row = std::string(empty) + "\n";
+    const auto drawing =
+        read_drawing(row + "radius;height\n10;0\n20;50\n" + row + "3;4\n5;6\n" + row, "cup.csv");
+    ASSERT_TRUE(drawing) << empty << refusal_of(drawing);
+    ASSERT_EQ(drawing->lines.size(), 2u) << empty;
+    EXPECT_EQ(drawing->lines[0].points_mm, (std::vector<glm::dvec2>{{10, 0}, {20, 50}})) << empty;
+    EXPECT_EQ(drawing->lines[1].points_mm, (std::vector<glm::dvec2>{{3, 4}, {5, 6}})) << empty;
+  }
+}
+
 TEST(CsvDrawing, ErrorsNameTheLine) {
   EXPECT_THAT(refusal_of(read_drawing("10,0\n10,x\n", "cup.csv")), HasSubstr("cup.csv:2: "));
   EXPECT_THAT(refusal_of(read_drawing("10,0\n10\n", "cup.csv")), HasSubstr("cup.csv:2: "));

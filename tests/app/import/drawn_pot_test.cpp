@@ -49,6 +49,18 @@ TEST(DrawnPot, RingBoundsMeetAFloor) {
   EXPECT_EQ(pot->stack.crown(), 0);
 }
 
+TEST(DrawnPot, RingsThatFitAFloorAreNotLowerThanAStackAllows) {
+  // Rings of 1 um do not meet the floor. Lower ones would, and a stack cannot have them.
+  const auto pot =
+      pot_of("0,0\n30,0\n30,0.02\n20,0.02\n20,0.00333\n0,0.00333\n", {kMinRingHeightMm, {}, 1.9});
+  ASSERT_TRUE(pot) << refusal_of(pot);
+  EXPECT_EQ(pot->stack.size(), 20u);
+  // No whole number of the lowest rings: they are a little higher.
+  const auto cone = pot_of("40,0\n20,0.0205\n", {kMinRingHeightMm, {}, 1.9});
+  ASSERT_TRUE(cone) << refusal_of(cone);
+  EXPECT_EQ(cone->stack.size(), 20u);
+}
+
 TEST(DrawnPot, FloorsOfAnyHeightAreLevel) {
   for (const double floor : {5.0, 6.0, 4.51, 3.14159, 7.77, 0.3}) {
     for (const double height : {60.0, 61.803, 172.0}) {
@@ -94,8 +106,8 @@ TEST(DrawnPot, WallOptionHollowsTheOutline) {
               HasSubstr("found a bore in it"));
   EXPECT_THAT(
       refusal_of(pot_of("30,0\n25,60\n", {2.0, 40.0, 1.9})),
-      HasSubstr(": wall: expected a wall that leaves a bore up to the rim, found 40 mm; the bore "
-                "would close 60 mm above the foot"));
+      HasSubstr(": wall: expected a wall that leaves a bore up to the rim, found 40 mm; there "
+                "would be no bore"));
   // The neck is 3 mm wide from 40 to 60 mm. The disc of 4 mm touches its edge at 37.35 mm.
   EXPECT_THAT(refusal_of(pot_of("30,0\n30,40\n3,40\n3,60\n30,60\n30,90\n", {2.0, 4.0, 1.9})),
               HasSubstr("the bore would close 37.4 mm above the foot"));

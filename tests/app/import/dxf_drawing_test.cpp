@@ -157,6 +157,49 @@ TEST(DxfDrawing, ArcsCirclesAndEllipsesAreRound) {
   EXPECT_NEAR(volume_of(file(ellipse)), 4.0 / 3.0 * kPi * 900.0 * 60.0, kFlatMm * 1e5);
 }
 
+TEST(DxfDrawing, AFullTurnMayBeWrittenWithFewDigits) {
+  // As "%f", "%g" and shorter formats write two pi, and 360 degrees with an error of float32.
+  for (const char* end : {"6.283185", "6.28319", "6.2832"}) {
+    const auto ellipse = groups({{0, "ELLIPSE"},
+                                 {8, "0"},
+                                 {10, "0"},
+                                 {20, "0"},
+                                 {11, "0"},
+                                 {21, "60"},
+                                 {40, "0.5"},
+                                 {41, "0"},
+                                 {42, end}});
+    const auto section = section_of(file(ellipse), "pot.dxf", {AxisRule::middle, 0.0, {}});
+    ASSERT_TRUE(section) << end << refusal_of(section);
+    EXPECT_NEAR(section->volume_mm3(), 4.0 / 3.0 * kPi * 900.0 * 60.0, kFlatMm * 1e5) << end;
+  }
+  const auto circle = groups(
+      {{0, "ARC"}, {8, "0"}, {10, "0"}, {20, "30"}, {40, "30"}, {50, "0"}, {51, "360.00003"}});
+  const auto ball = section_of(file(circle), "pot.dxf", {AxisRule::middle, 0.0, {}});
+  ASSERT_TRUE(ball) << refusal_of(ball);
+  EXPECT_NEAR(ball->volume_mm3(), 4.0 / 3.0 * kPi * 27000.0, kFlatMm * 4.0 * kPi * 900.0);
+}
+
+TEST(DxfDrawing, ABulgeOfAlmostNothingIsStraight) {
+  // A cylinder of radius 40 and height 80. The square of the last one's radius is no double.
+  for (const char* bulge : {"1e-9", "1e-100", "1e-300"}) {
+    const auto polyline = groups({{0, "LWPOLYLINE"},
+                                  {8, "0"},
+                                  {90, "4"},
+                                  {70, "1"},
+                                  {10, "0"},
+                                  {20, "0"},
+                                  {10, "40"},
+                                  {20, "0"},
+                                  {42, bulge},
+                                  {10, "40"},
+                                  {20, "80"},
+                                  {10, "0"},
+                                  {20, "80"}});
+    EXPECT_NEAR(volume_of(file(polyline)), kPi * 1600.0 * 80.0, 1e-3) << bulge;
+  }
+}
+
 using Groups = std::vector<std::pair<int, std::string>>;
 
 /// A quarter circle of radius 30 from (30, 0) to (0, 30), exactly: its groups up to the knots.
@@ -216,6 +259,20 @@ TEST(DxfDrawing, RefusesBrokenSplinesAndOtherFiles) {
                               {10, "3"},
                               {20, "4"}});
   EXPECT_THAT(refusal_of(read_drawing(file(spline), "pot.dxf")), HasSubstr("expected splines"));
+  // All knots are equal: the spline has no length, and would be left out without a word.
+  const auto none = groups({{0, "SPLINE"},
+                            {8, "0"},
+                            {71, "1"},
+                            {40, "0"},
+                            {40, "0"},
+                            {40, "0"},
+                            {40, "0"},
+                            {10, "1"},
+                            {20, "2"},
+                            {10, "3"},
+                            {20, "4"}});
+  EXPECT_THAT(refusal_of(read_drawing(file(none + line({0, 0}, {9, 9})), "pot.dxf")),
+              HasSubstr("expected splines"));
   EXPECT_THAT(refusal_of(read_drawing("no drawing\n", "pot.dxf")),
               HasSubstr("pot.dxf:1: expected a DXF group code, found \"no drawing\""));
   EXPECT_THAT(refusal_of(read_drawing("", "pot.dxf")), HasSubstr("found an empty file"));

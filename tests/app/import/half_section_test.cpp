@@ -68,6 +68,54 @@ TEST(HalfSection, ReportsClayLeftOfTheAxisThatIsNotUsed) {
   EXPECT_THAT(notes[0], HasSubstr("right of it (56.5 cm3)"));
 }
 
+TEST(HalfSection, ClayLeftOfTheAxisHasNoPartInFootAndHeight) {
+  // A frustum, beside a triangle that begins lower or ends higher.
+  const Line frustum{{{0, 0}, {40, 0}, {45, 80}, {0, 80}}, true};
+  const double volume = std::numbers::pi * 80.0 / 3.0 * (1600.0 + 1800.0 + 2025.0);
+  for (const double end : {-20.0, 230.0}) {
+    const Line left{{{-30, 20}, {-10, 20}, {-20, end}}, true};
+    for (const double scale : {1.0, 2.0}) {
+      const auto section =
+          half_section({{frustum, left}, false}, {AxisRule::at, 0.0, 80.0 * scale}, "pot");
+      ASSERT_TRUE(section) << refusal_of(section);
+      EXPECT_EQ(section->slabs.front().from_mm, 0.0);
+      EXPECT_NEAR(section->height_mm, 80.0 * scale, 1e-9);
+      EXPECT_NEAR(section->volume_mm3(), volume * scale * scale * scale, 1e-6 * volume);
+    }
+  }
+}
+
+TEST(HalfSection, AnOutlineOpenTowardsItsAxisIsNoDrawingOfBothHalves) {
+  // Its corners alone are symmetric about x = 20 mm.
+  const double volume = std::numbers::pi * 1600.0 * 80.0;
+  for (const double axis : {0.0, -7.0}) {
+    const Line outside{{{axis, 0}, {axis + 40, 0}, {axis + 40, 80}, {axis, 80}}, false};
+    const auto section = half_section({{outside}, false}, {}, "pot");
+    ASSERT_TRUE(section) << refusal_of(section);
+    EXPECT_EQ(section->axis, AxisRule::left);
+    EXPECT_EQ(section->axis_mm, axis);
+    EXPECT_NEAR(section->volume_mm3(), volume, 1e-6);
+  }
+  // Both halves of the outside of the same pot, open at the rim.
+  const Line both{{{-40, 80}, {-40, 0}, {40, 0}, {40, 80}}, false};
+  const auto section = half_section({{both}, false}, {}, "pot");
+  ASSERT_TRUE(section) << refusal_of(section);
+  EXPECT_EQ(section->axis, AxisRule::middle);
+  EXPECT_NEAR(section->volume_mm3(), volume, 1e-6);
+}
+
+TEST(HalfSection, AShapeOfNoSizeDrawsNothing) {
+  const Line frustum{{{0, 0}, {40, 0}, {45, 80}, {0, 80}}, true};
+  const Line point{{{-50, -30}, {-50, -30}, {-50, -30}}, true};
+  const auto section = half_section({{frustum, point}, false}, {}, "pot");
+  ASSERT_TRUE(section) << refusal_of(section);
+  EXPECT_EQ(section->axis_mm, 0.0);
+  EXPECT_EQ(section->height_mm, 80.0);
+  EXPECT_TRUE(section->notes.empty());
+  EXPECT_EQ(refusal_of(half_section({{point}, false}, {}, "pot")),
+            "pot: expected the outline of a pot, found only points in it");
+}
+
 TEST(HalfSection, RecognisesAnAxisLineAnywhere) {
   const std::vector<glm::dvec2> cone{{40, 0}, {20, 90}};
   const double volume = std::numbers::pi * 90.0 / 3.0 * (1600.0 + 800.0 + 400.0);

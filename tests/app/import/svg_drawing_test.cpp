@@ -223,8 +223,14 @@ TEST(SvgDrawing, IgnoresHiddenElements) {
   for (const std::string& wrapped :
        {"<defs>" + hidden + "</defs>", "<g display='none'>" + hidden + "</g>",
         "<g style='display:none'>" + hidden + "</g>", "<g opacity='0'>" + hidden + "</g>",
-        "<g style='opacity:0.0'>" + hidden + "</g>", "<clipPath id='c'>" + hidden + "</clipPath>"})
+        "<g style='opacity:0.0'>" + hidden + "</g>", "<clipPath id='c'>" + hidden + "</clipPath>",
+        "<g fill-opacity='0'>" + hidden + "</g>",
+        "<g style='stroke:red;fill-opacity:0;stroke-opacity:0%'>" + hidden + "</g>"})
     EXPECT_NEAR(volume_of(wrapped + pot), wanted, 1e-6) << wrapped;
+  // Its stroke is still seen, or its fill.
+  for (const char* style : {"fill-opacity:0;stroke:red", "stroke-opacity:0", "fill-opacity:0.5"})
+    EXPECT_NEAR(volume_of(std::string("<g style='") + style + "'>" + pot + "</g>"), wanted, 1e-6)
+        << style;
 }
 
 /// SVG 2 renders none of them; drawing programs leave them behind.
@@ -371,8 +377,11 @@ TEST(SvgDrawing, RefusesEncodingsThatHideTags) {
     EXPECT_THAT(refusal_of(read_drawing(declared(encoding), "pot.svg")),
                 HasSubstr("pot.svg:1: expected the encoding UTF-8 or UTF-16, found "))
         << encoding;
+  // Also from standard input, which has no ending.
   for (const char* encoding : {"UTF-16", "utf-16le"})
-    EXPECT_TRUE(read_drawing(wide(declared(encoding), false), "pot.svg")) << encoding;
+    for (const char* name : {"pot.svg", "-"})
+      EXPECT_TRUE(read_drawing(wide(declared(encoding), false), name)) << encoding << name;
+  EXPECT_TRUE(read_drawing(wide(declared("UTF-16"), true), "-"));
   EXPECT_THAT(refusal_of(read_drawing(wide(declared("UTF-16BE"), false), "pot.svg")),
               HasSubstr("expected the encoding UTF-8 or UTF-16, found 'utf-16be'"));
 }
@@ -411,6 +420,15 @@ TEST(SvgDrawing, RefusesHugeNumbersWithTheirLine) {
         "<path transform='scale(1e308)' d='M 1 1 A 5 5 0 0 1 1e9 9'/>"})
     EXPECT_THAT(refused(shape), HasSubstr("pot.svg:3: expected points within 1e+06 mm")) << shape;
   EXPECT_THAT(refused("<path d='M 0 0 L 1'/>"), HasSubstr("pot.svg:3: expected an SVG drawing"));
+}
+
+TEST(SvgDrawing, ErrorsNameLinesBeyond65535) {
+  const std::string far(70'000, '\n');
+  for (const char* shape : {"<path d='M 0 0 L 1'/>", "<path d='M 0 0 L 1e300 1e300'/>",
+                            "<rect transform='bend(3)' width='5' height='5'/>", "<use href='#x'/>"})
+    EXPECT_THAT(refusal_of(read_drawing(page(far + shape + "\n<g/>"), "pot.svg")),
+                HasSubstr("pot.svg:70001: "))
+        << shape;
 }
 
 // Each arc has 4096 chords: without an intermediate limit, 4 GB of them.

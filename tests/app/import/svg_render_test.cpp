@@ -109,7 +109,8 @@ TEST(SvgRender, StylesThatHideAndShow) {
        {"style='display:none'", "visibility='hidden'", "class='gone'", "class='x gone y'",
         "id='gone'", "style='mix-blend-mode:normal;-inkscape-stroke:none;paint-order:fill'",
         "vector-effect='none' unknown='7'", "style='visibility:collapse'", "fill='none'",
-        "class='gone' style='display:inline'", "style='fill:none;stroke:none'", "class='only'"})
+        "class='gone' style='display:inline'", "style='fill:none;stroke:none'", "class='only'",
+        "style='fill-opacity:0'", "fill-opacity='0' stroke-opacity='0' stroke='black'"})
     compare(
         "<style>/* a */ @media print { rect {display:none} } .gone, #gone {display : none} "
         "g > .only {display:none} rect:hover {display:none} .a .b {fill:none}</style>" +

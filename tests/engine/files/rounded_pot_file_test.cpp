@@ -134,9 +134,10 @@ TEST(RoundedPotFile, ErrorsNameTheLineOfEveryOtherField) {
                        "rounded_to_mm: expected a whole number of nanometres, found 0.0010001");
   expect_rounded_error("\"rounded_to_mm\": 0.001", "\"rounded_to_mm\": 2",
                        "rounded_to_mm: expected a number from 1e-05 to 1, found 2");
-  expect_rounded_error("\"exact_volume\": \"", "\"exact_volume\": \"-",
-                       "exact_volume: expected a text of 1 to 30 decimal digits, found \"-" +
-                           to_string(small_rounded_pot().rounding->exact_volume) + "\"");
+  expect_rounded_error(
+      "\"exact_volume\": \"", "\"exact_volume\": \"-",
+      "exact_volume: expected a text of 1 to 30 decimal digits without leading zeros, found \"-" +
+          to_string(small_rounded_pot().rounding->exact_volume) + "\"");
   const std::string text = small_rounded_text();
   test::expect_refused(parse_pot(test::replaced(text, "rounded_rings", "rounded_ring"), "p"),
                        "p:1: expected a field \"rings\", found none");
