@@ -1,10 +1,10 @@
-// Files, links, keys and buttons that few people use, the keyboard of a phone, a second tab, and a
-// program that stops: the page reports what it cannot do, and loses nothing.
+// Files, links, keys and buttons that few people use, the keyboard of a phone, and a program that
+// stops: the page reports what it cannot do.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import {copyFileSync, mkdirSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {beginBowl, choose, chord, drag, drop, pause} from './browser.mjs';
+import {beginBowl, choose, chord, drop, pause} from './browser.mjs';
 
 const clearStatus = page => page.evaluate(() => { document.getElementById('status').textContent = ''; });
 
@@ -131,61 +131,6 @@ export async function typedByFinger(page, tap) {
   await page.keyboard.press('Enter');
   await page.says('saved: /home/web_user/bowl.work-tea.work');
   await page.waitForFunction(() => document.activeElement.id === 'canvas');  // the keyboard goes
-}
-
-/// A second tab, for example a link that is opened, does not replace the works of the first one.
-export async function twoTabs({open}) {
-  const first = await open();
-  const context = first.browserContext();
-  await beginBowl(first);
-  await first.says('checked: proved');
-  await pause(1000);
-  const second = await open('', context);
-  await second.shows('status', /^Claystack is open in another tab, so this tab stores no works\. /);
-  await first.bringToFront();
-  await drag(first);
-  await first.mouse.up();
-  await first.says('stroke ended');
-  await pause(2000);  // it is stored
-  const late = await open('', context);
-  await late.shows('status', /^Claystack is open in another tab/);
-  assert.deepEqual((await late.announced()).filter(line => line.startsWith('recovery offered')), [],
-    'expected no offer of a work that is open in another tab');
-  await late.close();
-  await first.close();
-  await second.bringToFront();
-  await second.mouse.move(400, 300);
-  await pause(2000);
-  await second.close();
-  const third = await open('', context);
-  await third.says('recovery offered: 1');
-  await pause(1500);
-  await chord(third, 'KeyR', 'Control');
-  await third.says('recovered: ');
-  await third.click('#words');
-  assert.match(await third.$eval('#report-text', element => element.textContent), /Strokes: 1\n/);
-  assert.deepEqual([...first.problems, ...second.problems, ...late.problems, ...third.problems], []);
-  await context.close();
-}
-
-/// A tab that stores nothing asks before it is closed with an unsaved work.
-export async function closedWithoutStorage({open}) {
-  const first = await open();
-  const second = await open('', first.browserContext());
-  await second.shows('status', /^Claystack is open in another tab/);
-  await beginBowl(second);
-  await drag(second);
-  await second.mouse.up();
-  await second.says('stroke ended');
-  let asked = 0;
-  second.on('dialog', dialog => {
-    ++asked;
-    dialog.accept();
-  });
-  await second.close({runBeforeUnload: true});
-  for (let i = 0; i < 50 && asked === 0; ++i) await pause(100);
-  assert.equal(asked, 1, 'expected a question before an unsaved work is lost');
-  await first.browserContext().close();
 }
 
 /// A fault of the program: the page reports that it has stopped.

@@ -10,8 +10,9 @@ import {join, resolve} from 'node:path';
 import {inflateRawSync} from 'node:zlib';
 import {beginBowl, choose, chord, downloaded as downloadedIn, drag, drop, launch as launchIn, openPage as openPageIn, pause} from './browser.mjs';
 import {gamepad, pen, saved, spaceMouse} from './devices.mjs';
-import {closedWithoutStorage, failing, keysAndButtons, oddFiles, oddLinks, twoTabs, typedByFinger} from './odd_input.mjs';
+import {failing, keysAndButtons, oddFiles, oddLinks, typedByFinger} from './odd_input.mjs';
 import {serve} from './server.mjs';
+import {clearedStorage, closedWithoutStorage, lostGraphics, reloadedLink, twoTabs, unreadStorage} from './storage.mjs';
 
 const [site, claystack, pictures] = process.argv.slice(2, 5).map(path => resolve(path));
 const which = process.argv[5] ?? 'chromium';
@@ -437,16 +438,27 @@ async function devices(browser) {
   console.log('pen, gamepad and 3D mouse reach the clay');
 }
 
-/// Unusual files, links, keys and buttons, see odd_input.mjs.
-async function odd(browser) {
-  const open = async (hash = '', context = null) =>
-    openPage(context ?? await browser.createBrowserContext(), kDesktop, hash);
-  for (const test of [oddFiles, oddLinks, keysAndButtons, twoTabs, closedWithoutStorage, failing])
-    await test({open, folder, drawings, claystack});
-  console.log('unusual files, links, keys and a second tab: a message, and no loss');
+/// `tests` of another file, each with a function that opens a page without the works of others:
+/// open(hash, context, before), see openPage.
+async function each(browser, ...tests) {
+  const open = async (hash = '', context = null, before = null) =>
+    openPageIn(context ?? await browser.createBrowserContext(), folder, server.address + hash, kDesktop, before);
+  for (const test of tests) await test({open, folder, drawings, claystack});
 }
 
-const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, odd, offline, repeated, looks};
+/// Unusual files, links, keys and buttons, see odd_input.mjs.
+async function odd(browser) {
+  await each(browser, oddFiles, oddLinks, keysAndButtons, failing);
+  console.log('unusual files, links, keys and fingers: a message, and no harm');
+}
+
+/// What becomes of the works, see storage.mjs.
+async function storage(browser) {
+  await each(browser, twoTabs, closedWithoutStorage, clearedStorage, unreadStorage, lostGraphics, reloadedLink);
+  console.log('a second tab, a reload, cleared or unreadable storage: no work is lost');
+}
+
+const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, odd, storage, offline, repeated, looks};
 let failed = 0;
 const only = process.env.ONLY?.split(',');  // some tests, by name
 try {

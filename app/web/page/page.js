@@ -32,7 +32,8 @@ function frame(now) {
     more = studio._claystack_frame(now);
   } catch (error) {
     asked = true;  // draws no more
-    return say(`Claystack has stopped: ${error.message ?? error}. Reload the page: it offers the work again.`);
+    return say(`Claystack has stopped: ${error.message ?? error}. Reload the page` +
+      (kept() ? ': it offers the work again.' : '. The work was not stored.'));
   }
   changed = true;
   if (more) ask();
@@ -126,6 +127,10 @@ const page = {
 
 // ---- links -------------------------------------------------------------------------------------
 
+/// Of an entry of the browser's history whose pot is a work of this tab: after a reload the program
+/// offers that work, with the strokes since then.
+const kOpened = {opened: true};
+
 async function through(stream, bytes) {
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 }
@@ -140,7 +145,7 @@ async function copyLink() {
   if (characters > kMostLinkBytes)
     return status(`The pot takes ${characters} characters; a link holds ${kMostLinkBytes}. Save it instead.`);
   const code = btoa(String.fromCharCode(...packed)).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
-  history.replaceState(null, '', '#pot=' + code);
+  history.replaceState(kOpened, '', '#pot=' + code);
   const copied = await navigator.clipboard?.writeText(location.href).then(() => true, () => false);
   status('The address of this page now holds the pot; ' + (copied ? 'it is copied' : 'copy it from the address bar'));
 }
@@ -152,6 +157,7 @@ async function openLink() {
     if (code.length > kMostLinkBytes) throw new Error('too long');
     const packed = Uint8Array.from(atob(code.replace(/-/g, '+').replace(/_/g, '/')), c => c.charCodeAt(0));
     open({name: 'link.pot.cbor', bytes: await through(new DecompressionStream('deflate-raw'), packed)});
+    history.replaceState(kOpened, '');
   } catch (error) {
     status('The link holds no pot: it was cut off or changed');
   }
@@ -217,13 +223,14 @@ async function start() {
     event.preventDefault();
     changed = true;
     store();
-    say('The browser has taken the graphics away. The work is stored: reload the page.');
+    say('The browser has taken the graphics away. ' + (kept() ? 'The work is stored: reload the page.'
+      : 'The work is not stored: press Ctrl+S and Enter, which saves it as a file. Then reload the page.'));
   });
   by('about').onclick = () => by('about-text').showModal();
   listenToStorage();
   keepOffline();
   canvas.focus();
-  openLink();
+  if (!kept() || !history.state?.opened) openLink();
   window.addEventListener('hashchange', openLink);
   (window.requestIdleCallback ?? setTimeout)(() => compiled().catch(() => {}));  // before the first check
 }
