@@ -112,6 +112,45 @@ export async function keysAndButtons({open}) {
   await page.browserContext().close();
 }
 
+/// A palm beside a pen, before it and after it, does nothing; nor does a finger that the system takes.
+export async function palms({open}) {
+  const page = await open();
+  const calls = await noteCalls(page, '_claystack_button', '_claystack_pointer');
+  const events = await page.createCDPSession();
+  const kPen = [300, 300], kPalm = [500, 500];
+  const pen = (type, more) => events.send('Input.dispatchMouseEvent',
+    {type, x: kPen[0], y: kPen[1], pointerType: 'pen', force: 0.5, button: 'left', clickCount: 1, buttons: 1, ...more});
+  const palm = async (type, ...place) => events.send('Input.dispatchTouchEvent',
+    {type, touchPoints: place.length > 0 ? [{x: place[0], y: place[1]}] : []});
+  const kLong = 300;  // ms, more than a finger waits for a second one
+  const pressed = async () => (await calls()).filter(words => typeof words[1] === 'boolean')
+    .map(([index, isDown]) => [index, isDown]);
+
+  await pen('mousePressed');
+  await calls();
+  await palm('touchStart', ...kPalm);
+  await palm('touchMove', kPalm[0] + 50, kPalm[1]);
+  await pause(kLong);
+  await palm('touchEnd');
+  assert.deepEqual(await calls(), [], 'expected nothing from a palm beside a pen');
+  await pen('mouseReleased', {buttons: 0});
+  assert.deepEqual(await pressed(), [[0, false]]);
+
+  await palm('touchStart', ...kPalm);
+  await pen('mousePressed');
+  await pause(kLong);
+  await palm('touchEnd');
+  await pen('mouseReleased', {buttons: 0});
+  assert.deepEqual(await pressed(), [[0, true], [0, false]], 'expected the press of the pen alone');
+
+  await palm('touchStart', ...kPalm);
+  await palm('touchCancel');
+  await pause(kLong);
+  assert.deepEqual(await pressed(), [], 'expected no tap from a finger that the system has taken');
+  assert.deepEqual(page.problems, []);
+  await page.browserContext().close();
+}
+
 /// On a phone a text field shows the keyboard of the screen: a field of the page has the focus. The
 /// keyboard composes a word and corrects it.
 export async function typedByFinger(page, tap) {

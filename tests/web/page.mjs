@@ -10,7 +10,7 @@ import {join, resolve} from 'node:path';
 import {inflateRawSync} from 'node:zlib';
 import {beginBowl, choose, chord, downloaded as downloadedIn, drag, drop, launch as launchIn, openPage as openPageIn, pause} from './browser.mjs';
 import {gamepad, pen, saved, spaceMouse} from './devices.mjs';
-import {failing, keysAndButtons, oddFiles, oddLinks, typedByFinger} from './odd_input.mjs';
+import {failing, keysAndButtons, oddFiles, oddLinks, palms, typedByFinger} from './odd_input.mjs';
 import {serve} from './server.mjs';
 import {clearedStorage, closedWithoutStorage, lostGraphics, reloadedLink, twoTabs, unreadStorage} from './storage.mjs';
 
@@ -448,7 +448,7 @@ async function each(browser, ...tests) {
 
 /// Unusual files, links, keys and buttons, see odd_input.mjs.
 async function odd(browser) {
-  await each(browser, oddFiles, oddLinks, keysAndButtons, failing);
+  await each(browser, oddFiles, oddLinks, keysAndButtons, palms, failing);
   console.log('unusual files, links, keys and fingers: a message, and no harm');
 }
 
