@@ -9,7 +9,7 @@ import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import {inflateRawSync} from 'node:zlib';
 import {beginBowl, choose, chord, downloaded as downloadedIn, drag, drop, launch as launchIn, openPage as openPageIn, pause} from './browser.mjs';
-import {gamepad, pen, saved, spaceMouse} from './devices.mjs';
+import {gamepad, partsOfOneController, pen, saved, spaceMouse} from './devices.mjs';
 import {failing, keysAndButtons, oddFiles, oddLinks, palms, typedByFinger} from './odd_input.mjs';
 import {serve} from './server.mjs';
 import {clearedStorage, closedWithoutStorage, lostGraphics, reloadedLink, twoTabs, unreadStorage} from './storage.mjs';
@@ -434,7 +434,7 @@ async function devices(browser) {
     await page.says('window open');
     return page;
   };
-  for (const test of [pen, gamepad, spaceMouse]) await test({open, folder});
+  for (const test of [pen, gamepad, spaceMouse, partsOfOneController]) await test({open, folder});
   console.log('pen, gamepad and 3D mouse reach the clay');
 }
 
