@@ -4,7 +4,7 @@
 // tests/web_page.sh installs what it needs and calls it. Firefox does the main path.
 import assert from 'node:assert/strict';
 import {execFileSync, spawnSync} from 'node:child_process';
-import {mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import {inflateRawSync} from 'node:zlib';
@@ -166,6 +166,24 @@ async function offline(browser) {
   await page.says('checked: proved');  // by the worker, whose files are kept too
   await context.close();
   console.log('started without the server');
+}
+
+/// Two folders of a server have pages of different versions: both start without it.
+async function offlineBeside(browser) {
+  const both = join(folder, 'both');
+  for (const name of ['one', 'two']) cpSync(site, join(both, name), {recursive: true});
+  writeFileSync(join(both, 'two', 'offline.js'), readFileSync(join(both, 'two', 'offline.js'), 'utf8').replace(/[0-9a-f]{16}/, '0'.repeat(16)));
+  const own = await serve(both);
+  const context = await browser.createBrowserContext();
+  for (const name of ['one', 'two']) {
+    const page = await openPage(context, kDesktop, name + '/', own.address);
+    await page.says('ready offline');
+    await page.close();
+  }
+  own.close();
+  for (const name of ['one', 'two']) await openPage(context, kDesktop, name + '/', own.address);
+  await context.close();
+  console.log('two pages of one server started without it');
 }
 
 /// A server that fails: the page reports it, and tries again.
@@ -458,7 +476,7 @@ async function storage(browser) {
   console.log('a second tab, a reload, cleared or unreadable storage: no work is lost');
 }
 
-const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, odd, storage, offline, repeated, looks};
+const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, odd, storage, offline, offlineBeside, repeated, looks};
 let failed = 0;
 const only = process.env.ONLY?.split(',');  // some tests, by name
 try {
