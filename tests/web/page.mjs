@@ -186,6 +186,24 @@ async function offlineBeside(browser) {
   console.log('two pages of one server started without it');
 }
 
+/// A file that the server lacks when the page starts: a message with its name.
+async function incomplete(browser) {
+  for (const name of ['storage.js', 'claystack-page.data', 'claystack-page.wasm']) {
+    const own = await serve(site, new Set(['/' + name]));
+    const page = await openPageIn(browser, folder, own.address, kDesktop, () => {});
+    await page.shows('message', new RegExp(`^Claystack could not start: ${name}: the server answers 404$`));
+    await page.close();
+    own.close();
+  }
+  const own = await serve(site, new Set(['/worker.js']));
+  const page = await openPage(browser, kDesktop, '', own.address);
+  await page.evaluate(() => checkMesh({name: 'some.stl', bytes: new Uint8Array(1)}));
+  await page.shows('report-text', /^worker.js could not be loaded$/);
+  await page.close();
+  own.close();
+  console.log('a file that the server lacks is named');
+}
+
 /// A server that fails: the page reports it, and tries again.
 async function repeated(browser) {
   const missing = new Set(['/claystack.wasm']);
@@ -476,7 +494,7 @@ async function storage(browser) {
   console.log('a second tab, a reload, cleared or unreadable storage: no work is lost');
 }
 
-const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, odd, storage, offline, offlineBeside, repeated, looks};
+const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, odd, storage, offline, offlineBeside, incomplete, repeated, looks};
 let failed = 0;
 const only = process.env.ONLY?.split(',');  // some tests, by name
 try {

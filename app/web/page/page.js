@@ -235,4 +235,12 @@ async function start() {
   (window.requestIdleCallback ?? setTimeout)(() => compiled().catch(() => {}));  // before the first check
 }
 
-start().catch(error => say('Claystack could not start: ' + (error.message ?? error)));
+/// The browser tells a file that it did not get by its list of requests only.
+function notStarted(error) {
+  const [lost] = performance.getEntriesByType('resource').filter(file => file.responseStatus >= 400);
+  const why = lost ? `${lost.name.split('/').pop()}: the server answers ${lost.responseStatus}` : error?.message ?? error;
+  say('Claystack could not start: ' + why);
+}
+
+window.addEventListener('unhandledrejection', event => { if (!studio) notStarted(event.reason); });
+start().catch(notStarted);
