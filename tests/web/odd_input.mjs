@@ -57,7 +57,7 @@ export async function oddLinks({open}) {
   const page = await open('#pot=');
   await page.shows('status', /^The link holds no pot: it was cut off or changed$/);
   await beginBowl(page);
-  await page.click('#link');
+  await page.evaluate(() => { by('link').click(); by('link').click(); });  // before the first one is done
   await page.shows('status', /^The address of this page now holds the pot/);
   const link = await page.evaluate(() => location.hash);
   for (const hash of [link.slice(0, -9), link + '.', '#pot=%20', '#pot=' + 'A'.repeat(9000)]) {
@@ -147,6 +147,24 @@ export async function palms({open}) {
   await palm('touchCancel');
   await pause(kLong);
   assert.deepEqual(await pressed(), [], 'expected no tap from a finger that the system has taken');
+  assert.deepEqual(page.problems, []);
+  await page.browserContext().close();
+}
+
+/// The window goes to a screen with more pixels; a file is asked for without a click.
+export async function otherScreen({open}) {
+  const page = await open();
+  const sizes = await noteCalls(page, '_claystack_resize', '_claystack_picked');
+  const screen = await page.createCDPSession();
+  await screen.send('Emulation.setDeviceMetricsOverride',
+    {...page.viewport(), deviceScaleFactor: 2, mobile: false});
+  await page.waitForFunction(() => window.calls.some(words => words[2] === 2), {timeout: 10000});
+  await page.evaluate(() => {
+    Object.defineProperty(navigator, 'userActivation', {value: {isActive: false}});
+    page.pick();
+  });
+  await page.shows('status', /^The browser opens its file picker only after a click or key/);
+  assert.equal((await sizes()).at(-1).length, 1, 'expected the answer that no file was picked');
   assert.deepEqual(page.problems, []);
   await page.browserContext().close();
 }

@@ -10,7 +10,7 @@ import {join, resolve} from 'node:path';
 import {inflateRawSync} from 'node:zlib';
 import {beginBowl, choose, chord, downloaded as downloadedIn, drag, drop, launch as launchIn, openPage as openPageIn, pause} from './browser.mjs';
 import {gamepad, partsOfOneController, pen, saved, spaceMouse} from './devices.mjs';
-import {failing, keysAndButtons, oddFiles, oddLinks, palms, typedByFinger} from './odd_input.mjs';
+import {failing, keysAndButtons, oddFiles, oddLinks, otherScreen, palms, typedByFinger} from './odd_input.mjs';
 import {serve} from './server.mjs';
 import {clearedStorage, closedWithoutStorage, lostGraphics, reloadedLink, twoTabs, unreadStorage} from './storage.mjs';
 
@@ -138,6 +138,9 @@ async function files(browser) {
   await drop(page, join(folder, 'open.stl'));
   await shows(spawnSync(claystack, ['check', '--json', 'open.stl'], {encoding: 'utf8', cwd: folder}).stdout);
   assert.match(await page.$eval('#report-verdict', e => e.textContent), /^Not sound/);
+  await page.keyboard.press('Escape');
+  await drop(page, join(folder, 'bowl.3mf'));  // with its pot
+  await page.says('opened: bowl.3mf');
   assert.deepEqual(page.problems, []);
   await page.close();
 
@@ -484,7 +487,7 @@ async function each(browser, ...tests) {
 
 /// Unusual files, links, keys and buttons, see odd_input.mjs.
 async function odd(browser) {
-  await each(browser, oddFiles, oddLinks, keysAndButtons, palms, failing);
+  await each(browser, oddFiles, oddLinks, keysAndButtons, palms, otherScreen, failing);
   console.log('unusual files, links, keys and fingers: a message, and no harm');
 }
 

@@ -3,6 +3,7 @@
 
 const kIdleMs = 500;       // interval of frames without input
 const kMostLinkBytes = 8192;
+const kZipEnd = 70000;     // bytes; its comment takes up to 65535
 const kMeshes = /\.(stl|obj|ply|off|glb|drc|3mf|step|stp)$/i;
 
 const by = id => document.getElementById(id);
@@ -29,6 +30,7 @@ function ask() {
 function frame(now) {
   let more = false;
   try {
+    if (window.devicePixelRatio !== ratio) resize();  // on another screen; few browsers report it
     more = studio._claystack_frame(now);
   } catch (error) {
     asked = true;  // draws no more
@@ -40,12 +42,13 @@ function frame(now) {
   else idle = setTimeout(ask, kIdleMs);
 }
 
+let ratio = 0;  // of the canvas: pixels of the screen per px of the page
 function resize() {
-  const scale = window.devicePixelRatio || 1;
+  ratio = window.devicePixelRatio;
   const box = canvas.getBoundingClientRect();
-  canvas.width = Math.max(1, Math.round(box.width * scale));
-  canvas.height = Math.max(1, Math.round(box.height * scale));
-  studio._claystack_resize(canvas.width, canvas.height, scale);
+  canvas.width = Math.max(1, Math.round(box.width * ratio));
+  canvas.height = Math.max(1, Math.round(box.height * ratio));
+  studio._claystack_resize(canvas.width, canvas.height, ratio);
   ask();
 }
 
@@ -74,6 +77,10 @@ async function contents(file) {
 }
 
 function pickFile(then) {
+  if (navigator.userActivation?.isActive === false) {  // the browser would ignore it, without an event
+    status('The browser opens its file picker only after a click or key: try again');
+    return then(null);
+  }
   const input = document.createElement('input');
   input.type = 'file';
   input.onchange = async () => then(input.files[0] ? await contents(input.files[0]) : null);
@@ -81,8 +88,14 @@ function pickFile(then) {
   input.click();
 }
 
+/// A 3MF by Claystack has its pot in it. The directory at the end of a ZIP file names the parts.
+function holdsPot(name, bytes) {
+  return /\.3mf$/i.test(name) &&
+    new TextDecoder('latin1').decode(bytes.subarray(-kZipEnd)).includes('Metadata/claystack.pot.cbor');
+}
+
 function open({name, bytes}) {
-  if (kMeshes.test(name)) return checkMesh({name, bytes});
+  if (kMeshes.test(name) && !holdsPot(name, bytes)) return checkMesh({name, bytes});
   withText(storeIn(name, bytes), path => studio._claystack_open(path));
   ask();
 }
@@ -112,7 +125,7 @@ const page = {
   /// Works stay in the storage of the browser too; exports do not.
   download(path) {
     save(path.slice(path.lastIndexOf('/') + 1), studio.FS.readFile(path));
-    if (!path.endsWith('.work')) studio.FS.unlink(path);
+    if (!/\.work$/i.test(path)) studio.FS.unlink(path);
   },
   pick() {
     pickFile(file => withText(file ? storeIn(file.name, file.bytes) : '', path => {
@@ -139,8 +152,9 @@ async function copyLink() {
   const path = '/link.pot.cbor';
   if (!withText(path, place => studio._claystack_write_pot(place)))
     return status('There is no pot on the wheel');
-  const packed = await through(new CompressionStream('deflate-raw'), studio.FS.readFile(path));
+  const pot = studio.FS.readFile(path);
   studio.FS.unlink(path);
+  const packed = await through(new CompressionStream('deflate-raw'), pot);
   const characters = Math.ceil(packed.length * 4 / 3);
   if (characters > kMostLinkBytes)
     return status(`The pot takes ${characters} characters; a link holds ${kMostLinkBytes}. Save it instead.`);
