@@ -1,6 +1,7 @@
 // What becomes of the works: a second tab, a reload, storage that was cleared or cannot be read.
 import assert from 'node:assert/strict';
-import {beginBowl, chord, drag, pause} from './browser.mjs';
+import {join} from 'node:path';
+import {beginBowl, choose, chord, drag, pause} from './browser.mjs';
 
 /// A second tab, for example a link that is opened, does not replace the works of the first one.
 export async function twoTabs({open}) {
@@ -129,6 +130,20 @@ export async function lostGraphics({open}) {
     await page.shows('message', text);
   }
   await first.browserContext().close();
+}
+
+/// A work that was picked, and then chosen again among the files opened last, is saved into the storage.
+export async function pickedAgain({open, folder}) {
+  const page = await open();
+  await choose(page, '#open', join(folder, 'bowl.work'));
+  await page.says('opened: bowl.work');
+  await page.evaluate(() => withText('/opened/bowl.work', path => studio._claystack_open(path)));
+  await page.says('opened: /opened/bowl.work');
+  await page.focus('#canvas');
+  await chord(page, 'KeyS', 'Control');
+  await page.says('saved: /home/web_user/bowl.work');
+  assert.deepEqual(page.problems, []);
+  await page.browserContext().close();
 }
 
 /// A reload of a page whose address holds a pot offers the work, with the strokes since then.
