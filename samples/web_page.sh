@@ -15,7 +15,8 @@ as_root=""
 system=${CLAYSTACK_WEB_SYSTEM:-${XDG_CACHE_HOME:-$HOME/.cache}/claystack-web}
 compiler=3.1.69  # of Emscripten: the page's bits depend on its mathematical functions
 case "$system" in
-  "$PWD"/*) echo "claystack: expected a folder outside of the sources, found $system" >&2; exit 2 ;;
+  "$PWD"|"$PWD"/*) echo "claystack: expected a folder outside of the sources, found $system" >&2; exit 2 ;;
+  /|[!/]*) echo "claystack: expected the whole path of a folder in CLAYSTACK_WEB_SYSTEM, found $system" >&2; exit 2 ;;
 esac
 
 if [ ! -x "$system/usr/bin/apt-get" ]; then

@@ -29,7 +29,7 @@ std::filesystem::path with_extension(std::filesystem::path path) {
 /// A page saves into its storage, whatever folder a file was opened from.
 std::filesystem::path save_path(const Settings& settings, const std::filesystem::path& name) {
   const std::filesystem::path path = with_extension(name);
-  return kInPage ? std::filesystem::path(settings.folder) / path : path;
+  return kInPage ? std::filesystem::path(settings.folder) / path.filename() : path;
 }
 
 /// NAME.work in the folder, or NAME-2.work and so on: the first that is free.

@@ -239,6 +239,24 @@ function translation(x, y, z) {
   return [...bytes];
 }
 
+/// A receiver has several parts, each a device of WebHID: the page opens one. A browser that refuses
+/// says so.
+export async function partsOfOneController({open}) {
+  const page = await open(() => {
+    const part = () => ({vendorId: 0x256f, productId: 0xc635, opened: false, async open() { this.opened = true; }});
+    window.parts = [part(), part()];
+    Object.defineProperty(navigator, 'hid', {value: Object.assign(new EventTarget(), {
+      async getDevices() { return window.parts; },
+      async requestDevice() { throw new DOMException('planted', 'SecurityError'); }})});
+  });
+  await page.waitForFunction(() => window.parts[0].opened);
+  await page.click('#hid');
+  await page.shows('status', /^No controller was connected: planted$/);
+  assert.deepEqual(await page.evaluate(() => window.parts.map(part => part.opened)), [true, false]);
+  assert.deepEqual(page.problems, []);
+  await page.browserContext().close();
+}
+
 /// The cap moves the tool: its reports are decoded by the program.
 export async function spaceMouse({open, folder}) {
   const page = await lump(open, fakeHid);

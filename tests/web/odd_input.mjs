@@ -1,10 +1,10 @@
-// Files, links, keys and buttons that few people use, the keyboard of a phone, a second tab, and a
-// program that stops: the page reports what it cannot do, and loses nothing.
+// Files, links, keys and buttons that few people use, the keyboard of a phone, and a program that
+// stops: the page reports what it cannot do.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import {copyFileSync, mkdirSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {beginBowl, choose, chord, drag, drop, pause} from './browser.mjs';
+import {beginBowl, choose, chord, drop, pause} from './browser.mjs';
 
 const clearStatus = page => page.evaluate(() => { document.getElementById('status').textContent = ''; });
 
@@ -57,7 +57,7 @@ export async function oddLinks({open}) {
   const page = await open('#pot=');
   await page.shows('status', /^The link holds no pot: it was cut off or changed$/);
   await beginBowl(page);
-  await page.click('#link');
+  await page.evaluate(() => { by('link').click(); by('link').click(); });  // before the first one is done
   await page.shows('status', /^The address of this page now holds the pot/);
   const link = await page.evaluate(() => location.hash);
   for (const hash of [link.slice(0, -9), link + '.', '#pot=%20', '#pot=' + 'A'.repeat(9000)]) {
@@ -112,6 +112,63 @@ export async function keysAndButtons({open}) {
   await page.browserContext().close();
 }
 
+/// A palm beside a pen, before it and after it, does nothing; nor does a finger that the system takes.
+export async function palms({open}) {
+  const page = await open();
+  const calls = await noteCalls(page, '_claystack_button', '_claystack_pointer');
+  const events = await page.createCDPSession();
+  const kPen = [300, 300], kPalm = [500, 500];
+  const pen = (type, more) => events.send('Input.dispatchMouseEvent',
+    {type, x: kPen[0], y: kPen[1], pointerType: 'pen', force: 0.5, button: 'left', clickCount: 1, buttons: 1, ...more});
+  const palm = async (type, ...place) => events.send('Input.dispatchTouchEvent',
+    {type, touchPoints: place.length > 0 ? [{x: place[0], y: place[1]}] : []});
+  const kLong = 300;  // ms, more than a finger waits for a second one
+  const pressed = async () => (await calls()).filter(words => typeof words[1] === 'boolean')
+    .map(([index, isDown]) => [index, isDown]);
+
+  await pen('mousePressed');
+  await calls();
+  await palm('touchStart', ...kPalm);
+  await palm('touchMove', kPalm[0] + 50, kPalm[1]);
+  await pause(kLong);
+  await palm('touchEnd');
+  assert.deepEqual(await calls(), [], 'expected nothing from a palm beside a pen');
+  await pen('mouseReleased', {buttons: 0});
+  assert.deepEqual(await pressed(), [[0, false]]);
+
+  await palm('touchStart', ...kPalm);
+  await pen('mousePressed');
+  await pause(kLong);
+  await palm('touchEnd');
+  await pen('mouseReleased', {buttons: 0});
+  assert.deepEqual(await pressed(), [[0, true], [0, false]], 'expected the press of the pen alone');
+
+  await palm('touchStart', ...kPalm);
+  await palm('touchCancel');
+  await pause(kLong);
+  assert.deepEqual(await pressed(), [], 'expected no tap from a finger that the system has taken');
+  assert.deepEqual(page.problems, []);
+  await page.browserContext().close();
+}
+
+/// The window goes to a screen with more pixels; a file is asked for without a click.
+export async function otherScreen({open}) {
+  const page = await open();
+  const sizes = await noteCalls(page, '_claystack_resize', '_claystack_picked');
+  const screen = await page.createCDPSession();
+  await screen.send('Emulation.setDeviceMetricsOverride',
+    {...page.viewport(), deviceScaleFactor: 2, mobile: false});
+  await page.waitForFunction(() => window.calls.some(words => words[2] === 2), {timeout: 10000});
+  await page.evaluate(() => {
+    Object.defineProperty(navigator, 'userActivation', {value: {isActive: false}});
+    page.pick();
+  });
+  await page.shows('status', /^The browser opens its file picker only after a click or key/);
+  assert.equal((await sizes()).at(-1).length, 1, 'expected the answer that no file was picked');
+  assert.deepEqual(page.problems, []);
+  await page.browserContext().close();
+}
+
 /// On a phone a text field shows the keyboard of the screen: a field of the page has the focus. The
 /// keyboard composes a word and corrects it.
 export async function typedByFinger(page, tap) {
@@ -131,61 +188,6 @@ export async function typedByFinger(page, tap) {
   await page.keyboard.press('Enter');
   await page.says('saved: /home/web_user/bowl.work-tea.work');
   await page.waitForFunction(() => document.activeElement.id === 'canvas');  // the keyboard goes
-}
-
-/// A second tab, for example a link that is opened, does not replace the works of the first one.
-export async function twoTabs({open}) {
-  const first = await open();
-  const context = first.browserContext();
-  await beginBowl(first);
-  await first.says('checked: proved');
-  await pause(1000);
-  const second = await open('', context);
-  await second.shows('status', /^Claystack is open in another tab, so this tab stores no works\. /);
-  await first.bringToFront();
-  await drag(first);
-  await first.mouse.up();
-  await first.says('stroke ended');
-  await pause(2000);  // it is stored
-  const late = await open('', context);
-  await late.shows('status', /^Claystack is open in another tab/);
-  assert.deepEqual((await late.announced()).filter(line => line.startsWith('recovery offered')), [],
-    'expected no offer of a work that is open in another tab');
-  await late.close();
-  await first.close();
-  await second.bringToFront();
-  await second.mouse.move(400, 300);
-  await pause(2000);
-  await second.close();
-  const third = await open('', context);
-  await third.says('recovery offered: 1');
-  await pause(1500);
-  await chord(third, 'KeyR', 'Control');
-  await third.says('recovered: ');
-  await third.click('#words');
-  assert.match(await third.$eval('#report-text', element => element.textContent), /Strokes: 1\n/);
-  assert.deepEqual([...first.problems, ...second.problems, ...late.problems, ...third.problems], []);
-  await context.close();
-}
-
-/// A tab that stores nothing asks before it is closed with an unsaved work.
-export async function closedWithoutStorage({open}) {
-  const first = await open();
-  const second = await open('', first.browserContext());
-  await second.shows('status', /^Claystack is open in another tab/);
-  await beginBowl(second);
-  await drag(second);
-  await second.mouse.up();
-  await second.says('stroke ended');
-  let asked = 0;
-  second.on('dialog', dialog => {
-    ++asked;
-    dialog.accept();
-  });
-  await second.close({runBeforeUnload: true});
-  for (let i = 0; i < 50 && asked === 0; ++i) await pause(100);
-  assert.equal(asked, 1, 'expected a question before an unsaved work is lost');
-  await first.browserContext().close();
 }
 
 /// A fault of the program: the page reports that it has stopped.

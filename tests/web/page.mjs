@@ -4,14 +4,15 @@
 // tests/web_page.sh installs what it needs and calls it. Firefox does the main path.
 import assert from 'node:assert/strict';
 import {execFileSync, spawnSync} from 'node:child_process';
-import {mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import {inflateRawSync} from 'node:zlib';
 import {beginBowl, choose, chord, downloaded as downloadedIn, drag, drop, launch as launchIn, openPage as openPageIn, pause} from './browser.mjs';
-import {gamepad, pen, saved, spaceMouse} from './devices.mjs';
-import {closedWithoutStorage, failing, keysAndButtons, oddFiles, oddLinks, twoTabs, typedByFinger} from './odd_input.mjs';
+import {gamepad, partsOfOneController, pen, saved, spaceMouse} from './devices.mjs';
+import {failing, keysAndButtons, oddFiles, oddLinks, otherScreen, palms, typedByFinger} from './odd_input.mjs';
 import {serve} from './server.mjs';
+import {clearedStorage, closedWithoutStorage, lostGraphics, pickedAgain, reloadedLink, twoTabs, unreadStorage} from './storage.mjs';
 
 const [site, claystack, pictures] = process.argv.slice(2, 5).map(path => resolve(path));
 const which = process.argv[5] ?? 'chromium';
@@ -137,6 +138,9 @@ async function files(browser) {
   await drop(page, join(folder, 'open.stl'));
   await shows(spawnSync(claystack, ['check', '--json', 'open.stl'], {encoding: 'utf8', cwd: folder}).stdout);
   assert.match(await page.$eval('#report-verdict', e => e.textContent), /^Not sound/);
+  await page.keyboard.press('Escape');
+  await drop(page, join(folder, 'bowl.3mf'));  // with its pot
+  await page.says('opened: bowl.3mf');
   assert.deepEqual(page.problems, []);
   await page.close();
 
@@ -165,6 +169,42 @@ async function offline(browser) {
   await page.says('checked: proved');  // by the worker, whose files are kept too
   await context.close();
   console.log('started without the server');
+}
+
+/// Two folders of a server have pages of different versions: both start without it.
+async function offlineBeside(browser) {
+  const both = join(folder, 'both');
+  for (const name of ['one', 'two']) cpSync(site, join(both, name), {recursive: true});
+  writeFileSync(join(both, 'two', 'offline.js'), readFileSync(join(both, 'two', 'offline.js'), 'utf8').replace(/[0-9a-f]{16}/, '0'.repeat(16)));
+  const own = await serve(both);
+  const context = await browser.createBrowserContext();
+  for (const name of ['one', 'two']) {
+    const page = await openPage(context, kDesktop, name + '/', own.address);
+    await page.says('ready offline');
+    await page.close();
+  }
+  own.close();
+  for (const name of ['one', 'two']) await openPage(context, kDesktop, name + '/', own.address);
+  await context.close();
+  console.log('two pages of one server started without it');
+}
+
+/// A file that the server lacks when the page starts: a message with its name.
+async function incomplete(browser) {
+  for (const name of ['storage.js', 'claystack-page.data', 'claystack-page.wasm']) {
+    const own = await serve(site, new Set(['/' + name]));
+    const page = await openPageIn(browser, folder, own.address, kDesktop, () => {});
+    await page.shows('message', new RegExp(`^Claystack could not start: ${name}: the server answers 404$`));
+    await page.close();
+    own.close();
+  }
+  const own = await serve(site, new Set(['/worker.js']));
+  const page = await openPage(browser, kDesktop, '', own.address);
+  await page.evaluate(() => checkMesh({name: 'some.stl', bytes: new Uint8Array(1)}));
+  await page.shows('report-text', /^worker.js could not be loaded$/);
+  await page.close();
+  own.close();
+  console.log('a file that the server lacks is named');
 }
 
 /// A server that fails: the page reports it, and tries again.
@@ -433,20 +473,31 @@ async function devices(browser) {
     await page.says('window open');
     return page;
   };
-  for (const test of [pen, gamepad, spaceMouse]) await test({open, folder});
+  for (const test of [pen, gamepad, spaceMouse, partsOfOneController]) await test({open, folder});
   console.log('pen, gamepad and 3D mouse reach the clay');
+}
+
+/// `tests` of another file, each with a function that opens a page without the works of others:
+/// open(hash, context, before), see openPage.
+async function each(browser, ...tests) {
+  const open = async (hash = '', context = null, before = null) =>
+    openPageIn(context ?? await browser.createBrowserContext(), folder, server.address + hash, kDesktop, before);
+  for (const test of tests) await test({open, folder, drawings, claystack});
 }
 
 /// Unusual files, links, keys and buttons, see odd_input.mjs.
 async function odd(browser) {
-  const open = async (hash = '', context = null) =>
-    openPage(context ?? await browser.createBrowserContext(), kDesktop, hash);
-  for (const test of [oddFiles, oddLinks, keysAndButtons, twoTabs, closedWithoutStorage, failing])
-    await test({open, folder, drawings, claystack});
-  console.log('unusual files, links, keys and a second tab: a message, and no loss');
+  await each(browser, oddFiles, oddLinks, keysAndButtons, palms, otherScreen, failing);
+  console.log('unusual files, links, keys and fingers: a message, and no harm');
 }
 
-const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, odd, offline, repeated, looks};
+/// What becomes of the works, see storage.mjs.
+async function storage(browser) {
+  await each(browser, twoTabs, closedWithoutStorage, clearedStorage, unreadStorage, lostGraphics, pickedAgain, reloadedLink);
+  console.log('a second tab, a reload, cleared or unreadable storage: no work is lost');
+}
+
+const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, odd, storage, offline, offlineBeside, incomplete, repeated, looks};
 let failed = 0;
 const only = process.env.ONLY?.split(',');  // some tests, by name
 try {

@@ -10,7 +10,7 @@ const kTypes = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/cs
 export async function serve(folder, missing = new Set()) {
   const server = createServer(async (request, reply) => {
     const path = normalize(new URL(request.url, 'http://localhost').pathname);
-    const file = join(folder, path === '/' ? 'index.html' : path);
+    const file = join(folder, path.endsWith('/') ? path + 'index.html' : path);
     try {
       if (missing.has(path)) throw new Error('missing');
       const bytes = await readFile(file);

@@ -44,13 +44,17 @@ let mouse3d = null;
 
 async function connectHid(device) {
   if (mouse3d) return;
+  mouse3d = device;  // at once: a controller may have several parts, each a device of its own
   try {
     if (!device.opened) await device.open();
   } catch (error) {
+    mouse3d = null;
     return status(`${device.productName}: could not be opened: ${error.message}`);
   }
-  if (!studio._claystack_hid_plugged(device.vendorId, device.productId)) return device.close();
-  mouse3d = device;
+  if (!studio._claystack_hid_plugged(device.vendorId, device.productId)) {
+    mouse3d = null;
+    return device.close();
+  }
   device.oninputreport = ({reportId, data}) => {
     const report = Uint8Array.of(reportId, ...new Uint8Array(data.buffer, data.byteOffset, data.byteLength));
     const place = studio._malloc(report.length);
@@ -71,7 +75,11 @@ async function listenToHid() {
     filter.vendorId === device.vendorId && filter.productId === device.productId);
   by('hid').hidden = matchMedia('(pointer: coarse)').matches;  // not on a phone
   by('hid').onclick = async () => {
-    for (const device of await hid.requestDevice({filters})) await connectHid(device);
+    try {
+      for (const device of await hid.requestDevice({filters})) await connectHid(device);
+    } catch (error) {
+      status('No controller was connected: ' + error.message);
+    }
     canvas.focus();
   };
   hid.addEventListener('connect', ({device}) => { if (known(device)) connectHid(device); });

@@ -3,7 +3,8 @@
 // two versions never mix.
 'use strict';
 
-const kCache = 'claystack @VERSION@';  // of all files: app/web/site.cmake
+const kPage = `claystack ${registration.scope} `;  // another folder of this server has its own page
+const kCache = kPage + '@VERSION@';  // of all files: app/web/site.cmake
 const kFiles = '@FILES@'.split(' ');
 
 async function install() {
@@ -13,7 +14,7 @@ async function install() {
 
 async function activate() {
   for (const name of await caches.keys())
-    if (name.startsWith('claystack ') && name !== kCache) await caches.delete(name);
+    if (name.startsWith(kPage) && name !== kCache) await caches.delete(name);
   await self.clients.claim();
 }
 

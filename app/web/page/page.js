@@ -3,6 +3,7 @@
 
 const kIdleMs = 500;       // interval of frames without input
 const kMostLinkBytes = 8192;
+const kZipEnd = 70000;     // bytes; its comment takes up to 65535
 const kMeshes = /\.(stl|obj|ply|off|glb|drc|3mf|step|stp)$/i;
 
 const by = id => document.getElementById(id);
@@ -29,22 +30,25 @@ function ask() {
 function frame(now) {
   let more = false;
   try {
+    if (window.devicePixelRatio !== ratio) resize();  // on another screen; few browsers report it
     more = studio._claystack_frame(now);
   } catch (error) {
     asked = true;  // draws no more
-    return say(`Claystack has stopped: ${error.message ?? error}. Reload the page: it offers the work again.`);
+    return say(`Claystack has stopped: ${error.message ?? error}. Reload the page` +
+      (kept() ? ': it offers the work again.' : '. The work was not stored.'));
   }
   changed = true;
   if (more) ask();
   else idle = setTimeout(ask, kIdleMs);
 }
 
+let ratio = 0;  // of the canvas: pixels of the screen per px of the page
 function resize() {
-  const scale = window.devicePixelRatio || 1;
+  ratio = window.devicePixelRatio;
   const box = canvas.getBoundingClientRect();
-  canvas.width = Math.max(1, Math.round(box.width * scale));
-  canvas.height = Math.max(1, Math.round(box.height * scale));
-  studio._claystack_resize(canvas.width, canvas.height, scale);
+  canvas.width = Math.max(1, Math.round(box.width * ratio));
+  canvas.height = Math.max(1, Math.round(box.height * ratio));
+  studio._claystack_resize(canvas.width, canvas.height, ratio);
   ask();
 }
 
@@ -73,6 +77,10 @@ async function contents(file) {
 }
 
 function pickFile(then) {
+  if (navigator.userActivation?.isActive === false) {  // the browser would ignore it, without an event
+    status('The browser opens its file picker only after a click or key: try again');
+    return then(null);
+  }
   const input = document.createElement('input');
   input.type = 'file';
   input.onchange = async () => then(input.files[0] ? await contents(input.files[0]) : null);
@@ -80,8 +88,14 @@ function pickFile(then) {
   input.click();
 }
 
+/// A 3MF by Claystack has its pot in it. The directory at the end of a ZIP file names the parts.
+function holdsPot(name, bytes) {
+  return /\.3mf$/i.test(name) &&
+    new TextDecoder('latin1').decode(bytes.subarray(-kZipEnd)).includes('Metadata/claystack.pot.cbor');
+}
+
 function open({name, bytes}) {
-  if (kMeshes.test(name)) return checkMesh({name, bytes});
+  if (kMeshes.test(name) && !holdsPot(name, bytes)) return checkMesh({name, bytes});
   withText(storeIn(name, bytes), path => studio._claystack_open(path));
   ask();
 }
@@ -111,7 +125,7 @@ const page = {
   /// Works stay in the storage of the browser too; exports do not.
   download(path) {
     save(path.slice(path.lastIndexOf('/') + 1), studio.FS.readFile(path));
-    if (!path.endsWith('.work')) studio.FS.unlink(path);
+    if (!/\.work$/i.test(path)) studio.FS.unlink(path);
   },
   pick() {
     pickFile(file => withText(file ? storeIn(file.name, file.bytes) : '', path => {
@@ -126,6 +140,10 @@ const page = {
 
 // ---- links -------------------------------------------------------------------------------------
 
+/// Of an entry of the browser's history whose pot is a work of this tab: after a reload the program
+/// offers that work, with the strokes since then.
+const kOpened = {opened: true};
+
 async function through(stream, bytes) {
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 }
@@ -134,13 +152,14 @@ async function copyLink() {
   const path = '/link.pot.cbor';
   if (!withText(path, place => studio._claystack_write_pot(place)))
     return status('There is no pot on the wheel');
-  const packed = await through(new CompressionStream('deflate-raw'), studio.FS.readFile(path));
+  const pot = studio.FS.readFile(path);
   studio.FS.unlink(path);
+  const packed = await through(new CompressionStream('deflate-raw'), pot);
   const characters = Math.ceil(packed.length * 4 / 3);
   if (characters > kMostLinkBytes)
     return status(`The pot takes ${characters} characters; a link holds ${kMostLinkBytes}. Save it instead.`);
   const code = btoa(String.fromCharCode(...packed)).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
-  history.replaceState(null, '', '#pot=' + code);
+  history.replaceState(kOpened, '', '#pot=' + code);
   const copied = await navigator.clipboard?.writeText(location.href).then(() => true, () => false);
   status('The address of this page now holds the pot; ' + (copied ? 'it is copied' : 'copy it from the address bar'));
 }
@@ -152,6 +171,7 @@ async function openLink() {
     if (code.length > kMostLinkBytes) throw new Error('too long');
     const packed = Uint8Array.from(atob(code.replace(/-/g, '+').replace(/_/g, '/')), c => c.charCodeAt(0));
     open({name: 'link.pot.cbor', bytes: await through(new DecompressionStream('deflate-raw'), packed)});
+    history.replaceState(kOpened, '');
   } catch (error) {
     status('The link holds no pot: it was cut off or changed');
   }
@@ -217,15 +237,24 @@ async function start() {
     event.preventDefault();
     changed = true;
     store();
-    say('The browser has taken the graphics away. The work is stored: reload the page.');
+    say('The browser has taken the graphics away. ' + (kept() ? 'The work is stored: reload the page.'
+      : 'The work is not stored: press Ctrl+S and Enter, which saves it as a file. Then reload the page.'));
   });
   by('about').onclick = () => by('about-text').showModal();
   listenToStorage();
   keepOffline();
   canvas.focus();
-  openLink();
+  if (!kept() || !history.state?.opened) openLink();
   window.addEventListener('hashchange', openLink);
   (window.requestIdleCallback ?? setTimeout)(() => compiled().catch(() => {}));  // before the first check
 }
 
-start().catch(error => say('Claystack could not start: ' + (error.message ?? error)));
+/// The browser tells a file that it did not get by its list of requests only.
+function notStarted(error) {
+  const [lost] = performance.getEntriesByType('resource').filter(file => file.responseStatus >= 400);
+  const why = lost ? `${lost.name.split('/').pop()}: the server answers ${lost.responseStatus}` : error?.message ?? error;
+  say('Claystack could not start: ' + why);
+}
+
+window.addEventListener('unhandledrejection', event => { if (!studio) notStarted(event.reason); });
+start().catch(notStarted);

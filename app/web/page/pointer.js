@@ -52,8 +52,12 @@ function listenToPointer() {
     canvas.focus();
     canvas.setPointerCapture(event.pointerId);
     event.preventDefault();  // a touch is not a mouse as well, which would move the focus later
-    if (event.pointerType === 'touch') return fingers.begin(event);
-    mouse(event);
+    if (event.pointerType !== 'touch') {
+      fingers.stop();  // the palm of the hand that holds a pen
+      mouse(event);
+    } else if (down.size === 0 || fingers.touching()) {
+      fingers.begin(event);
+    }
   });
   canvas.addEventListener('pointermove', event => {
     if (event.pointerType === 'touch') return fingers.move(event);
@@ -63,11 +67,10 @@ function listenToPointer() {
   });
   canvas.addEventListener('pointerup', event => {
     if (event.pointerType !== 'touch') return mouse(event);
-    fingers.end(event);
-    if (!studio._claystack_over_pot()) keyboard.tapped();
+    if (fingers.end(event) && !studio._claystack_over_pot()) keyboard.tapped();
   });
   canvas.addEventListener('pointercancel', event => {
-    if (event.pointerType === 'touch') fingers.end(event);
+    if (event.pointerType === 'touch') return fingers.end(event, true);
     for (const b of [...down]) button(b, false, event);
   });
   canvas.addEventListener('wheel', event => {

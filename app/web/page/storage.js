@@ -13,7 +13,15 @@ function warn(text) {
   ask();
 }
 
-let stores = false;  // this tab
+function reason(error) {
+  if (error.name === 'QuotaExceededError') return 'its storage is full';
+  return String(error.message || error.name || error).replace(/\.$/, '');
+}
+
+let stores = false, unread = null;  // this tab; why it could not read what was stored
+
+/// Whether the work survives a reload.
+function kept() { return stores && !failing(); }
 
 /// One tab alone stores: another one would replace the works by its own. Where browsers have no locks,
 /// which need https or localhost, each tab stores. A promise: it is decided.
@@ -40,42 +48,50 @@ function prepareFiles(module, claimed) {
   module.addRunDependency('storage');
   // Not before: the tab that leaves the storage may still write to it.
   claimed.then(() => module.FS.syncfs(true, error => {
-    if (error) page.log('error: storage: ' + error);
+    // Storing makes the storage equal to the files of this tab: works that were not read would be deleted.
+    if (error) [stores, unread] = [false, error];
     module.removeRunDependency('storage');
   }));
 }
 
 function listenToStorage() {
-  if (!stores)
+  if (unread)
+    warn(`The browser cannot read the works that it stored: ${reason(unread)}. This tab stores none, ` +
+      'so that those remain. Reload this page to try again, or save the work as a file (Ctrl+S).');
+  else if (!stores)
     warn('Claystack is open in another tab, so this tab stores no works. ' +
       'Save the work as a file (Ctrl+S), or close the other tab and reload this page.');
   setInterval(store, kStoreMs);
   // The title of an unsaved work begins with a star.
   window.addEventListener('beforeunload', event => {
-    if ((!stores || warned) && document.title.startsWith('*')) event.preventDefault();
+    if (!kept() && document.title.startsWith('*')) event.preventDefault();
   });
 }
 
-let changed = false, storing = false, warned = false;
+// Failures in a row. A first one may be a file that the program has just deleted, so it is no problem
+// before the second one.
+let failures = 0;
+const failing = () => failures > 1;
+
+let changed = false, storing = false;
 function store() {
   if (!stores || !changed || storing || !studio) return;
   changed = false;
   storing = true;
   studio.FS.syncfs(false, error => {
     storing = false;
-    if (!error) {
-      if (warned) status('The work is stored again');
-      warned = false;
-      return;
-    }
-    changed = true;
-    if (warned) return;
-    warned = true;
-    const full = error.name === 'QuotaExceededError';
-    warn('The browser cannot store the work: ' +
-      (full ? 'its storage is full' : error.message || error.name || error) +
-      '. What it stored before remains. Save the work as a file (Ctrl+S).');
+    if (error) return notStored(error);
+    if (failing()) status('The work is stored again');
+    failures = 0;
   });
+}
+
+function notStored(error) {
+  changed = true;
+  studio.IDBFS.quit();  // opened anew next time: somebody may have cleared the storage
+  if (++failures !== 2) return;
+  warn(`The browser cannot store the work: ${reason(error)}. What it stored before remains. ` +
+    'Save the work as a file (Ctrl+S).');
 }
 
 /// The next start needs no server. Browsers offer this on https and localhost alone.

@@ -72,9 +72,24 @@ class Fingers {
     this.last = now;
   }
 
-  end(event) {
-    if (!this.down.delete(event.pointerId)) return;
-    if (this.state === 'waiting') this.press();  // a tap
+  touching() { return this.down.size > 0; }
+
+  /// False: the finger did nothing. `cancelled`: the system has taken it, so it was no tap.
+  end(event, cancelled = false) {
+    if (!this.down.delete(event.pointerId)) return false;
+    if (this.state === 'waiting' && !cancelled) this.press();  // a tap
+    this.release();
+    return true;
+  }
+
+  /// Another pointer goes on alone.
+  stop() {
+    this.down.clear();
+    this.release();
+  }
+
+  release() {
+    clearTimeout(this.timer);
     if (this.state === 'pressing') this.mouse.press(0, false);
     if (this.state === 'turning') this.mouse.press(2, false);
     this.state = this.down.size > 0 ? 'ended' : 'none';  // the fingers that are left do nothing

@@ -28,7 +28,7 @@ function newWorker(take, fail) {
   made.onmessage = ({data}) => { if (data.failure) fail(data.failure); else take(data); };
   made.onerror = event => {
     event.preventDefault();
-    fail(event.message);
+    fail(event.message || 'worker.js could not be loaded');
   };
   compiled().then(code => made.postMessage({code}), error => fail(error.message));
   return made;
