@@ -203,7 +203,7 @@ export async function gamepad({open, folder}) {
   await hold(kRedo, 0);
   const strokes = await saved(page, folder);
   const stick = 150 * rate(kHalf, 0.15);
-  const air = strokes.map(stroke => steadySpeed(part(stroke, depth, depth(stroke[0]) + 2, depth(stroke[0]) + 10), depth));
+  const air = strokes.map(stroke => speed(part(stroke, depth, depth(stroke[0]) + 2, depth(stroke[0]) + 10), depth));
   console.log(`  stick at ${kHalf}: ${air.map(v => v.toFixed(1)).join(', ')} mm/s, expected ${stick.toFixed(1)}`);
   for (const v of air) near(v, stick, 0.1, 'speed of the stick beside the clay [mm/s]');
   checkBites(strokes, kPulls.map(pulled => (pulled - 0.05) / 0.95), 'trigger');
