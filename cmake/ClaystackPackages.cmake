@@ -31,8 +31,8 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "throw pots on a virtual wheel and export files that print
  Claystack throws a pot from a recorded session, from strokes or by hand with
  a haptic arm, and exports it as a solid that is proved closed: 3MF, STL, OBJ,
- PLY, GLB, Draco or STEP. It also imports drawings, checks and repairs any mesh, and
- draws pictures without a screen.")
+ PLY, GLB, Draco or STEP. It also imports drawings, checks and repairs any
+ mesh, and draws pictures without a screen.")
 # The libraries of OpenGL are opened at run time, where dpkg-shlibdeps cannot see them.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1, libgl1-mesa-dri")
 # The pages link to the headers and example programs.
