@@ -215,7 +215,7 @@ class Package(unittest.TestCase):
             file.writelines(f"v {x / 1e3} {y / 1e3} {z / 1e3}\n" for x, y, z in cup.points)
             file.writelines(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in cup.triangles)
         printed = self.run_program("check", "-q", path).stderr.decode()
-        for call in (claystack.read_mesh, claystack.check, claystack.import_pot):
+        for call in (claystack.read_mesh, claystack.check):
             with self.assertWarns(UserWarning) as warned:
                 call(path)
             self.assertTrue(str(warned.warning).startswith(
@@ -223,6 +223,10 @@ class Package(unittest.TestCase):
             self.assertEqual(warned.filename, __file__)
             words = str(warned.warning)[len(path) + 2:]
             self.assertIn(words, printed)
+        # Too small for a pot: refused, with the same words.
+        with self.assertRaises(claystack.Error) as refused:
+            claystack.import_pot(path)
+        self.assertIn(words, str(refused.exception))
 
     def test_finds_faults_of_a_mesh(self):
         with open(self.file("open.off"), "w", encoding="utf-8") as file:
