@@ -249,7 +249,6 @@ void clear(Contact& contact) noexcept {
   contact.rings.clear();
   contact.edge_count = 0;
   contact.has_front = false;
-  contact.end_depth2 = {};
 }
 
 template <class Past>

@@ -21,7 +21,6 @@ struct FlatEnd {
   [[nodiscard]] double part() const noexcept {
     return depth_mm > 0.0 ? 2.0 * pressed_mm / depth_mm : 0.0;
   }
-  friend bool operator==(const FlatEnd&, const FlatEnd&) = default;
 };
 /// The lower end, and the upper one.
 using FlatEnds = std::array<FlatEnd, 2>;

@@ -8,8 +8,6 @@ namespace clay::falcon::inline device {
 namespace {
 
 constexpr std::uint8_t kLight = 4;  // the number of the report that switches the LED
-// As many as the kernel keeps: a device that floods the line must not hold the servo.
-constexpr int kMostReports = 64;
 
 class SpaceMouse final : public HapticDevice {
  public:
@@ -46,7 +44,8 @@ class SpaceMouse final : public HapticDevice {
     std::array<std::uint8_t, 64> report{};
     int size = 0;
     const std::int64_t now_us = port_->now_us();
-    for (int reports = 0; reports < kMostReports && (size = port_->read(report)) > 0; ++reports) {
+    for (int reports = 0; reports < kMostReportsPerRead && (size = port_->read(report)) > 0;
+         ++reports) {
       ++counters_.frames;
       if (reports_.take(std::span(report).first(static_cast<std::size_t>(size))))
         heard_us_ = now_us;

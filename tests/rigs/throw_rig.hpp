@@ -200,9 +200,11 @@ class ThrowRig : public testing::Test {
     for (const FrameLog& frame : log)
       max_force_n = std::max(max_force_n, glm::length(frame.force_n));
     const auto servo = run.json().at("servo");
-    if (servo.at("rate_hz") > 800.0 && !servo.at("guard").at("safe").contains("overrun")) {
+    constexpr double kFastHz = 500.0;  // below, the stiffness accepted at this rate is low
+    if (servo.at("rate_hz") > kFastHz && !servo.at("guard").at("safe").contains("overrun")) {
       EXPECT_GT(displayed_ns, 0.2 * clay_ns) << "the full force, except during the ramp";
       EXPECT_GT(max_force_n, 0.1);
+      EXPECT_GT(lengths, 0.0) << "some force is above kClearN";
     }
     EXPECT_LT(max_force_n, 5.1) << "the limit plus motor rounding";
     EXPECT_EQ(log.back().motors, LegCounts{}) << "the last command";

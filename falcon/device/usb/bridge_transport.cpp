@@ -9,8 +9,6 @@ namespace {
 
 constexpr std::size_t kReport = 64;
 constexpr std::size_t kMostInReport = kReport - 1;
-// As many as the kernel keeps: a device that floods the line must not hold the servo.
-constexpr int kMostReports = 64;
 
 using Report = std::array<std::uint8_t, 1 + kReport>;  // hidapi puts the report's number first
 
@@ -53,7 +51,8 @@ class BridgeTransport final : public Transport {
   Received read(std::span<std::uint8_t> bytes, std::int64_t wait_us) noexcept override {
     Received received{0, monotonic_us(), WireStatus::ok};
     const std::int64_t end_us = received.time_us + wait_us;
-    for (int reports = 0; reports < kMostReports && bytes.size() - received.size >= kMostInReport;
+    for (int reports = 0;
+         reports < kMostReportsPerRead && bytes.size() - received.size >= kMostInReport;
          ++reports) {
       const std::int64_t left_us =
           received.size > 0 ? 0 : std::max<std::int64_t>(end_us - monotonic_us(), 0);

@@ -40,6 +40,19 @@ std::string file(const std::string& entities, int unit = 4) {
          entities + groups({{0, "ENDSEC"}, {0, "EOF"}});
 }
 
+/// Semi-axes of 60 mm upward and 30 mm, between two parameters [rad].
+std::string upright_ellipse(const std::string& from, const std::string& to) {
+  return groups({{0, "ELLIPSE"},
+                 {8, "0"},
+                 {10, "0"},
+                 {20, "0"},
+                 {11, "0"},
+                 {21, "60"},
+                 {40, "0.5"},
+                 {41, from},
+                 {42, to}});
+}
+
 const HalfSectionSettings kLeft{AxisRule::left, 0.0, {}};
 
 double volume_of(const std::string& bytes) {
@@ -145,30 +158,14 @@ TEST(DxfDrawing, ArcsCirclesAndEllipsesAreRound) {
   const auto torus = section_of(file(circle), "pot.dxf", {AxisRule::at, 0.0, {}});
   ASSERT_TRUE(torus) << refusal_of(torus);
   EXPECT_NEAR(torus->volume_mm3(), 2.0 * kPi * 50.0 * kPi * 100.0, kFlatMm * 4 * kPi * kPi * 500);
-  const auto ellipse = groups({{0, "ELLIPSE"},
-                               {8, "0"},
-                               {10, "0"},
-                               {20, "0"},
-                               {11, "0"},
-                               {21, "60"},
-                               {40, "0.5"},
-                               {41, fmt::format("{}", kPi)},
-                               {42, fmt::format("{}", 2.0 * kPi)}});
+  const auto ellipse = upright_ellipse(fmt::format("{}", kPi), fmt::format("{}", 2.0 * kPi));
   EXPECT_NEAR(volume_of(file(ellipse)), 4.0 / 3.0 * kPi * 900.0 * 60.0, kFlatMm * 1e5);
 }
 
 TEST(DxfDrawing, AFullTurnMayBeWrittenWithFewDigits) {
   // As "%f", "%g" and shorter formats write two pi, and 360 degrees with an error of float32.
   for (const char* end : {"6.283185", "6.28319", "6.2832"}) {
-    const auto ellipse = groups({{0, "ELLIPSE"},
-                                 {8, "0"},
-                                 {10, "0"},
-                                 {20, "0"},
-                                 {11, "0"},
-                                 {21, "60"},
-                                 {40, "0.5"},
-                                 {41, "0"},
-                                 {42, end}});
+    const auto ellipse = upright_ellipse("0", end);
     const auto section = section_of(file(ellipse), "pot.dxf", {AxisRule::middle, 0.0, {}});
     ASSERT_TRUE(section) << end << refusal_of(section);
     EXPECT_NEAR(section->volume_mm3(), 4.0 / 3.0 * kPi * 900.0 * 60.0, kFlatMm * 1e5) << end;

@@ -25,7 +25,7 @@ struct Swing {
 class Loop {
  public:
   explicit Loop(bool with_controller) : with_controller_(with_controller) {}
-  /// A device that measures, and executes a force, only once in so many ticks.
+  /// A slow device: it reads its position and applies the force once in `ticks_per_frame` ticks.
   explicit Loop(int ticks_per_frame)
       : with_controller_(true),
         ticks_per_frame_(ticks_per_frame),

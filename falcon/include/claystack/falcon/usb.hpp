@@ -75,6 +75,10 @@ class RateControl {
   std::int64_t last_us_ = 0;
 };
 
+/// Reports of a HID device that one reading takes at most, as many as the kernel keeps: a device
+/// that floods the line must not hold the servo.
+inline constexpr int kMostReportsPerRead = 64;
+
 /// The reports of an open HID device, by any medium.
 class ReportPort {
  public:
