@@ -42,6 +42,8 @@ std::optional<SceneSpec> with_rule(SceneSpec scene, std::string_view rule) {
     clay.finger_mm = history::kFingerMm;
   } else if (rule == "thin wall")
     clay.shift = clay.thin_wall_yields = true;
+  else if (rule == "pressed rim" && scene.tool.mode == ToolMode::press)
+    clay.heave = clay.rim_sinks = true;
   else
     return std::nullopt;
   return scene;

@@ -142,11 +142,12 @@ Contender alone(const std::string& name, bool ClaySpec::*rule) {
   return with_rules(name + " alone", rules);
 }
 
-/// The settings of a new work: the six rules, a finger, and a thin wall that yields.
+/// The settings of a new work: the six rules, a finger, a thin wall that yields, and a rim that
+/// sinks.
 ClaySpec rules_of_a_new_work() {
   ClaySpec rules;
   rules.finger_mm = history::kFingerMm;
-  rules.thin_wall_yields = true;
+  rules.thin_wall_yields = rules.rim_sinks = true;
   return rules;
 }
 
@@ -159,8 +160,8 @@ void measure_rules(Section& section, const Effort& effort) {
               {{"rules", ""}, {"engine_ns", "ns"}, {"iqr_ns", "ns"}, {"over_none", ""}},
               {},
               "200 rings, one tool, so lift does not act. Shift includes hoop, which is a part of "
-              "it. The last row has the settings of a new work: all six rules, a finger, and a "
-              "thin wall that yields."};
+              "it. The last row has the settings of a new work: all six rules, a finger, a "
+              "thin wall that yields, and a rim that sinks."};
   const std::vector<Contender> contenders{
       engine_at("none", "", press_scene(200)), alone("rim", &ClaySpec::rim),
       alone("shift", &ClaySpec::shift),        alone("heave", &ClaySpec::heave),

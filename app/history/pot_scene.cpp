@@ -19,7 +19,8 @@ SceneSpec usual_scene(double height_mm) {
   scene.flow = {.sigma_mm = 0.12 * height_mm, .reach_mm = 0.5 * height_mm, .inside_share = 0.25};
   scene.force->stiffness_n_per_mm2 = 0.03;
   scene.force->friction = 0.2;
-  scene.clay = ClaySpec{.floor_mm = kFloorMm, .finger_mm = kFingerMm, .thin_wall_yields = true};
+  scene.clay = ClaySpec{
+      .floor_mm = kFloorMm, .finger_mm = kFingerMm, .thin_wall_yields = true, .rim_sinks = true};
   return scene;
 }
 

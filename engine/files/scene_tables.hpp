@@ -18,6 +18,7 @@ namespace clay::files {
 inline constexpr Range kToolSizeMm = above(0).to(kMaxRadiusMm);
 inline constexpr std::array<std::string_view, 2> kSwitchNames = {"off", "on"};
 inline constexpr std::array<std::string_view, 2> kThinWallNames = {"stops", "yields"};
+inline constexpr std::array<std::string_view, 2> kPressedRimNames = {"bends", "sinks"};
 inline constexpr std::array<std::string_view, 2> kWheelTurnNames = {"clockwise",
                                                                     "counterclockwise"};
 
@@ -99,6 +100,7 @@ void describe(auto& io, Is<ClaySpec> auto& clay) {
   io.number("floor_mm", clay.floor_mm, ranges::kFloorMm);
   io.number("finger_mm", clay.finger_mm, ranges::kFingerMm);
   io.choice_unless(false, "thin_wall", clay.thin_wall_yields, files::kThinWallNames);
+  io.choice_unless(false, "pressed_rim", clay.rim_sinks, files::kPressedRimNames);
 }
 
 void describe(auto& io, Is<ThrowSettings> auto& settings) {

@@ -78,14 +78,17 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
   const double hip_y = press.tool.hip_mm.y, dt_s = press.tool.dt_s;
   work.shift.clear();
   work.walls.begin(removals.front().contact.bottom);
+  work.pressed = {};
   const Squeeze squeeze{plan.removal.min_wall_mm, plan.clay.floor_rings,
                         plan.mode == ToolMode::trim_foot, (rules & kShift) ? &work.shift : nullptr};
   const bool two = removals.size() == 2;
+  const bool sinks = (rules & kHeave) && plan.clay.rim_sinks && !two && !press.trim;
   if (!two || kTwoToolBand<rules>)
     for (std::size_t k = 0; k < removals.size(); ++k) {
       Contact& contact = removals[k].contact;
       if (contact.rings.empty()) continue;
       give_way(plan.removal, stack, dt_s, contact);
+      if (sinks) work.pressed = press_rim(plan.tool, press.motion, stack, hip_y, contact);
       if (two || kOneToolBand<rules>)
         make_in_place(work.bands[k], [&] { return band_of(plan.tool, stack, hip_y, contact); });
     }
@@ -102,12 +105,15 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
     squeeze_out(squeeze, stack, contact, removals[0].removed);
   }
   if constexpr (rules & kHeave) {
+    ToolState aside = press.tool;
+    aside.dt_s *= work.pressed.aside;
     for (std::size_t k = 0; k < removals.size(); ++k)
       if (!removals[k].contact.rings.empty())
         make_in_place(work.cones[k], [&] {
-          return relieve_touched(plan, work.shoulders, stack, press.tool, work.bands[k], squeeze,
+          return relieve_touched(plan, work.shoulders, stack, aside, work.bands[k], squeeze,
                                  removals, k, press.trim);
         });
+    if (sinks) limit_to_rim(stack, squeeze, removals[0], work.pressed);
     work.finger = {};
     if (!two && !press.trim) work.finger = finger_of(plan, press.tool, stack, removals[0].contact);
   }
@@ -132,26 +138,29 @@ WideQuanta upward_part(WideQuanta amount, const Motion& motion, const ToolState&
   return (amount * static_cast<std::int64_t>(part * 0x1p30)) >> 30;
 }
 
-/// The part of the clay that one tool squeezes aside that goes inside: the scene's share. It is
-/// less if a tool squeezes a wall from outside that is thicker than the contact is high: the flow
-/// of a punch does not reach through it.
+/// The part of the clay that one tool squeezes out that goes inside: the scene's share. It is less
+/// if a tool squeezes a wall from outside that is thicker than the contact is high: the flow of a
+/// punch does not reach through it. Clay of a rim that is pressed down goes to both sides.
 std::int64_t inside_share(const StepPlan& plan, const ClayStack& stack, const Contact& contact,
-                          const Band& band) noexcept {
+                          const Band& band, double aside) noexcept {
   if (contact.side == Side::expansive) return plan.inside_share;
   const double w = wall_mm(stack.rings()[std::min(band.ring, stack.size() - 1)]);
   const double c = std::max(band.height_mm(), stack.ring_height_mm());
-  const auto through = static_cast<std::int64_t>(c * c / (c * c + w * w) * 0x1p20);
+  const double reach = c * c / (c * c + w * w), more = (1.0 - aside) * (1.0 - reach);
+  const auto through = static_cast<std::int64_t>((reach + more) * 0x1p20);
   return (plan.inside_share * through) >> 20;
 }
 
-/// Lays the clay that one tool squeezed aside beside it. Returns the part that becomes height.
+/// Lays the clay that one tool squeezed out beside it; that of a pressed rim goes down. Returns the
+/// part that becomes height.
 template <unsigned rules>
 WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removals, RuleWork& work,
                     WideQuanta amount, ClayStack& stack, Rim* rim) noexcept {
   const StepPlan& plan = press.plan;
   const std::size_t at = removals[0].contact.rings.empty() ? removals.size() - 1 : 0;
   const Contact& contact = removals[at].contact;
-  [[maybe_unused]] const std::int64_t share = inside_share(plan, stack, contact, work.bands[at]);
+  [[maybe_unused]] const std::int64_t share =
+      inside_share(plan, stack, contact, work.bands[at], work.pressed.aside);
   const auto flow = [&](WideQuanta part, bool up) {
     if (part == 0) return part;
     if constexpr (rules & kHeave) {
@@ -176,22 +185,21 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
     }
   };
   const WideQuanta up = upward_part(amount, press.motion, press.tool);
-  return flow(up + flow(amount - up, false), true);
+  return flow(up + flow(amount - up + work.pressed.down, false), true);
 }
 
 /// Removes the clay in the cones beyond the contacts. Returns it.
 WideQuanta relieve(const RulePress& press, std::span<const ToolRemoval> removals,
                    const RuleWork& work, const ClayStack& stack, StackWriter& writer) noexcept {
   WideQuanta removed = 0;
+  const double dt_s = press.tool.dt_s * work.pressed.aside;
   for (std::size_t k = 0; k < removals.size(); ++k)
     if (!removals[k].contact.rings.empty())
       for (const Cone& cone : work.cones[k])
         if (cone.meets)
-          removed +=
-              relieve_beyond(press.plan, cone, stack, press.tool.dt_s, removals[k].contact, writer);
+          removed += relieve_beyond(press.plan, cone, stack, dt_s, removals[k].contact, writer);
   if (work.finger.stands())
-    removed += relieve_finger(press.plan, work.finger, stack, press.tool.dt_s, removals[0].contact,
-                              writer);
+    removed += relieve_finger(press.plan, work.finger, stack, dt_s, removals[0].contact, writer);
   return removed;
 }
 
@@ -273,7 +281,8 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
   else if ((rules & kLift) && removals.size() == 2)
     writer.put_on_crown(removed);
   else
-    writer.put_on_crown(displace<rules>(press, removals, work, removed, stack, rim));
+    writer.put_on_crown(displace<rules>(press, removals, work, removed, stack, rim) -
+                        work.pressed.down);
   if constexpr (rules & kSmear)
     if (!press.trim && press.tool.slow_s > 0.0)
       smear_surfaces(press, removals, work, stack, writer);
@@ -284,7 +293,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
   flow.highest = std::min(work.highest, top);
   if (stack.crown() < 0)
     sink_rim(flow, plan.tool, press.tool.hip_mm.y, removals, stack, writer);
-  else
+  else if (work.pressed.aside == 1.0)
     grow_rim(flow, plan, press.tool.hip_mm.y, removals, stack, rim, writer);
   return flow;
 }

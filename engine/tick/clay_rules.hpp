@@ -9,6 +9,7 @@
 #include "engine/tick/redistribution.hpp"
 #include "engine/tick/relief.hpp"
 #include "engine/tick/removal.hpp"
+#include "engine/tick/rim_press.hpp"
 #include "engine/tick/shift.hpp"
 #include "engine/tick/wall_radii.hpp"
 #include "engine/tool/tool_state.hpp"
@@ -35,6 +36,7 @@ struct RuleWork {
   Shoulders shoulders;                       ///< of the tool
   std::array<std::array<Cone, 2>, 2> cones;  ///< of each tool: at its lower end, at its upper end
   Finger finger;                             ///< of one tool
+  RimPress pressed;                          ///< of one tool
   std::array<double, 2> reach_mm{};          ///< of the clay that each tool heaves
   std::size_t lowest = 0, highest = 0;       ///< rings that the flow may change
 

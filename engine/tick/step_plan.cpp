@@ -85,6 +85,10 @@ double finger_mm(const SceneSpec& s) {
   return s.clay && s.tool.mode == ToolMode::press ? s.clay->finger_mm.value_or(0.0) : 0.0;
 }
 
+bool sinks_rim(const SceneSpec& s) {
+  return s.clay && s.clay->rim_sinks && s.clay->heave && s.tool.mode == ToolMode::press;
+}
+
 RulesPlan rules_plan(const SceneSpec& s) {
   if (!s.clay) return {};
   // Rings whose middle is below the floor's height. A foot may be trimmed until the floor is as
@@ -93,8 +97,12 @@ RulesPlan rules_plan(const SceneSpec& s) {
   const double rings = s.tool.mode == ToolMode::trim_foot ? std::ceil(s.removal.min_wall_mm / h)
                                                           : s.clay->floor_mm / h + 0.5;
   constexpr double kTurn = 2.0 * std::numbers::pi;
-  return {rules_of(s), static_cast<std::size_t>(std::fmin(rings, static_cast<double>(kMaxRings))),
-          kTurn * s.clay->wheel_rpm / 60.0, finger_mm(s), s.clay->thin_wall_yields};
+  return {rules_of(s),
+          static_cast<std::size_t>(std::fmin(rings, static_cast<double>(kMaxRings))),
+          kTurn * s.clay->wheel_rpm / 60.0,
+          finger_mm(s),
+          s.clay->thin_wall_yields,
+          sinks_rim(s)};
 }
 
 ForcePlan force_plan(const SceneSpec& s) {
@@ -160,6 +168,12 @@ void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
                    : s.clay->thin_wall_yields
                        ? "a foot has no rule against a ledge"
                        : "a tool from inside goes through a wall at its minimum"});
+  const bool sinks = any && sinks_rim(s);
+  lines.push_back({"pressed rim", sinks,
+                   sinks               ? "a tool that comes down on the rim presses it down"
+                   : !any              ? none
+                   : s.clay->rim_sinks ? "heave is off, or the tool does not press"
+                                       : "a tool that comes down on the rim goes aside"});
 }
 
 void describe_force(const SceneSpec& s, unsigned stages, std::vector<PlanLine>& lines) {

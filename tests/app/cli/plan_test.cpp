@@ -27,10 +27,10 @@ TEST(Plan, LeavesOutUnneededStages) {
   const auto run = claystack("plan --json " + folder.file("s.scene.json"));
   ASSERT_EQ(run.status, 0) << run.err;
   const auto plan = run.json();
-  EXPECT_EQ(
-      stages(plan, "left_out"),
-      (std::set<std::string>{"inner surface", "friction", "stability", "pinch", "lift", "shift",
-                             "rim", "hoop", "heave", "smear", "finger", "thin wall"}));
+  EXPECT_EQ(stages(plan, "left_out"),
+            (std::set<std::string>{"inner surface", "friction", "stability", "pinch", "lift",
+                                   "shift", "rim", "hoop", "heave", "smear", "finger", "thin wall",
+                                   "pressed rim"}));
   EXPECT_EQ(stages(plan, "in"), (std::set<std::string>{"tool state", "contact", "removal",
                                                        "outer surface", "growth", "force"}));
   for (const auto& line : plan.at("left_out")) {
@@ -46,7 +46,7 @@ TEST(Plan, KeepsAllNeededStages) {
   scene["force"]["friction"] = 0.2;
   scene["stability"]["max_stress_kpa"] = 10;
   scene["tool"]["gap_mm"] = 5;
-  scene["clay"] = {{"finger_mm", 90}, {"thin_wall", "yields"}};
+  scene["clay"] = {{"finger_mm", 90}, {"thin_wall", "yields"}, {"pressed_rim", "sinks"}};
   write_text(folder.file("s.scene.json"), scene.dump());
   EXPECT_TRUE(
       claystack("plan --json " + folder.file("s.scene.json")).json().at("left_out").empty());

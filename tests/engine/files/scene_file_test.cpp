@@ -57,7 +57,8 @@ constexpr std::string_view kText = R"({
     "wheel_rpm": 90,
     "floor_mm": 7,
     "finger_mm": 80,
-    "thin_wall": "yields"
+    "thin_wall": "yields",
+    "pressed_rim": "sinks"
   }
 }
 )";

@@ -26,13 +26,15 @@ TEST(SceneHash, IgnoresTheWritingVersion) {
   EXPECT_EQ(hash_of(scene), fnv1a(text));
 }
 
-/// Sessions name the hash of their scene, and many were recorded before there was this setting.
-TEST(SceneHash, AWallThatStaysIsNotInTheText) {
+/// Sessions name the hash of their scene, and many were recorded before there were these settings.
+TEST(SceneHash, OmitsAWallAndARimThatStay) {
   SceneSpec scene;
   scene.clay = ClaySpec{};
   EXPECT_EQ(write_scene(scene).find("thin_wall"), std::string::npos);
-  scene.clay->thin_wall_yields = true;
+  EXPECT_EQ(write_scene(scene).find("pressed_rim"), std::string::npos);
+  scene.clay->thin_wall_yields = scene.clay->rim_sinks = true;
   EXPECT_NE(write_scene(scene).find("thin_wall"), std::string::npos);
+  EXPECT_NE(write_scene(scene).find("pressed_rim"), std::string::npos);
 }
 
 RC_GTEST_PROP(SceneHash, DistinguishesScenes, ()) {

@@ -129,7 +129,7 @@ TEST(LanesOfRules, GiveTheSameBitsForAnyMotion) {
       scene.lump.max_rings = 2 * scene.lump.rings;
       scene.clay = ClaySpec{};
       scene.clay->floor_mm = 5.0;
-      scene.clay->thin_wall_yields = true;
+      scene.clay->thin_wall_yields = scene.clay->rim_sinks = true;
       if (sponge) scene.tool.mode = ToolMode::smooth;
       EXPECT_TRUE(thrown_with(scene, true) == thrown_with(scene, false)) << h << sponge;
     }

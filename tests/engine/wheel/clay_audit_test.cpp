@@ -36,7 +36,8 @@ TEST(ClayAudit, AccountsForEveryQuantumAfterEveryTick) {
                           120.0,
                           3.0,
                           (rules / 7) % 2 == 1 ? std::optional(90.0) : std::nullopt,
-                          (rules / 7) % 4 < 2};
+                          (rules / 7) % 4 < 2,
+                          (rules / 7) % 3 == 1};
     Wheel wheel = Wheel::build(scene).value();
     for (const Pose& pose : random_poses(rules + 1, ticks())) {
       if (wheel.collapsed()) wheel = Wheel::build(scene).value();
@@ -184,6 +185,8 @@ TEST(ClayAudit, ClayNeverMovesIntoTheTool) {
   scene.clay->finger_mm = 90.0;
   expect_no_gain_of_energy(scene);
   scene.clay->thin_wall_yields = true;
+  expect_no_gain_of_energy(scene);
+  scene.clay->rim_sinks = true;
   expect_no_gain_of_energy(scene);
 }
 

@@ -131,6 +131,9 @@ struct ClaySpec {
   /// (needs `shift`), and the rim sinks to supply the clay; a cut removes a tip of the rim that
   /// would project as a ledge. A press from outside always bends the wall.
   bool thin_wall_yields = false;
+  /// A tool that comes down on the rim. False: it goes aside. True: it presses the rim down (needs
+  /// `heave`), and the wall below becomes thicker.
+  bool rim_sinks = false;
   friend bool operator==(const ClaySpec&, const ClaySpec&) = default;
 };
 
