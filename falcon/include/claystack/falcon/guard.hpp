@@ -89,7 +89,7 @@ struct WantedForce {
 enum class GuardState {
   idle,     ///< the device is not ready, or has sent no frame yet
   waiting,  ///< for a small force
-  ramping,  ///< increasing the part of the force: after waiting, or after fading
+  ramping,  ///< increasing the part of the force: after waiting, fading or a tick that ended it
   engaged,
   fading,  ///< reducing the force: stale frames, old clay, hot motors
   safe,    ///< force 0 until rearm(), or for a while if the cause clears itself
