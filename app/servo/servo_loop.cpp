@@ -47,8 +47,9 @@ Result<ServoLoop> ServoLoop::build(const LoopParts& parts, const LiveSettings& s
   guard_settings.period_s = 1.0 / settings.rate_hz;
   auto guard = falcon::ForceGuard::build(guard_settings);
   if (!guard) return tl::make_unexpected(falcon::error_of(guard.error()));
-  auto controller = falcon::PassivityController::build(
-      {.loop = loop_of(settings), .step_mm = settings.encoder_step_mm});
+  const falcon::SampledLoop loop = loop_of(settings, parts.device.info());
+  auto controller =
+      falcon::PassivityController::build({.loop = loop, .step_mm = settings.encoder_step_mm});
   if (!controller) return tl::make_unexpected(falcon::error_of(controller.error()));
   return ServoLoop(parts, settings, *mapping, std::move(*guard), std::move(*controller));
 }
@@ -63,7 +64,11 @@ ServoLoop::ServoLoop(const LoopParts& parts, const LiveSettings& settings, const
       guard_(std::move(guard)),
       hand_(std::move(controller)),
       clay_(parts.wheel, parts.recorder, clay_period_us(settings)),
-      pacer_(period_ns(settings.rate_hz)) {}
+      pacer_(period_ns(settings.rate_hz)) {
+  const falcon::DeviceInfo& info = parts.device.info();
+  if (loop_of(settings, info).delay_ticks > settings.arm.delay_ticks)
+    status_.answer_ms = 1e-3 * static_cast<double>(info.answer_us);
+}
 
 void ServoLoop::start() noexcept {
   started_ns_ = last_begun_ns_ = parts_.clock.now_ns();

@@ -8,14 +8,13 @@
 namespace clay::falcon::inline sim {
 namespace {
 
-// Latency timer and two frames at 1.5 Mbaud, rounded to the known rate of a Falcon.
-constexpr std::int64_t kAnswerUs = 1'000;
 constexpr int kPatience = 1'000'000;  // polls: about ten milliseconds
 
 }  // namespace
 
-LoopbackTransport::LoopbackTransport(std::shared_ptr<FalconModel> model, SimClock clock)
-    : model_(std::move(model)), clock_(clock) {}
+LoopbackTransport::LoopbackTransport(std::shared_ptr<FalconModel> model, SimClock clock,
+                                     std::int64_t answer_us)
+    : model_(std::move(model)), clock_(clock), answer_us_(answer_us) {}
 
 std::int64_t LoopbackTransport::now_us() const noexcept {
   return clock_ == SimClock::real ? monotonic_us() : stepped_us_;
@@ -61,7 +60,7 @@ WireStatus LoopbackTransport::write(std::span<const std::uint8_t> bytes) noexcep
   asked_us_ = now;
   if (model_->unplugged()) return WireStatus::unplugged;
   if (size_ == queue_.size()) return WireStatus::busy;
-  if (answer.size > 0) queue_[(first_ + size_++) % queue_.size()] = {now + kAnswerUs, answer, 0};
+  if (answer.size > 0) queue_[(first_ + size_++) % queue_.size()] = {now + answer_us_, answer, 0};
   return WireStatus::ok;
 }
 

@@ -15,10 +15,14 @@
 
 namespace clay::falcon::inline sim {
 
+/// Latency timer and two frames at 1.5 Mbaud, rounded to the known rate of a Falcon.
+inline constexpr std::int64_t kFalconAnswerUs = 1'000;
+
 class LoopbackTransport final : public Transport {
  public:
   /// Shares the model with its other owners, who may inspect it and plan faults between calls.
-  LoopbackTransport(std::shared_ptr<FalconModel> model, SimClock clock);
+  LoopbackTransport(std::shared_ptr<FalconModel> model, SimClock clock,
+                    std::int64_t answer_us = kFalconAnswerUs);
 
   [[nodiscard]] std::string describe() const override { return "simulated"; }
   [[nodiscard]] bool loads_firmware() const noexcept override { return true; }
@@ -43,6 +47,7 @@ class LoopbackTransport final : public Transport {
 
   std::shared_ptr<FalconModel> model_;
   SimClock clock_;
+  std::int64_t answer_us_;
   std::atomic<bool> model_held_{false};  // by `write` or `write_last`
   std::atomic<bool> open_{false};
   std::int64_t stepped_us_ = 3'600'000'000;  // an hour: clocks of computers are not near 0

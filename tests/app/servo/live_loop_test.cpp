@@ -472,6 +472,29 @@ TEST(LiveLoop, ReportsSlowSamples) {
   EXPECT_EQ(live.status().slow_hz, 0.0);
 }
 
+/// A bridge may answer after 4 ms, with several frames on their way: the force is late by four
+/// ticks, and the accepted stiffness is b / (2 * 4 + 1) T, with the T of the readings.
+TEST(LiveLoop, DeviceThatAnswersLateFeelsSofter) {
+  SceneSpec scene = rib_scene();
+  scene.removal.rate_per_s = 1e-9;
+  scene.force->friction = 0.0;
+  scene.force->stiffness_n_per_mm2 = 1.0;
+  const LiveSettings settings = one_to_one();
+  ASSERT_TRUE(soften(scene, settings));
+  const auto pressed = [&](std::int64_t answer_us) {
+    VirtualThrow live(scene, settings, press_to(1.0), nullptr, VirtualThrow::homed(), answer_us);
+    live.run(4.0);
+    return live.status();
+  };
+  const LiveStatus soon = pressed(1000), late = pressed(4000);
+  // An encoder step, 0.05 mm, is a twentieth of the depth.
+  EXPECT_NEAR(soon.force_n.x, 0.002 * 1000.0 / 3.0, 0.1 * soon.force_n.x);
+  EXPECT_EQ(soon.answer_ms, 0.0);
+  EXPECT_NEAR(late.force_n.x, 0.002 * late.slow_hz / 9.0, 0.1 * late.force_n.x);
+  EXPECT_EQ(late.answer_ms, 4.0);
+  EXPECT_NE(words_of(late, "r").find("answers after 4.0 ms"), std::string::npos);
+}
+
 TEST(LiveLoop, ProvidesTheOutlineOfTheClay) {
   VirtualThrow live(rib_scene(), one_to_one(), press_to(2.0));
   live.run(3.5);
