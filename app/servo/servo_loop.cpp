@@ -130,7 +130,7 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
   wanted_.clay_time_us = now_us;
   if (thrown_) status_.time_s = 1e-6 * static_cast<double>(now_us - first_us_);
   if (held_) {
-    wanted_ = {{}, now_us, true};
+    wanted_ = {.force_n = {}, .clay_time_us = now_us};
     status_.contact = false;
     status_.clay_n = {};
     return;
@@ -151,6 +151,7 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
   const HandForce::Wanted hand = hand_.answer(now_us, sample.position_mm, mapping_, report);
   wanted_.force_n = hand.force_n;
   wanted_.passive = hand.passive;
+  wanted_.contact_n = hand.contact_n;
 }
 
 /// The gate decides about the force: the watchdog may have shut it temporarily, a signal

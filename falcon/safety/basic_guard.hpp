@@ -68,7 +68,7 @@ class BasicForceGuard {
   void rest(double growing_s) noexcept;
   [[nodiscard]] glm::dvec3 limit(const glm::dvec3& wanted_n) noexcept;
   [[nodiscard]] double let_go(const TickTime& time, std::int64_t now_us) noexcept;
-  void earn(const glm::dvec3& limited_n, double growing_s) noexcept;
+  void earn(const glm::dvec3& limited_n, double contact_n, double growing_s) noexcept;
   [[nodiscard]] glm::dvec3 rise(const glm::dvec3& force_n, double growing_s) noexcept;
   [[nodiscard]] GuardState state(double gain) const noexcept;
 
@@ -156,7 +156,7 @@ GuardedForce BasicForceGuard<rules>::force(std::int64_t now_us,
 
   const glm::dvec3 limited = limit(wanted.force_n);
   const double held = let_go(time, now_us);
-  earn(limited, time.growing_s);
+  earn(limited, wanted.contact_n, time.growing_s);
   const double gain = held * engagement_.gain();
   const bool zero =
       cause_ != SafeCause::none || !ready_ || !frame_age_.any() || ends_force() || gain == 0.0;
@@ -241,11 +241,12 @@ double BasicForceGuard<rules>::let_go(const TickTime& time, std::int64_t now_us)
 }
 
 template <std::uint32_t rules>
-void BasicForceGuard<rules>::earn(const glm::dvec3& limited_n, double growing_s) noexcept {
+void BasicForceGuard<rules>::earn(const glm::dvec3& limited_n, double contact_n,
+                                  double growing_s) noexcept {
   if (cause_ != SafeCause::none || !ready_) return;
   const double small = settings_.small_force_n;
-  const bool unknown = (flags_ & kGuardNotFinite) != 0;
-  const double wanted = unknown ? settings_.force_limit_n : norm(limited_n);
+  const bool large = (flags_ & kGuardNotFinite) != 0 || !(contact_n < small);
+  const double wanted = large ? settings_.force_limit_n : norm(limited_n);
   if (!on(kRuleSmallForce))
     engagement_.want(0.0, small, 1);
   else if (admitted_ || !(wanted < small))

@@ -223,6 +223,23 @@ TEST(LiveLoop, PauseDoesNotRestoreAZeroedForce) {
   }
 }
 
+TEST(LiveLoop, ForceEngagesOutsideTheClayOnly) {
+  for (const double friction : {0.0, 0.2}) {
+    SceneSpec scene = rib_scene();
+    scene.removal.rate_per_s = 1e-9;
+    scene.force->friction = friction;
+    VirtualThrow live(scene, one_to_one(), [](double) { return glm::dvec3(-3.0, 0.0, 0.0); });
+    live.run(3.0);
+    ASSERT_GT(glm::length(live.status().clay_n), 1.0);
+    EXPECT_EQ(live.status().guard, GuardState::waiting) << friction;
+    EXPECT_NE(words_of(live.status(), "r").find("lift the tool"), std::string::npos);
+    live.hand = [from_s = live.time_s](double t) { return press_to(3.0)(t - from_s); };
+    live.run(3.2);
+    EXPECT_EQ(live.status().guard, GuardState::engaged) << friction;
+    EXPECT_GT(glm::length(live.status().force_n), 1.0);
+  }
+}
+
 // The watchdog may end the force at any moment of a tick. No older force may follow.
 TEST(LiveLoop, AForceFromBeforeAShutIsNeverSentAfterIt) {
   int shuts = 0;

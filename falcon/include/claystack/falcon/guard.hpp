@@ -84,6 +84,9 @@ struct WantedForce {
   glm::dvec3 force_n{0.0};        ///< any value, even NaN or infinite
   std::int64_t clay_time_us = 0;  ///< time of the clay state from which it was computed
   bool passive = true;            ///< false: the loop could not be made passive (passivity.hpp)
+  /// Force [N] of the contact before a controller reduced it to `force_n`: while it is not small,
+  /// the force does not engage.
+  double contact_n = 0.0;
 };
 
 enum class GuardState {
