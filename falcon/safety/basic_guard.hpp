@@ -67,8 +67,8 @@ class BasicForceGuard {
   [[nodiscard]] bool ends_force() const noexcept;
   void rest(double growing_s) noexcept;
   [[nodiscard]] glm::dvec3 limit(const glm::dvec3& wanted_n) noexcept;
-  [[nodiscard]] double let_go(const TickTime& time, std::int64_t now_us) noexcept;
-  void earn(const glm::dvec3& limited_n, double contact_n, double growing_s) noexcept;
+  [[nodiscard]] double remaining_part(const TickTime& time, std::int64_t now_us) noexcept;
+  void engage(const glm::dvec3& limited_n, double contact_n, double growing_s) noexcept;
   [[nodiscard]] glm::dvec3 rise(const glm::dvec3& force_n, double growing_s) noexcept;
   [[nodiscard]] GuardState state(double gain) const noexcept;
 
@@ -155,8 +155,8 @@ GuardedForce BasicForceGuard<rules>::force(std::int64_t now_us,
   rest(time.growing_s);
 
   const glm::dvec3 limited = limit(wanted.force_n);
-  const double held = let_go(time, now_us);
-  earn(limited, wanted.contact_n, time.growing_s);
+  const double held = remaining_part(time, now_us);
+  engage(limited, wanted.contact_n, time.growing_s);
   const double gain = held * engagement_.gain();
   const bool zero =
       cause_ != SafeCause::none || !ready_ || !frame_age_.any() || ends_force() || gain == 0.0;
@@ -223,7 +223,7 @@ glm::dvec3 BasicForceGuard<rules>::limit(const glm::dvec3& wanted_n) noexcept {
 /// Remaining fraction of the force, 0 to 1: while it fades because of frames, clay or motors, in a
 /// tick that ends it, and until it has recovered.
 template <std::uint32_t rules>
-double BasicForceGuard<rules>::let_go(const TickTime& time, std::int64_t now_us) noexcept {
+double BasicForceGuard<rules>::remaining_part(const TickTime& time, std::int64_t now_us) noexcept {
   const double frame_s = frame_age_.at(now_us), clay_s = clay_age_.at(now_us);
   double held = 1.0;
   if (frame_age_.any() && frame_s > settings_.stale_fade_s) flags_ |= kGuardStale;
@@ -241,7 +241,7 @@ double BasicForceGuard<rules>::let_go(const TickTime& time, std::int64_t now_us)
 }
 
 template <std::uint32_t rules>
-void BasicForceGuard<rules>::earn(const glm::dvec3& limited_n, double contact_n,
+void BasicForceGuard<rules>::engage(const glm::dvec3& limited_n, double contact_n,
                                   double growing_s) noexcept {
   if (cause_ != SafeCause::none || !ready_) return;
   const double small = settings_.small_force_n;

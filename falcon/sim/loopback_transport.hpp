@@ -43,7 +43,7 @@ class LoopbackTransport final : public Transport {
   [[nodiscard]] OnTheWay& first() noexcept { return queue_[first_ % queue_.size()]; }
   void wait_until(std::int64_t time_us) noexcept;
   [[nodiscard]] bool hold_model() noexcept;
-  void let_go(bool held) noexcept;
+  void release_model(bool held) noexcept;
 
   std::shared_ptr<FalconModel> model_;
   SimClock clock_;
