@@ -53,9 +53,8 @@ falcon::SampledLoop loop_of(const LiveSettings& settings) noexcept {
   return loop;
 }
 
-falcon::SampledLoop loop_of(const LiveSettings& settings,
-                            const falcon::DeviceInfo& device) noexcept {
-  falcon::SampledLoop loop = loop_of(settings);
+falcon::SampledLoop with_delay_of(const falcon::DeviceInfo& device,
+                                  falcon::SampledLoop loop) noexcept {
   // A servo waits half a period longer than one for an answer; then another is on its way.
   const double ticks = 1e-6 * static_cast<double>(device.answer_us) * loop.rate_hz;
   const double late = std::clamp(std::ceil(ticks - 0.5), 0.0, 1.0 * falcon::kMostDelayTicks);

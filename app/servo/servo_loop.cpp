@@ -47,37 +47,47 @@ Result<ServoLoop> ServoLoop::build(const LoopParts& parts, const LiveSettings& s
   guard_settings.period_s = 1.0 / settings.rate_hz;
   auto guard = falcon::ForceGuard::build(guard_settings);
   if (!guard) return tl::make_unexpected(falcon::error_of(guard.error()));
-  const falcon::SampledLoop loop = loop_of(settings, parts.device.info());
-  auto controller =
-      falcon::PassivityController::build({.loop = loop, .step_mm = settings.encoder_step_mm});
+  const falcon::PassivitySettings passivity{.loop = loop_of(settings),
+                                            .step_mm = settings.encoder_step_mm};
+  auto controller = falcon::PassivityController::build(passivity);
   if (!controller) return tl::make_unexpected(falcon::error_of(controller.error()));
-  return ServoLoop(parts, settings, *mapping, std::move(*guard), std::move(*controller));
+  return ServoLoop(parts, settings, *mapping, std::move(*guard), passivity, std::move(*controller));
 }
 
 ServoLoop::ServoLoop(const LoopParts& parts, const LiveSettings& settings, const Mapping& mapping,
-                     falcon::ForceGuard guard, falcon::PassivityController controller)
+                     falcon::ForceGuard guard, const falcon::PassivitySettings& passivity,
+                     falcon::PassivityController controller)
     : parts_(parts),
       seconds_(settings.seconds),
       patience_s_(std::max(settings.patience_s, settings.seconds)),
       mapping_(mapping),
       controls_(settings.buttons, (parts.wheel.plan().stages & kPinch) != 0, settings.gap_mm),
       guard_(std::move(guard)),
+      passivity_(passivity),
       hand_(std::move(controller)),
       clay_(parts.wheel, parts.recorder, clay_period_us(settings)),
-      pacer_(period_ns(settings.rate_hz)) {
-  const falcon::DeviceInfo& info = parts.device.info();
-  if (loop_of(settings, info).delay_ticks > settings.arm.delay_ticks)
-    status_.answer_ms = 1e-3 * static_cast<double>(info.answer_us);
-}
+      pacer_(period_ns(settings.rate_hz)) {}
 
 void ServoLoop::start() noexcept {
   started_ns_ = last_begun_ns_ = parts_.clock.now_ns();
   pacer_.start(last_begun_ns_);
   // Only the user ends a pause or the safe state of an unstable force, not a reopened device.
   if (!falcon::needs_rearm(guarded_.cause)) guard_.rearm();
-  hand_.reset();
+  count_delay();
   wanted_ = {};
   status_.ending = Ending::none;
+}
+
+/// Begins a new energy balance, with the delay of the device as it was opened last.
+void ServoLoop::count_delay() noexcept {
+  const falcon::DeviceInfo& device = parts_.device.info();
+  falcon::PassivitySettings settings = passivity_;
+  settings.loop = with_delay_of(device, passivity_.loop);
+  const bool late = settings.loop.delay_ticks > passivity_.loop.delay_ticks;
+  status_.answer_ms = late ? 1e-3 * static_cast<double>(device.answer_us) : 0.0;
+  // Settings that `build` has accepted, with a delay within its range.
+  if (auto controller = falcon::PassivityController::build(settings))
+    hand_ = HandForce(std::move(*controller));
 }
 
 Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& view,

@@ -242,7 +242,7 @@ double BasicForceGuard<rules>::remaining_part(const TickTime& time, std::int64_t
 
 template <std::uint32_t rules>
 void BasicForceGuard<rules>::engage(const glm::dvec3& limited_n, double contact_n,
-                                  double growing_s) noexcept {
+                                    double growing_s) noexcept {
   if (cause_ != SafeCause::none || !ready_) return;
   const double small = settings_.small_force_n;
   const bool large = (flags_ & kGuardNotFinite) != 0 || !(contact_n < small);

@@ -12,9 +12,8 @@ constexpr int kPatience = 1'000'000;  // polls: about ten milliseconds
 
 }  // namespace
 
-LoopbackTransport::LoopbackTransport(std::shared_ptr<FalconModel> model, SimClock clock,
-                                     std::int64_t answer_us)
-    : model_(std::move(model)), clock_(clock), answer_us_(answer_us) {}
+LoopbackTransport::LoopbackTransport(std::shared_ptr<FalconModel> model, SimClock clock)
+    : model_(std::move(model)), clock_(clock) {}
 
 std::int64_t LoopbackTransport::now_us() const noexcept {
   return clock_ == SimClock::real ? monotonic_us() : stepped_us_;

@@ -21,8 +21,9 @@ inline constexpr std::int64_t kFalconAnswerUs = 1'000;
 class LoopbackTransport final : public Transport {
  public:
   /// Shares the model with its other owners, who may inspect it and plan faults between calls.
-  LoopbackTransport(std::shared_ptr<FalconModel> model, SimClock clock,
-                    std::int64_t answer_us = kFalconAnswerUs);
+  LoopbackTransport(std::shared_ptr<FalconModel> model, SimClock clock);
+  /// From now on answers come after this time.
+  void answer_after(std::int64_t answer_us) noexcept { answer_us_ = answer_us; }
 
   [[nodiscard]] std::string describe() const override { return "simulated"; }
   [[nodiscard]] bool loads_firmware() const noexcept override { return true; }
@@ -47,7 +48,7 @@ class LoopbackTransport final : public Transport {
 
   std::shared_ptr<FalconModel> model_;
   SimClock clock_;
-  std::int64_t answer_us_;
+  std::int64_t answer_us_ = kFalconAnswerUs;
   std::atomic<bool> model_held_{false};  // by `write` or `write_last`
   std::atomic<bool> open_{false};
   std::int64_t stepped_us_ = 3'600'000'000;  // an hour: clocks of computers are not near 0

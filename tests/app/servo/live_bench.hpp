@@ -59,8 +59,7 @@ struct VirtualThrow {
   /// The force does not move the hand, so a test knows its position.
   VirtualThrow(const SceneSpec& scene, LiveSettings live_settings, HandAt hand_at,
                Recorder* recorder = nullptr,
-               const falcon::FalconModelSettings& model_settings = homed(),
-               std::int64_t answer_us = falcon::kFalconAnswerUs)
+               const falcon::FalconModelSettings& model_settings = homed())
       : settings(std::move(live_settings)),
         hand(std::move(hand_at)),
         wheel(Wheel::build(scene).value()),
@@ -69,7 +68,7 @@ struct VirtualThrow {
                                                       time_s += dt_s;
                                                       return falcon::kFalconCentreMm + hand(time_s);
                                                     })),
-        falcon_device(falcon::make_falcon(make_line(answer_us), {})),
+        falcon_device(falcon::make_falcon(make_line(), {})),
         device(*falcon_device),
         clock(*line) {
     EXPECT_TRUE(device.open());
@@ -109,9 +108,8 @@ struct VirtualThrow {
   std::atomic<std::int64_t> heartbeat_us{0};
 
  private:
-  std::unique_ptr<falcon::Transport> make_line(std::int64_t answer_us) {
-    auto made =
-        std::make_unique<falcon::LoopbackTransport>(model, falcon::SimClock::stepped, answer_us);
+  std::unique_ptr<falcon::Transport> make_line() {
+    auto made = std::make_unique<falcon::LoopbackTransport>(model, falcon::SimClock::stepped);
     line = made.get();
     return made;
   }

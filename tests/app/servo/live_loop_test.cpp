@@ -490,7 +490,8 @@ TEST(LiveLoop, ReportsSlowSamples) {
 }
 
 /// A bridge may answer after 4 ms, with several frames on their way: the force is late by four
-/// ticks, and the accepted stiffness is b / (2 * 4 + 1) T, with the T of the readings.
+/// ticks, and the accepted stiffness is b / (2 * 4 + 1) T, with the T of the readings. The time is
+/// measured at each opening.
 TEST(LiveLoop, DeviceThatAnswersLateFeelsSofter) {
   SceneSpec scene = rib_scene();
   scene.removal.rate_per_s = 1e-9;
@@ -498,12 +499,17 @@ TEST(LiveLoop, DeviceThatAnswersLateFeelsSofter) {
   scene.force->stiffness_n_per_mm2 = 1.0;
   const LiveSettings settings = one_to_one();
   ASSERT_TRUE(soften(scene, settings));
+  VirtualThrow live(scene, settings, press_to(1.0));
   const auto pressed = [&](std::int64_t answer_us) {
-    VirtualThrow live(scene, settings, press_to(1.0), nullptr, VirtualThrow::homed(), answer_us);
+    live.line->answer_after(answer_us);
+    EXPECT_TRUE(live.device.open());
+    live.loop->start();
+    live.hand = [from_s = live.time_s](double t) { return press_to(1.0)(t - from_s); };
     live.run(4.0);
     return live.status();
   };
   const LiveStatus soon = pressed(1000), late = pressed(4000);
+  EXPECT_NEAR(pressed(1000).force_n.x, soon.force_n.x, 1e-3);
   // An encoder step, 0.05 mm, is a twentieth of the depth.
   EXPECT_NEAR(soon.force_n.x, 0.002 * 1000.0 / 3.0, 0.1 * soon.force_n.x);
   EXPECT_EQ(soon.answer_ms, 0.0);

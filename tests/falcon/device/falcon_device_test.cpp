@@ -153,7 +153,9 @@ TEST(FalconDevice, AFloodOfFramesDoesNotHoldTheReader) {
 class UsedLine final : public Transport {
  public:
   UsedLine(std::shared_ptr<FalconModel> model, std::int64_t answer_us)
-      : line_(std::move(model), SimClock::stepped, answer_us), answer_us_(answer_us) {}
+      : line_(std::move(model), SimClock::stepped), answer_us_(answer_us) {
+    line_.answer_after(answer_us);
+  }
   [[nodiscard]] std::string describe() const override { return "used"; }
   [[nodiscard]] bool loads_firmware() const noexcept override { return true; }
   DeviceResult<void> open() override { return line_.open(); }
