@@ -1,5 +1,7 @@
 #include "app/servo/mapping.hpp"
 
+#include "core/limit_norm.hpp"
+
 #include <glm/geometric.hpp>
 
 namespace clay::servo {
@@ -61,11 +63,12 @@ HandForce::Wanted HandForce::answer(std::int64_t now_us, const glm::dvec3& devic
                                     const Mapping& mapping, const StepReport& clay) noexcept {
   const falcon::PassiveForce passive =
       controller_.tick(now_us, device_mm, mapping.force_to_device(clay.spring_n));
+  const double contact_n = norm(mapping.force_to_device(clay.force_n()));
   spring_n_ = whole_n_ = {};
-  if (passive.state == falcon::PassivityState::safe) return {{}, false};
+  if (passive.state == falcon::PassivityState::safe) return {{}, false, contact_n};
   spring_n_ = passive.force_n;
   whole_n_ = spring_n_ + mapping.force_to_device(clay.friction_n);
-  return {whole_n_, true};
+  return {whole_n_, true, contact_n};
 }
 
 void HandForce::displayed(const glm::dvec3& sent_n) noexcept {

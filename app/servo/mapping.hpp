@@ -58,6 +58,7 @@ class HandForce {
   struct Wanted {
     glm::dvec3 force_n{0.0};  ///< in the device's frame
     bool passive = true;
+    double contact_n = 0.0;  ///< of the clay's force, before it was made passive
   };
   /// The force for a fresh sample of the hand, given the clay's force on the tool. Friction may do
   /// work on the hand, because the wheel drags it along; only the spring is made passive.

@@ -27,7 +27,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path,
 Result<std::unique_ptr<Recorder>> Recorder::create(PoseSink& sink, std::uint64_t most) {
   std::unique_ptr<Recorder> recorder(new Recorder(sink, most));
   try {
-    recorder->worker_.emplace([&self = *recorder](bool) { self.hand_on(); }, kPause);
+    recorder->worker_.emplace([&self = *recorder](bool) { self.write_waiting(); }, kPause);
   } catch (const std::system_error& error) {
     return failure(ErrorKind::io,
                    "could not start the recorder's thread: " + error.code().message());
@@ -58,7 +58,7 @@ Result<void> Recorder::finish() {
   return sink_.finish();
 }
 
-void Recorder::hand_on() {
+void Recorder::write_waiting() {
   for (;;) {
     while (block_.size() < kPosesPerBlock) {
       const auto played = queue_.pop();

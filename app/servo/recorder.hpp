@@ -51,7 +51,7 @@ class Recorder {
 
  private:
   Recorder(PoseSink& sink, std::uint64_t most);
-  void hand_on();
+  void write_waiting();
   [[nodiscard]] bool append(const PoseBlock& block);
 
   static constexpr std::size_t kWaiting = 8192;  // poses: 8 s at 1 kHz

@@ -53,6 +53,15 @@ falcon::SampledLoop loop_of(const LiveSettings& settings) noexcept {
   return loop;
 }
 
+falcon::SampledLoop with_delay_of(const falcon::DeviceInfo& device,
+                                  falcon::SampledLoop loop) noexcept {
+  // A servo waits half a period longer than one for an answer; then another is on its way.
+  const double ticks = 1e-6 * static_cast<double>(device.answer_us) * loop.rate_hz;
+  const double late = std::clamp(std::ceil(ticks - 0.5), 0.0, 1.0 * falcon::kMostDelayTicks);
+  loop.delay_ticks = std::max(loop.delay_ticks, static_cast<int>(late));
+  return loop;
+}
+
 Result<ServoContact> servo_contact(const SceneSpec& scene, const StepPlan& plan,
                                    const falcon::SampledLoop& loop, double stiffness_gain) {
   if (const auto checked = check(loop); !checked)

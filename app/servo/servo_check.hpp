@@ -3,6 +3,7 @@
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/plan.hpp"
 #include "claystack/engine/scene.hpp"
+#include "claystack/falcon/device.hpp"
 #include "claystack/falcon/passivity.hpp"
 #include "claystack/servo/servo.hpp"
 
@@ -13,6 +14,9 @@ namespace clay::servo {
 
 /// Arm and servo together: sampled at the rate of the slower one.
 [[nodiscard]] falcon::SampledLoop loop_of(const LiveSettings& settings) noexcept;
+/// The same loop with the delay of this device, if its answers take longer than `loop` states.
+[[nodiscard]] falcon::SampledLoop with_delay_of(const falcon::DeviceInfo& device,
+                                                falcon::SampledLoop loop) noexcept;
 
 /// Stiffness of a scene's contact as seen by an arm.
 struct ServoContact {

@@ -47,20 +47,23 @@ Result<ServoLoop> ServoLoop::build(const LoopParts& parts, const LiveSettings& s
   guard_settings.period_s = 1.0 / settings.rate_hz;
   auto guard = falcon::ForceGuard::build(guard_settings);
   if (!guard) return tl::make_unexpected(falcon::error_of(guard.error()));
-  auto controller = falcon::PassivityController::build(
-      {.loop = loop_of(settings), .step_mm = settings.encoder_step_mm});
+  const falcon::PassivitySettings passivity{.loop = loop_of(settings),
+                                            .step_mm = settings.encoder_step_mm};
+  auto controller = falcon::PassivityController::build(passivity);
   if (!controller) return tl::make_unexpected(falcon::error_of(controller.error()));
-  return ServoLoop(parts, settings, *mapping, std::move(*guard), std::move(*controller));
+  return ServoLoop(parts, settings, *mapping, std::move(*guard), passivity, std::move(*controller));
 }
 
 ServoLoop::ServoLoop(const LoopParts& parts, const LiveSettings& settings, const Mapping& mapping,
-                     falcon::ForceGuard guard, falcon::PassivityController controller)
+                     falcon::ForceGuard guard, const falcon::PassivitySettings& passivity,
+                     falcon::PassivityController controller)
     : parts_(parts),
       seconds_(settings.seconds),
       patience_s_(std::max(settings.patience_s, settings.seconds)),
       mapping_(mapping),
       controls_(settings.buttons, (parts.wheel.plan().stages & kPinch) != 0, settings.gap_mm),
       guard_(std::move(guard)),
+      passivity_(passivity),
       hand_(std::move(controller)),
       clay_(parts.wheel, parts.recorder, clay_period_us(settings)),
       pacer_(period_ns(settings.rate_hz)) {}
@@ -70,9 +73,21 @@ void ServoLoop::start() noexcept {
   pacer_.start(last_begun_ns_);
   // Only the user ends a pause or the safe state of an unstable force, not a reopened device.
   if (!falcon::needs_rearm(guarded_.cause)) guard_.rearm();
-  hand_.reset();
+  count_delay();
   wanted_ = {};
   status_.ending = Ending::none;
+}
+
+/// Begins a new energy balance, with the delay of the device as it was opened last.
+void ServoLoop::count_delay() noexcept {
+  const falcon::DeviceInfo& device = parts_.device.info();
+  falcon::PassivitySettings settings = passivity_;
+  settings.loop = with_delay_of(device, passivity_.loop);
+  const bool late = settings.loop.delay_ticks > passivity_.loop.delay_ticks;
+  status_.answer_ms = late ? 1e-3 * static_cast<double>(device.answer_us) : 0.0;
+  // Settings that `build` has accepted, with a delay within its range.
+  if (auto controller = falcon::PassivityController::build(settings))
+    hand_ = HandForce(std::move(*controller));
 }
 
 Ending ServoLoop::tick(falcon::ForceGate& gate, Commands& commands, LiveView& view,
@@ -125,7 +140,7 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
   wanted_.clay_time_us = now_us;
   if (thrown_) status_.time_s = 1e-6 * static_cast<double>(now_us - first_us_);
   if (held_) {
-    wanted_ = {{}, now_us, true};
+    wanted_ = {.force_n = {}, .clay_time_us = now_us};
     status_.contact = false;
     status_.clay_n = {};
     return;
@@ -146,6 +161,7 @@ void ServoLoop::follow(const falcon::DeviceSample& sample, std::int64_t now_us) 
   const HandForce::Wanted hand = hand_.answer(now_us, sample.position_mm, mapping_, report);
   wanted_.force_n = hand.force_n;
   wanted_.passive = hand.passive;
+  wanted_.contact_n = hand.contact_n;
 }
 
 /// The gate decides about the force: the watchdog may have shut it temporarily, a signal

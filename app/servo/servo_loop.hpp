@@ -77,8 +77,10 @@ class ServoLoop {
 
  private:
   ServoLoop(const LoopParts& parts, const LiveSettings& settings, const Mapping& mapping,
-            falcon::ForceGuard guard, falcon::PassivityController controller);
+            falcon::ForceGuard guard, const falcon::PassivitySettings& passivity,
+            falcon::PassivityController controller);
 
+  void count_delay() noexcept;
   void apply(const falcon::DeviceSample& sample, std::int64_t now_us, Commands& commands) noexcept;
   void follow(const falcon::DeviceSample& sample, std::int64_t now_us) noexcept;
   void send(falcon::ForceGate& gate) noexcept;
@@ -94,6 +96,7 @@ class ServoLoop {
   Mapping mapping_;
   Controls controls_;
   falcon::ForceGuard guard_;
+  falcon::PassivitySettings passivity_;  // as stated
   HandForce hand_;
   LiveClay clay_;
   Pacer pacer_;

@@ -31,9 +31,12 @@ std::string words_of_safe(SafeCause cause, std::string_view rearm_key) {
   }
 }
 
-std::string words_of_slow_samples(double slow_hz) {
-  if (slow_hz == 0.0) return {};
-  return fmt::format("; it feels softer, because samples come at {:.0f} Hz", slow_hz);
+std::string words_of_slow_device(const LiveStatus& status) {
+  if (status.answer_ms > 0.0)
+    return fmt::format("; it feels softer, because the device answers after {:.1f} ms",
+                       status.answer_ms);
+  if (status.slow_hz == 0.0) return {};
+  return fmt::format("; it feels softer, because samples come at {:.0f} Hz", status.slow_hz);
 }
 
 std::string words_of_guard(const LiveStatus& status, std::string_view rearm_key) {
@@ -45,7 +48,7 @@ std::string words_of_guard(const LiveStatus& status, std::string_view rearm_key)
     case GuardState::ramping:
       return fmt::format("force ramps up, {:.0f} %", 100.0 * status.force_gain);
     case GuardState::engaged:
-      return (status.contact ? "throwing" : "ready") + words_of_slow_samples(status.slow_hz);
+      return (status.contact ? "throwing" : "ready") + words_of_slow_device(status);
     case GuardState::fading:
       return "force fades out: no samples, or warm motors";
     case GuardState::safe:

@@ -22,6 +22,7 @@ constexpr std::size_t kMostInPiece = 64;
 constexpr int kMostReads = 8;
 constexpr int kQuestions = 10;
 constexpr std::int64_t kAnswerUs = 20'000;  // ten times the duration of a frame and its answer
+constexpr int kTimedQuestions = 5;
 
 DeviceInfo info_of(const Transport& line, const FalconSettings& settings) {
   return {"Novint Falcon",        line.describe(),          true,
@@ -68,7 +69,9 @@ DeviceResult<void> FalconDevice::open() {
   unanswered_since_us_ = 0;
   sample_ = {};
   auto opened = start();
-  if (!opened) {
+  if (opened) {
+    info_.answer_us = answer_time_us();
+  } else {
     line_->close();
     refusal_ = opened.error();
     if (sample_.state != DeviceState::needs_firmware) sample_.state = DeviceState::closed;
@@ -124,6 +127,32 @@ DeviceResult<bool> FalconDevice::answers() {
     if (counters_.frames > 0) return true;
   }
   return false;
+}
+
+/// Sends zero force; returns the time until a frame came, at most kAnswerUs.
+std::int64_t FalconDevice::ask_and_wait() noexcept {
+  const std::int64_t asked_us = line_->now_us(), end_us = asked_us + kAnswerUs;
+  const std::uint64_t before = counters_.frames;
+  WireStatus status = line_->write(kZeroFrame);
+  std::int64_t arrived_us = end_us;
+  while (status == WireStatus::ok && counters_.frames == before && line_->now_us() < end_us) {
+    std::array<std::uint8_t, 64> bytes{};
+    const Received got = line_->read(bytes, end_us - line_->now_us());
+    take(std::span(bytes).first(got.size), got.time_us);
+    status = got.status;
+    arrived_us = got.time_us;
+  }
+  return counters_.frames == before ? kAnswerUs : arrived_us - asked_us;
+}
+
+/// The median of several questions, one at a time: no answer of an earlier one is on its way.
+std::int64_t FalconDevice::answer_time_us() noexcept {
+  std::array<std::uint8_t, 512> old{};
+  for (int i = 0; i < kMostReads && line_->read(old, kAnswerUs).size > 0; ++i) continue;
+  std::array<std::int64_t, kTimedQuestions> times_us{};
+  for (std::int64_t& time_us : times_us) time_us = ask_and_wait();
+  std::ranges::nth_element(times_us, times_us.begin() + kTimedQuestions / 2);
+  return times_us[kTimedQuestions / 2];
 }
 
 void FalconDevice::fail(DeviceFault fault) noexcept {

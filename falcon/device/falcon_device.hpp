@@ -36,6 +36,8 @@ class FalconDevice final : public HapticDevice {
   DeviceResult<void> check_settings() const;
   DeviceResult<void> start();
   DeviceResult<bool> answers();
+  [[nodiscard]] std::int64_t ask_and_wait() noexcept;
+  [[nodiscard]] std::int64_t answer_time_us() noexcept;
   void take(std::span<const std::uint8_t> bytes, std::int64_t time_us) noexcept;
   void accept(const StateFrame& frame, std::int64_t time_us) noexcept;
   void fail(DeviceFault fault) noexcept;

@@ -63,10 +63,12 @@ class BasicForceGuard {
   void watch_force(const WantedForce& wanted) noexcept;
   void watch_clock(const TickTime& time) noexcept;
   void watch_ages(const TickTime& time, std::int64_t now_us, const WantedForce& wanted) noexcept;
+  /// For this tick: it is late, or a value is not finite.
+  [[nodiscard]] bool ends_force() const noexcept;
   void rest(double growing_s) noexcept;
   [[nodiscard]] glm::dvec3 limit(const glm::dvec3& wanted_n) noexcept;
-  [[nodiscard]] double let_go(const TickTime& time, std::int64_t now_us) noexcept;
-  void earn(const glm::dvec3& limited_n, double growing_s) noexcept;
+  [[nodiscard]] double remaining_part(const TickTime& time, std::int64_t now_us) noexcept;
+  void engage(const glm::dvec3& limited_n, double contact_n, double growing_s) noexcept;
   [[nodiscard]] glm::dvec3 rise(const glm::dvec3& force_n, double growing_s) noexcept;
   [[nodiscard]] GuardState state(double gain) const noexcept;
 
@@ -153,12 +155,11 @@ GuardedForce BasicForceGuard<rules>::force(std::int64_t now_us,
   rest(time.growing_s);
 
   const glm::dvec3 limited = limit(wanted.force_n);
-  const double held = let_go(time, now_us);
-  earn(limited, time.growing_s);
+  const double held = remaining_part(time, now_us);
+  engage(limited, wanted.contact_n, time.growing_s);
   const double gain = held * engagement_.gain();
-  const bool zero = cause_ != SafeCause::none || !ready_ || !frame_age_.any() ||
-                    (on(kRuleFinite) && (flags_ & kGuardNotFinite) != 0) ||
-                    (on(kRuleLate) && (flags_ & kGuardLate) != 0) || gain == 0.0;
+  const bool zero =
+      cause_ != SafeCause::none || !ready_ || !frame_age_.any() || ends_force() || gain == 0.0;
   sent_n_ = zero ? glm::dvec3(0.0) : rise(gain * limited, time.growing_s);
 
   const GuardedForce out{sent_n_, gain, state(gain), cause_, flags_};
@@ -199,6 +200,12 @@ void BasicForceGuard<rules>::watch_ages(const TickTime& time, std::int64_t now_u
 }
 
 template <std::uint32_t rules>
+bool BasicForceGuard<rules>::ends_force() const noexcept {
+  return (on(kRuleFinite) && (flags_ & kGuardNotFinite) != 0) ||
+         (on(kRuleLate) && (flags_ & kGuardLate) != 0);
+}
+
+template <std::uint32_t rules>
 void BasicForceGuard<rules>::rest(double growing_s) noexcept {
   if (!admitted_) return;
   rested_s_ += growing_s;
@@ -213,10 +220,10 @@ glm::dvec3 BasicForceGuard<rules>::limit(const glm::dvec3& wanted_n) noexcept {
   return on(kRuleLimit) ? limit_norm(wanted_n, settings_.force_limit_n) : wanted_n;
 }
 
-/// Remaining fraction of the force, 0 to 1, while it fades because of frames, clay or motors, and
-/// until it has recovered.
+/// Remaining fraction of the force, 0 to 1: while it fades because of frames, clay or motors, in a
+/// tick that ends it, and until it has recovered.
 template <std::uint32_t rules>
-double BasicForceGuard<rules>::let_go(const TickTime& time, std::int64_t now_us) noexcept {
+double BasicForceGuard<rules>::remaining_part(const TickTime& time, std::int64_t now_us) noexcept {
   const double frame_s = frame_age_.at(now_us), clay_s = clay_age_.at(now_us);
   double held = 1.0;
   if (frame_age_.any() && frame_s > settings_.stale_fade_s) flags_ |= kGuardStale;
@@ -226,6 +233,7 @@ double BasicForceGuard<rules>::let_go(const TickTime& time, std::int64_t now_us)
   if (on(kRuleStaleFrames) && frame_age_.any())
     held *= fade(frame_s, settings_.stale_fade_s, last_s);
   if (on(kRuleOldClay)) held *= fade(clay_s, settings_.clay_fade_s, settings_.clay_zero_s);
+  if (ends_force()) held = 0.0;
   if (on(kRuleRecovery)) held = recovery_.after(held, time.growing_s);
   if (heat_.fading()) flags_ |= kGuardHot;
   if (heat_.fade_out(time.fading_s, settings_.hot_fade_s)) engagement_.restart();
@@ -233,11 +241,12 @@ double BasicForceGuard<rules>::let_go(const TickTime& time, std::int64_t now_us)
 }
 
 template <std::uint32_t rules>
-void BasicForceGuard<rules>::earn(const glm::dvec3& limited_n, double growing_s) noexcept {
+void BasicForceGuard<rules>::engage(const glm::dvec3& limited_n, double contact_n,
+                                    double growing_s) noexcept {
   if (cause_ != SafeCause::none || !ready_) return;
   const double small = settings_.small_force_n;
-  const bool unknown = (flags_ & kGuardNotFinite) != 0;
-  const double wanted = unknown ? settings_.force_limit_n : norm(limited_n);
+  const bool large = (flags_ & kGuardNotFinite) != 0 || !(contact_n < small);
+  const double wanted = large ? settings_.force_limit_n : norm(limited_n);
   if (!on(kRuleSmallForce))
     engagement_.want(0.0, small, 1);
   else if (admitted_ || !(wanted < small))

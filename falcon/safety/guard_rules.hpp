@@ -95,11 +95,11 @@ class Engagement {
   double gain_ = 0.0;
 };
 
-/// The part of the force that fades have left. It falls with them and recovers slowly: otherwise a
-/// device whose frames keep coming late would shake the hand.
+/// The part of the force that fades, late ticks and invalid values have left. It falls with them
+/// and recovers slowly: otherwise frames or ticks that keep coming late would shake the hand.
 class Recovery {
  public:
-  /// `held`: the part that the fades leave in this tick.
+  /// `held`: the part that they leave in this tick.
   [[nodiscard]] double after(double held, double growing_s) noexcept;
 
  private:

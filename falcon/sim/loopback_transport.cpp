@@ -8,8 +8,6 @@
 namespace clay::falcon::inline sim {
 namespace {
 
-// Latency timer and two frames at 1.5 Mbaud, rounded to the known rate of a Falcon.
-constexpr std::int64_t kAnswerUs = 1'000;
 constexpr int kPatience = 1'000'000;  // polls: about ten milliseconds
 
 }  // namespace
@@ -57,11 +55,11 @@ WireStatus LoopbackTransport::write(std::span<const std::uint8_t> bytes) noexcep
   const std::int64_t now = now_us();
   const bool held = hold_model();
   const Answer answer = model_->receive(bytes, 1e-6 * static_cast<double>(now - asked_us_));
-  let_go(held);
+  release_model(held);
   asked_us_ = now;
   if (model_->unplugged()) return WireStatus::unplugged;
   if (size_ == queue_.size()) return WireStatus::busy;
-  if (answer.size > 0) queue_[(first_ + size_++) % queue_.size()] = {now + kAnswerUs, answer, 0};
+  if (answer.size > 0) queue_[(first_ + size_++) % queue_.size()] = {now + answer_us_, answer, 0};
   return WireStatus::ok;
 }
 
@@ -94,7 +92,7 @@ bool LoopbackTransport::hold_model() noexcept {
   return false;
 }
 
-void LoopbackTransport::let_go(bool held) noexcept {
+void LoopbackTransport::release_model(bool held) noexcept {
   if (held) model_held_.store(false, std::memory_order_release);
 }
 
@@ -102,7 +100,7 @@ void LoopbackTransport::write_last(std::span<const std::uint8_t> bytes) noexcept
   if (!open_) return;
   const bool held = hold_model();
   model_->receive_last(bytes);
-  let_go(held);
+  release_model(held);
 }
 
 }  // namespace clay::falcon::inline sim

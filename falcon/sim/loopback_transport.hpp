@@ -15,10 +15,15 @@
 
 namespace clay::falcon::inline sim {
 
+/// Latency timer and two frames at 1.5 Mbaud, rounded to the known rate of a Falcon.
+inline constexpr std::int64_t kFalconAnswerUs = 1'000;
+
 class LoopbackTransport final : public Transport {
  public:
   /// Shares the model with its other owners, who may inspect it and plan faults between calls.
   LoopbackTransport(std::shared_ptr<FalconModel> model, SimClock clock);
+  /// From now on answers come after this time.
+  void answer_after(std::int64_t answer_us) noexcept { answer_us_ = answer_us; }
 
   [[nodiscard]] std::string describe() const override { return "simulated"; }
   [[nodiscard]] bool loads_firmware() const noexcept override { return true; }
@@ -39,10 +44,11 @@ class LoopbackTransport final : public Transport {
   [[nodiscard]] OnTheWay& first() noexcept { return queue_[first_ % queue_.size()]; }
   void wait_until(std::int64_t time_us) noexcept;
   [[nodiscard]] bool hold_model() noexcept;
-  void let_go(bool held) noexcept;
+  void release_model(bool held) noexcept;
 
   std::shared_ptr<FalconModel> model_;
   SimClock clock_;
+  std::int64_t answer_us_ = kFalconAnswerUs;
   std::atomic<bool> model_held_{false};  // by `write` or `write_last`
   std::atomic<bool> open_{false};
   std::int64_t stepped_us_ = 3'600'000'000;  // an hour: clocks of computers are not near 0

@@ -54,7 +54,11 @@ class GrippedFalcon final : public HapticDevice {
   }
 
   [[nodiscard]] const DeviceInfo& info() const noexcept override { return info_; }
-  DeviceResult<void> open() override { return falcon_.open(); }
+  DeviceResult<void> open() override {
+    auto opened = falcon_.open();
+    info_.answer_us = falcon_.info().answer_us;
+    return opened;
+  }
   DeviceSample read(std::int64_t wait_us) noexcept override {
     DeviceSample sample = falcon_.read(wait_us);
     sample.grip_mm = held_->fingers().grip_mm;

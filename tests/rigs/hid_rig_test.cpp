@@ -162,6 +162,32 @@ TEST_F(BridgeRig, ReportsUnpluggingAndReconnects) {
 }
 
 #ifndef CLAYSTACK_HIDAPI_LIBUSB
+/// Another interface of a bridge, with the same product string: it takes no frames.
+class KeyboardOfABridge final : public HidGadget {
+ public:
+  KeyboardOfABridge() {
+    identity_ = BridgeGadget(loaded(), on_circle, 1).identity();
+    // Generic desktop, keyboard: one byte in, one byte out.
+    identity_.report_descriptor = {0x05, 0x01, 0x09, 0x06, 0xA1, 0x01, 0x75, 0x08, 0x95,
+                                   0x01, 0x81, 0x02, 0x75, 0x08, 0x91, 0x02, 0xC0};
+  }
+  void out(std::span<const std::uint8_t>) override { ++reports_out; }
+  bool unplugged() const override { return false; }
+
+  int reports_out = 0;
+};
+
+TEST_F(BridgeRig, LeavesOtherInterfacesOfTheBridgeAlone) {
+  KeyboardOfABridge keyboard;
+  const HidrawNode node(testbed_.get(), keyboard, 1);
+  const auto listed = list_devices();
+  ASSERT_TRUE(listed);
+  ASSERT_EQ(listed->size(), 1u);
+  EXPECT_EQ(listed->front().place, "/dev/hidraw2");
+  ASSERT_TRUE(open_device("auto", settings_));
+  EXPECT_EQ(keyboard.reports_out, 0);
+}
+
 // The kernel gives the number of a node that has gone to the next device.
 TEST_F(HidRig, FindsTheSameDeviceAtAnotherNodeAndNoOtherAtItsOwn) {
   BridgeGadget bridge(loaded(), on_circle);

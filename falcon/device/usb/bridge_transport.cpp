@@ -36,8 +36,8 @@ class BridgeTransport final : public Transport {
       return device_failure(DeviceFault::no_firmware, place_ + ": the bridge loads the firmware",
                             "see docs/devices.md");
     Report old{};
-    while (node_.read(std::span(old).first(kReport), 0) > 0) {
-    }
+    for (int reports = 0; reports < kMostReportsPerRead; ++reports)
+      if (node_.read(std::span(old).first(kReport), 0) <= 0) break;
     return {};
   }
 

@@ -48,15 +48,22 @@ std::string narrow(const wchar_t* text) {
   return narrowed;
 }
 
-/// On some receivers the controller is one of several HID interfaces.
+// A device may have several HID interfaces: a receiver those of a keyboard, a bridge one for its
+// log. hidapi's libusb backend does not tell them apart: their usage page is 0.
+
 bool is_multi_axis(const hid_device_info& info) {
   constexpr int kGenericDesktop = 1, kMultiAxis = 8;
   return info.usage_page == 0 || (info.usage_page == kGenericDesktop && info.usage == kMultiAxis);
 }
 
+bool is_stream(const hid_device_info& info) {
+  constexpr int kVendorDefined = 0xFF00;
+  return info.usage_page == 0 || info.usage_page == kVendorDefined;
+}
+
 std::optional<ListedDevice> recognise(const hid_device_info& info) {
   const std::string product = narrow(info.product_string);
-  if (product.starts_with(kBridgeProduct))
+  if (product.starts_with(kBridgeProduct) && is_stream(info))
     return ListedDevice{DeviceKind::bridge, "Novint Falcon behind a bridge", info.path, true, {}};
   for (const SpaceMouseModel& model : space_mouse_models())
     if (model.vendor == info.vendor_id && model.product == info.product_id && is_multi_axis(info))

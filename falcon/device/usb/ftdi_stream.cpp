@@ -12,8 +12,8 @@ constexpr std::uint8_t kIn = 0x81, kOut = 0x02;
 constexpr std::size_t kStatusBytes = 2;
 // The kernel reports some broken transfers of a failing line before it reports the disconnection.
 constexpr int kErrorsBorne = 3;
-constexpr std::int64_t kFarewellUs = 10'000;
-constexpr int kFarewells = 100;
+constexpr std::int64_t kCancelWaitUs = 10'000;
+constexpr int kCancelWaits = 100;
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void FtdiStream::stop() noexcept {
   };
   std::for_each(reads_.begin(), reads_.end(), cancel);
   std::for_each(writes_.begin(), writes_.end(), cancel);
-  for (int i = 0; i < kFarewells && any_queued(); ++i) pump(kFarewellUs);
+  for (int i = 0; i < kCancelWaits && any_queued(); ++i) pump(kCancelWaitUs);
   const auto release = [](Slot& slot) {
     // A transfer that never completed stays allocated, because the system may still use it.
     if (!slot.queued) libusb_free_transfer(slot.transfer);

@@ -20,9 +20,9 @@ namespace {
 // With 1 ms the greeting often fails on real devices.
 constexpr unsigned char kLoadingLatencyMs = 16, kRunningLatencyMs = 1;
 constexpr unsigned kOut = 0x02;
-constexpr unsigned kLastWordMs = 20;
+constexpr unsigned kLastPacketMs = 20;
 constexpr unsigned kAskMs = 100;
-constexpr int kLastWords = 50;  // with the time of each, 1 s for a stalled line
+constexpr int kLastPacketTries = 50;  // with the time of each, 1 s for a stalled line
 
 /// The file descriptor that libusb uses for the only open device of its context.
 int descriptor_of(libusb_context* context) {
@@ -54,7 +54,7 @@ class FtdiTransport final : public Transport {
 
   void close() noexcept override {
     stream_.stop();
-    pay_last_word();
+    send_owed_packet();
     descriptor_.store(-1);
     if (!ftdi_) return;
     if (ftdi_->usb_dev) ftdi_usb_close(ftdi_);
@@ -100,7 +100,7 @@ class FtdiTransport final : public Transport {
     usbdevfs_bulktransfer bulk{};
     bulk.ep = kOut;
     bulk.len = static_cast<unsigned>(bytes.size());
-    bulk.timeout = kLastWordMs;
+    bulk.timeout = kLastPacketMs;
     bulk.data = copy.data();
     const bool stalled = ioctl(descriptor, USBDEVFS_BULK, &bulk) < 0 && errno == ETIMEDOUT;
     if (stalled) std::copy(copy.begin(), copy.end(), owed_bytes_.begin());
@@ -111,10 +111,10 @@ class FtdiTransport final : public Transport {
  private:
   using Packet = std::array<std::uint8_t, kMostWritten>;
 
-  /// A stalled line took the queued forces, but not the last word: without it, the arm would push
+  /// A stalled line took the queued forces, but not the last packet: without it, the arm would push
   /// on after the line has recovered. Call when nothing is queued any more.
-  void pay_last_word() noexcept {
-    for (int i = 0; i < kLastWords && owed_size_.load() > 0; ++i) {
+  void send_owed_packet() noexcept {
+    for (int i = 0; i < kLastPacketTries && owed_size_.load() > 0; ++i) {
       Packet packet{};
       std::copy(owed_bytes_.begin(), owed_bytes_.end(), packet.begin());
       write_last(std::span(packet).first(owed_size_.load()));
@@ -179,7 +179,7 @@ class FtdiTransport final : public Transport {
   ftdi_context* ftdi_ = nullptr;
   FtdiStream stream_;
   std::atomic<int> descriptor_{-1};
-  // The last word that a stalled line did not take. Atomic, because a signal handler may write it
+  // The last packet that a stalled line did not take. Atomic, because a signal handler may write it
   // while another thread does.
   std::array<std::atomic<std::uint8_t>, kMostWritten> owed_bytes_{};
   std::atomic<std::size_t> owed_size_{0};  // 0: none

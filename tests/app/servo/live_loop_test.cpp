@@ -223,6 +223,23 @@ TEST(LiveLoop, PauseDoesNotRestoreAZeroedForce) {
   }
 }
 
+TEST(LiveLoop, ForceEngagesOutsideTheClayOnly) {
+  for (const double friction : {0.0, 0.2}) {
+    SceneSpec scene = rib_scene();
+    scene.removal.rate_per_s = 1e-9;
+    scene.force->friction = friction;
+    VirtualThrow live(scene, one_to_one(), [](double) { return glm::dvec3(-3.0, 0.0, 0.0); });
+    live.run(3.0);
+    ASSERT_GT(glm::length(live.status().clay_n), 1.0);
+    EXPECT_EQ(live.status().guard, GuardState::waiting) << friction;
+    EXPECT_NE(words_of(live.status(), "r").find("lift the tool"), std::string::npos);
+    live.hand = [from_s = live.time_s](double t) { return press_to(3.0)(t - from_s); };
+    live.run(3.2);
+    EXPECT_EQ(live.status().guard, GuardState::engaged) << friction;
+    EXPECT_GT(glm::length(live.status().force_n), 1.0);
+  }
+}
+
 // The watchdog may end the force at any moment of a tick. No older force may follow.
 TEST(LiveLoop, AForceFromBeforeAShutIsNeverSentAfterIt) {
   int shuts = 0;
@@ -470,6 +487,35 @@ TEST(LiveLoop, ReportsSlowSamples) {
   EXPECT_NE(words_of(live.status(), "r").find(" Hz"), std::string::npos);
   live.run(0.5);
   EXPECT_EQ(live.status().slow_hz, 0.0);
+}
+
+/// A bridge may answer after 4 ms, with several frames on their way: the force is late by four
+/// ticks, and the accepted stiffness is b / (2 * 4 + 1) T, with the T of the readings. The time is
+/// measured at each opening.
+TEST(LiveLoop, DeviceThatAnswersLateFeelsSofter) {
+  SceneSpec scene = rib_scene();
+  scene.removal.rate_per_s = 1e-9;
+  scene.force->friction = 0.0;
+  scene.force->stiffness_n_per_mm2 = 1.0;
+  const LiveSettings settings = one_to_one();
+  ASSERT_TRUE(soften(scene, settings));
+  VirtualThrow live(scene, settings, press_to(1.0));
+  const auto pressed = [&](std::int64_t answer_us) {
+    live.line->answer_after(answer_us);
+    EXPECT_TRUE(live.device.open());
+    live.loop->start();
+    live.hand = [from_s = live.time_s](double t) { return press_to(1.0)(t - from_s); };
+    live.run(4.0);
+    return live.status();
+  };
+  const LiveStatus soon = pressed(1000), late = pressed(4000);
+  EXPECT_NEAR(pressed(1000).force_n.x, soon.force_n.x, 1e-3);
+  // An encoder step, 0.05 mm, is a twentieth of the depth.
+  EXPECT_NEAR(soon.force_n.x, 0.002 * 1000.0 / 3.0, 0.1 * soon.force_n.x);
+  EXPECT_EQ(soon.answer_ms, 0.0);
+  EXPECT_NEAR(late.force_n.x, 0.002 * late.slow_hz / 9.0, 0.1 * late.force_n.x);
+  EXPECT_EQ(late.answer_ms, 4.0);
+  EXPECT_NE(words_of(late, "r").find("answers after 4.0 ms"), std::string::npos);
 }
 
 TEST(LiveLoop, ProvidesTheOutlineOfTheClay) {

@@ -305,6 +305,24 @@ TEST(ForceGuard, NoForceStandsLongerThan10MsAfterTheLastFrame) {
     }
 }
 
+/// A controller starts at zero inside the clay; the force may engage only outside.
+TEST(ForceGuard, WaitsWhileTheContactRequestsAForce) {
+  ForceGuard guard = ForceGuard::build({}).value();
+  auto state = [&guard, now = std::int64_t{0}](double contact_n) mutable {
+    GuardState last = GuardState::idle;
+    for (int i = 0; i < 10; ++i) {
+      now += 1000;
+      (void)guard.admit(now, {now, glm::dvec3(0.0), true, true});
+      last = guard.force(now, {.clay_time_us = now, .contact_n = contact_n}).state;
+    }
+    return last;
+  };
+  for (const double contact_n : {3.0, 0.2, std::nan(""), HUGE_VAL})
+    EXPECT_EQ(state(contact_n), GuardState::waiting) << contact_n;
+  EXPECT_EQ(state(0.19), GuardState::ramping);
+  EXPECT_EQ(state(3.0), GuardState::ramping) << "once engaged, the contact is what it is for";
+}
+
 TEST(ForceGuard, RisesFromZeroAfterTheWatchdog) {
   ForceGuard guard = ForceGuard::build({}).value();
   std::int64_t now = 0;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace clay::falcon {
 namespace {
@@ -112,6 +113,39 @@ TEST(GuardLoop, DeviceSlowerThanStatedDoesNotVibrate) {
       EXPECT_LT(swing.mm, 0.2) << ticks_per_frame << " " << stiffness;
       EXPECT_EQ(swing.state, GuardState::engaged);
     }
+}
+
+/// Swing [mm], after 17 s, of an arm that a hand pushes with 0.5 N into a wall of 10 N/mm. The
+/// controller believes kLoop; the arm has this delay and damping.
+double swing_of(int delay_ticks, double damping_ns_per_mm, double hand_damping_ns_per_mm) {
+  constexpr SampledLoop kLoop{1000.0, 0.1, 0.002, 1};
+  SimulatedArm arm =
+      SimulatedArm::build({{1000.0, 0.1, damping_ns_per_mm, delay_ticks}, 0.0, kStepMm},
+                          {{-0.5, 0.0, 0.0}, glm::dvec3(0.0), glm::dvec3(hand_damping_ns_per_mm)},
+                          {1.0, 0.0, 0.0})
+          .value();
+  PassivityController controller = PassivityController::build({kLoop, kStepMm}).value();
+  double low = 1e3, high = -1e3;
+  for (int i = 0; i < 20'000; ++i) {
+    const glm::dvec3 at = arm.reading_mm();
+    const glm::dvec3 wanted_n(std::clamp(-10.0 * at.x, 0.0, 5.0), 0.0, 0.0);
+    arm.advance(controller.tick(kPeriodUs * i, at, wanted_n).force_n);
+    if (i < 17'000) continue;
+    low = std::min(low, arm.position_mm().x);
+    high = std::max(high, arm.position_mm().x);
+  }
+  return high - low;
+}
+
+/// docs/haptics.md, "What it cannot see".
+TEST(GuardLoop, MarginCoversOneTickOfDelayOrSomeOfTheDamping) {
+  EXPECT_LT(swing_of(1, 0.002, 0.0), 0.2);
+  EXPECT_LT(swing_of(2, 0.002, 0.0), 0.2);
+  EXPECT_LT(swing_of(1, 0.0012, 0.0), 0.2);
+  for (const auto& [delay_ticks, damping] : {std::pair{3, 0.002}, {1, 0.0005}}) {
+    EXPECT_GT(swing_of(delay_ticks, damping, 0.0), 2.0) << delay_ticks;
+    EXPECT_LT(swing_of(delay_ticks, damping, 0.003), 0.2) << delay_ticks << ": a hand damps it";
+  }
 }
 
 }  // namespace

@@ -135,13 +135,14 @@ void Allowance::follow_ramp(const Tick& tick, double growing_s) {
   if (ramping_) ramp_s_ += growing_s;
 }
 
-/// What the fade of old frames has taken returns slowly. After a pause the ramp decides. A frame
-/// whose position is unsure may not have been accepted, so its age decides nothing.
-void Allowance::follow_fade(double growing_s) {
+/// What old frames, a late tick or an invalid value have taken returns slowly. After a pause the
+/// ramp decides. A frame whose position is unsure may not have been accepted, so its age decides
+/// nothing.
+void Allowance::follow_fade(double growing_s, bool ends) {
   const double end_s = kFrameZeroS + kRoundingS;
   const bool fades = any_frame_ && unsure_frames_ == 0 && frame_age_s_ < 0.8 * kPauseS;
   const double left = fades ? (end_s - frame_age_s_) / (end_s - kOldFrameS) : 1.0;
-  kept_ = std::clamp(left, 0.0, std::min(1.0, kept_ + growing_s / kRecoveryS));
+  kept_ = ends ? 0.0 : std::clamp(left, 0.0, std::min(1.0, kept_ + growing_s / kRecoveryS));
 }
 
 Allowance::Verdict Allowance::after(const Tick& tick, double clock_s, const GuardSample& sample) {
@@ -155,7 +156,7 @@ Allowance::Verdict Allowance::after(const Tick& tick, double clock_s, const Guar
   follow_ages(tick, clock_s, good);
   const double growing = std::clamp(clock_s, 0.0, kPeriodS);
   follow_ramp(tick, growing);
-  follow_fade(growing);
+  follow_fade(growing, odd || clock_s >= kZeroS);
   return {zero_ || odd || latched_ || !tick.ready,
           good && !was_latched && frame_age_s_ < kOldFrameS,
           kLimitN * kept_ * std::min(1.0, ramp_s_ / kRampS), kSlewNPerS * growing};

@@ -95,7 +95,7 @@ class Allowance {
   bool accepts_position(const Tick& tick, const GuardSample& sample);
   void follow_ages(const Tick& tick, double clock_s, bool good);
   void follow_ramp(const Tick& tick, double growing_s);
-  void follow_fade(double growing_s);
+  void follow_fade(double growing_s, bool ends);
   void reset_ramp() { small_ticks_ = 0, ramp_s_ = 0.0, ramping_ = false; }
 
   bool latched_ = false, stopped_ = false, zero_ = false;

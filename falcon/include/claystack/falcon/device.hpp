@@ -180,6 +180,8 @@ struct DeviceInfo {
   double force_limit_n = 0.0;         ///< `write` limits forces to this length; 0 without motors
   glm::dvec3 half_workspace_mm{0.0};  ///< reach from the origin along each axis
   double rate_hz = 0.0;               ///< nominal sample rate
+  /// From a force to the frame that answers it, as `open` has measured it; 0: not measured.
+  std::int64_t answer_us = 0;
 };
 
 /// Counted since `open`.

@@ -84,12 +84,15 @@ struct WantedForce {
   glm::dvec3 force_n{0.0};        ///< any value, even NaN or infinite
   std::int64_t clay_time_us = 0;  ///< time of the clay state from which it was computed
   bool passive = true;            ///< false: the loop could not be made passive (passivity.hpp)
+  /// Force [N] of the contact before a controller reduced it to `force_n`: while it is not small,
+  /// the force does not engage.
+  double contact_n = 0.0;
 };
 
 enum class GuardState {
   idle,     ///< the device is not ready, or has sent no frame yet
   waiting,  ///< for a small force
-  ramping,  ///< increasing the part of the force: after waiting, or after fading
+  ramping,  ///< increasing the part of the force: after waiting, fading or a tick that ended it
   engaged,
   fading,  ///< reducing the force: stale frames, old clay, hot motors
   safe,    ///< force 0 until rearm(), or for a while if the cause clears itself

@@ -126,6 +126,9 @@ TEST_F(HidFiles, AFloodOfReportsDoesNotHoldTheReader) {
   EXPECT_EQ(received.status, WireStatus::ok);
   EXPECT_EQ(received.size, 0u);
   EXPECT_EQ(fake_hid().readings, 64) << "as many reports as the kernel keeps";
+  fake_hid().readings = 0;
+  EXPECT_TRUE(bridge->set_mode(LineMode::running));
+  EXPECT_EQ(fake_hid().readings, 64) << "discards pending reports";
 }
 
 }  // namespace

@@ -129,6 +129,9 @@ struct LiveStatus {
   /// Rate of the samples, if it is clearly below the rate of servo and arm, so that the contact is
   /// displayed softer; 0: it is not.
   double slow_hz = 0.0;
+  /// Time in which the device answers a force, if it is longer than LiveSettings::arm states, so
+  /// that the contact is displayed softer; 0: it is not.
+  double answer_ms = 0.0;
   double volume_error = 0.0;  ///< Ledger::volume_error [quanta]; exact below 2^53
   double imbalance = 0.0;     ///< Ledger::imbalance, clay unaccounted for [quanta]
   double stack_mm3 = 0.0, trimmed_mm3 = 0.0, outside_mm3 = 0.0;  ///< as in Ledger
