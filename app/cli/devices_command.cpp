@@ -136,7 +136,7 @@ void add_devices_command(CLI::App& app, Console& console, int& exit) {
       ->add_option("--seconds", options->seconds,
                    "Duration of the monitor [s] (default: until interrupted)")
       ->needs(monitor)
-      ->check(in_range(0.0, 1e6));
+      ->check(in_range(1e-3, 1e6));
   add_place_options(*command, options->mapping);
   command->footer(
       "\nExamples:\n  claystack devices\n  claystack devices falcon --firmware FILE --monitor\n"

@@ -208,9 +208,9 @@ void add_pot_options(CLI::App* command, DrawnPotSettings& settings) {
   add_length(*command, "--ring-height", settings.ring_height_mm,
              "Maximum ring height [mm] (default: 0.75, or less where the rings would deviate "
              "by more than 0.02 mm from the drawing)",
-             1e-3, 1e3);
+             kMinRingHeightMm, kMaxRingHeightMm);
   command->add_option("--density", settings.density_g_cm3, "Density of the clay [g/cm3]")
-      ->check(in_range(0.1, 20.0))
+      ->check(in_range(kMinDensityGCm3, kMaxDensityGCm3))
       ->capture_default_str();
 }
 

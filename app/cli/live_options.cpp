@@ -62,17 +62,21 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
       ->type_name("DEVICE")
       ->check(check_device_name);
   add_file(command, "--record", options.record, "File in which to record the session");
-  command.add_option(
-      "--seconds", settings.seconds,
-      "Duration of the throw [s] (default: until ended; simulated: until its stroke ends)");
+  command
+      .add_option(
+          "--seconds", settings.seconds,
+          "Duration of the throw [s] (default: until ended; simulated: until its stroke ends)")
+      ->check(above_zero());
   command
       .add_option(
           "--patience", settings.patience_s,
           "With --seconds: maximum time to wait for homing [s]; --seconds, if that is longer")
       ->capture_default_str();
   command.add_option("--rate", settings.rate_hz, "Servo rate [Hz]")->capture_default_str();
-  command.add_option("--clay-rate", settings.clay_rate_hz,
-                     "Update rate of the clay [Hz] (default: the servo rate)");
+  command
+      .add_option("--clay-rate", settings.clay_rate_hz,
+                  "Update rate of the clay [Hz] (default: the servo rate)")
+      ->check(above_zero());
   command.add_option("--force-limit", settings.guard.force_limit_n, "Force limit [N]")
       ->check(in_range(0.5, falcon::kMostForceN))
       ->capture_default_str();
@@ -88,10 +92,12 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
   begin_group(command, "Device and workspace");
   add_falcon_options(command, options.falcon);
   add_place_options(command, settings.mapping);
-  command.add_option(
-      "--force-gain", settings.mapping.force_gain,
-      "Scale of force: N at the hand per N at the tool (default: 1 / --scale, so that the clay "
-      "feels as stiff as in the scene; equal to --scale: the hand does the same work as the tool)");
+  command
+      .add_option("--force-gain", settings.mapping.force_gain,
+                  "Scale of force: N at the hand per N at the tool (default: 1 / --scale, so that "
+                  "the clay feels as stiff as in the scene; equal to --scale: the hand does the "
+                  "same work as the tool)")
+      ->check(above_zero());
 }
 
 Error by_option(Error error) {

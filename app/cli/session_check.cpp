@@ -7,14 +7,25 @@
 #include <algorithm>
 
 namespace clay::cli {
+namespace {
+
+/// Whatever the name, which is that of the file for a pot, and with --model whatever the model.
+bool recorded_on(const Session& session, SceneSpec scene, bool any_model) {
+  scene.name = session.scene_name;
+  if (session.scene_hash == 0 || session.scene_hash == hash_of(scene)) return true;
+  scene.model = scene.model == Model::paper ? Model::conserving : Model::paper;
+  return any_model && session.scene_hash == hash_of(scene);
+}
+
+}  // namespace
 
 std::vector<std::string> session_warnings(const Session& session, const SceneSpec& scene,
-                                          const ReplayFiles& files) {
+                                          const ReplayFiles& files, bool any_model) {
   std::vector<std::string> warnings;
   if (session.torn)
     warnings.push_back(
         fmt::format("{}: the last line is cut off; its poses are not played", files.session));
-  if (session.scene_hash != 0 && session.scene_hash != hash_of(scene))
+  if (!recorded_on(session, scene, any_model))
     warnings.push_back(
         fmt::format("{}: recorded on another scene ({}); the pot may differ from the recorded one",
                     files.session, session.scene_name));

@@ -18,9 +18,9 @@ struct ReplayFiles {
   std::string from;   ///< the pot that the throw continues; empty: the scene's lump
 };
 
-/// A cut last line; a session of another scene.
+/// A cut last line; a session of another scene. `any_model`: the user has chosen one.
 std::vector<std::string> session_warnings(const Session& session, const SceneSpec& scene,
-                                          const ReplayFiles& files);
+                                          const ReplayFiles& files, bool any_model);
 /// Refuses two tools where the scene has one: the wheel would refuse such poses one by one.
 Result<void> check_gaps(const Session& session, const SceneSpec& scene, const ReplayFiles& files);
 /// After the replay. `refused`: poses that the wheel did not play; `ring_limit`: clay was above the

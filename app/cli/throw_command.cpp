@@ -35,6 +35,11 @@ struct ThrowOptions {
 #endif
 };
 
+bool exists(const std::string& path) {
+  std::error_code none;
+  return std::filesystem::exists(path, none);
+}
+
 bool is_work(const std::string& path) { return ends_ignoring_case(path, ".work"); }
 
 Result<void> throw_work_file(const ThrowOptions& options, const Console& console) {
@@ -55,15 +60,22 @@ Result<void> throw_work_file(const ThrowOptions& options, const Console& console
 }
 
 #ifdef CLAYSTACK_FALCON
-Result<void> throw_by_hand(const ReplayJob& replay, const LiveOptions& live,
-                           const Console& console) {
+Result<void> throw_by_hand(const ThrowOptions& options, const Console& console) {
+  const ReplayJob& replay = options.replay;
+  const LiveOptions& live = options.live;
   if (!replay.trace.empty() || !replay.error_plot.empty())
     return failure(ErrorKind::bad_input,
                    "--trace and --error-plot describe a replay: record with --record, then replay");
+  if (live.device != "simulated" && !options.session_beside && !replay.session.empty())
+    return tl::make_unexpected(no_effect_without("--session", "--device simulated"));
   if (auto named = check_pot_name(replay.pot); !named) return named;
-  if (auto free = check_outputs(
-          {{replay.pot}, {live.record, {".session"}}},
-          {replay.scene, replay.session, replay.from, live.falcon.firmware_path}, console);
+  // The session beside the scene is read by the simulated arm only; a recording may get its name.
+  const bool reads_beside = live.device == "simulated" && exists(replay.session);
+  const std::string session =
+      options.session_beside && !reads_beside ? std::string() : replay.session;
+  if (auto free =
+          check_outputs({{replay.pot}, {live.record, {".session"}}},
+                        {replay.scene, session, replay.from, live.falcon.firmware_path}, console);
       !free)
     return free;
   return throw_live({replay.scene, replay.session, replay.pot, replay.model, replay.from}, live,
@@ -94,12 +106,8 @@ Result<void> throw_pot(const ThrowOptions& options, const Console& console) {
   if (auto effects = check_effects(options); !effects) return effects;
   if (is_work(options.replay.scene)) return throw_work_file(options, console);
 #ifdef CLAYSTACK_FALCON
-  if (!options.live.device.empty()) return throw_by_hand(options.replay, options.live, console);
+  if (!options.live.device.empty()) return throw_by_hand(options, console);
 #endif
-  const auto exists = [](const std::string& file) {
-    std::error_code none;
-    return std::filesystem::exists(file, none);
-  };
   if (options.session_beside && ends_ignoring_case(options.replay.scene, ".scene.json") &&
       exists(options.replay.scene) && !exists(options.replay.session))
     return failure(ErrorKind::io, options.replay.session + ": expected the session of " +

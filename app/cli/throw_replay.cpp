@@ -199,7 +199,7 @@ Result<Inputs> read_inputs(const ReplayJob& job, const Console& console) {
   const ReplayFiles files{job.session, job.scene, job.from};
   if (auto gaps = check_gaps(*session, scene, files); !gaps)
     return tl::make_unexpected(gaps.error());
-  warn(console, session_warnings(*session, scene, files));
+  warn(console, session_warnings(*session, scene, files, !job.model.empty()));
   if (!job.model.empty()) scene.model = job.model == "paper" ? Model::paper : Model::conserving;
   auto wheel = build_wheel(*start);
   if (!wheel) return tl::make_unexpected(wheel.error());

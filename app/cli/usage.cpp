@@ -148,6 +148,14 @@ ValueCheck in_range(double low, double high) {
   };
 }
 
+ValueCheck above_zero() {
+  return [](const std::string& text) -> std::string {
+    const auto value = number_in<double>(text);
+    if (!value || *value != 0.0) return {};  // the settings check the rest
+    return "expected a number above 0, found " + text;
+  };
+}
+
 ValueCheck in_whole_range(std::uint64_t low, std::uint64_t high) {
   return [=](const std::string& text) -> std::string {
     const auto value = number_in<std::uint64_t>(text);

@@ -24,6 +24,8 @@ inline void begin_group(CLI::App& command, const char* heading) {
 
 /// Accepts a finite number within the range; errors show the bounds in short form.
 [[nodiscard]] ValueCheck in_range(double low, double high);
+/// For a setting whose 0 stands for its default: who writes 0 does not mean the default.
+[[nodiscard]] ValueCheck above_zero();
 /// Accepts a whole number within the range.
 [[nodiscard]] ValueCheck in_whole_range(std::uint64_t low, std::uint64_t high);
 /// "; did you mean WORD?" for a mistyped word, or an empty text.

@@ -40,6 +40,7 @@ Result<DxfGroups> DxfGroups::open(std::string_view bytes, const std::string& nam
   bytes = without_byte_order_mark(bytes);
   DxfGroups groups;
   groups.rest_ = bytes;
+  groups.end_of_line_ = bytes.find('\n') == std::string_view::npos ? '\r' : '\n';
   groups.name_ = name;
   return groups;
 }
@@ -47,7 +48,7 @@ Result<DxfGroups> DxfGroups::open(std::string_view bytes, const std::string& nam
 std::optional<std::string_view> DxfGroups::next_line() {
   if (rest_.empty()) return std::nullopt;
   ++line_;
-  const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+  const std::size_t end = std::min(rest_.find(end_of_line_), rest_.size());
   const std::string_view line = rest_.substr(0, end);
   rest_.remove_prefix(std::min(end + 1, rest_.size()));
   return trimmed(line);

@@ -18,7 +18,8 @@ struct DxfGroup {
   std::size_t line = 0;    ///< of the code
 };
 
-/// Reads groups in order. A copy continues from the same place. Lines may have any length.
+/// Reads groups in order. A copy continues from the same place. Lines may have any length; in a
+/// file without LF they end with CR.
 class DxfGroups {
  public:
   /// Refuses binary DXF files and files with NUL bytes.
@@ -35,6 +36,7 @@ class DxfGroups {
   std::string_view rest_;
   std::string_view name_;
   std::size_t line_ = 0;
+  char end_of_line_ = '\n';
 };
 
 /// An entity, a table entry or a block: its name, and all groups up to the next code 0.

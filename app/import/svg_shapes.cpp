@@ -3,6 +3,7 @@
 #include "app/import/readers.hpp"
 #include "app/import/svg_style.hpp"
 #include "app/import/svg_transform.hpp"
+#include "core/lower_case.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>
@@ -113,6 +114,11 @@ class Copier {
     }
   }
 
+  /// Keywords of CSS are case-insensitive.
+  static bool is(const std::optional<std::string>& value, std::string_view keyword) {
+    return value && lower_case(*value) == keyword;
+  }
+
   /// "0", "0.0" or "0%".
   static bool is_zero(const std::optional<std::string>& opacity) {
     return opacity && opacity->find('0') != std::string::npos &&
@@ -122,7 +128,7 @@ class Copier {
   /// Once for each kind.
   void note_unapplied(xmlNode* node, std::string_view kind,
                       const std::optional<std::string>& value) {
-    if (!value || *value == "none" || !noted_.insert(kind).second) return;
+    if (!value || is(value, "none") || !noted_.insert(kind).second) return;
     notes_.push_back(fmt::format("{}:{}: a {} is not applied: the whole shape was read", name_,
                                  svg_line(node), kind));
   }
@@ -141,7 +147,7 @@ class Copier {
     const auto value = [&](SvgProperty property) -> const std::optional<std::string>& {
       return (*values)[static_cast<std::size_t>(property)];
     };
-    if (value(SvgProperty::display) == "none" || is_zero(value(SvgProperty::opacity))) return {};
+    if (is(value(SvgProperty::display), "none") || is_zero(value(SvgProperty::opacity))) return {};
     note_unapplied(node, "clip-path", value(SvgProperty::clip_path));
     note_unapplied(node, "mask", value(SvgProperty::mask));
     inherit(state.visible, value(SvgProperty::visibility), "visible");
@@ -150,7 +156,8 @@ class Copier {
     inherit_opacity(state.fill_opaque, value(SvgProperty::fill_opacity));
     inherit_opacity(state.stroke_opaque, value(SvgProperty::stroke_opacity));
     if (kind == "g" && !enter_layer(node, state)) return {};
-    if (const auto& transform = value(SvgProperty::transform); transform && *transform != "none") {
+    if (const auto& transform = value(SvgProperty::transform);
+        transform && !is(transform, "none")) {
       const auto functions = svg_transform(*transform, value(SvgProperty::transform_origin));
       if (!functions) return refusal(node, functions.error().message);
       if (parent == nullptr) return viewport(node, node, parent, state, *functions);
@@ -192,12 +199,12 @@ class Copier {
 
   /// `on`: the value that switches on; null: every value but "none" does.
   static void inherit(bool& state, const std::optional<std::string>& value, const char* on) {
-    if (!value || *value == "inherit") return;
-    state = on == nullptr ? *value != "none" && *value != "transparent" : *value == on;
+    if (!value || is(value, "inherit")) return;
+    state = on == nullptr ? !is(value, "none") && !is(value, "transparent") : is(value, on);
   }
 
   static void inherit_opacity(bool& opaque, const std::optional<std::string>& value) {
-    if (value && *value != "inherit") opaque = !is_zero(value);
+    if (value && !is(value, "inherit")) opaque = !is_zero(value);
   }
 
   /// Returns false for layers that are not drawn.

@@ -1,6 +1,7 @@
 #include "app/import/svg_style.hpp"
 
 #include "app/import/readers.hpp"
+#include "core/lower_case.hpp"
 
 #include <fmt/format.h>
 
@@ -59,11 +60,11 @@ SvgDeclarations declarations_of(std::string_view text) {
   SvgDeclarations found;
   while (!text.empty()) {
     std::string_view rest = take_until(text, ';');
-    const std::string_view name = stripped(take_until(rest, ':'));
+    const std::string name = lower_case(stripped(take_until(rest, ':')));
     const auto known = std::find(kNames.begin(), kNames.end(), name);
     if (known == kNames.end()) continue;
     const std::string_view value = stripped(take_until(rest, '!'));
-    SvgValues& values = stripped(rest) == "important" ? found.important : found.normal;
+    SvgValues& values = lower_case(stripped(rest)) == "important" ? found.important : found.normal;
     if (!value.empty()) values[static_cast<std::size_t>(known - kNames.begin())] = value;
   }
   return found;

@@ -86,7 +86,7 @@ Result<MadePot> throw_pot(const std::string& scene_path, const std::string& sess
     return tl::make_unexpected(known.error());
   auto wheel = Wheel::build(*scene);
   if (!wheel) return failure(wheel.error().kind, scene_path + ": " + wheel.error().message);
-  std::vector<std::string> warnings = cli::session_warnings(*session, *scene, files);
+  std::vector<std::string> warnings = cli::session_warnings(*session, *scene, files, false);
   play(*wheel, *session, warnings);
   return MadePot{wheel->pot(), std::move(warnings)};
 }

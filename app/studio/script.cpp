@@ -2,12 +2,12 @@
 
 #include "app/studio/commands.hpp"
 #include "app/studio/script_facts.hpp"
+#include "app/studio/script_runner.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -16,34 +16,6 @@ namespace clay::studio {
 namespace {
 
 constexpr double kLongestWaitS = 3600.0;
-
-struct Form {
-  std::string_view name;
-  std::size_t fewest, most;  // number of arguments
-  const char* form;
-};
-constexpr std::array kForms = {
-    Form{"move", 2, 4, "move X Y [over SECONDS]"},
-    Form{"point", 2, 4, "point RHO_MM Y_MM [over SECONDS]"},
-    Form{"press", 1, 1, "press left|right|middle"},
-    Form{"release", 1, 1, "release left|right|middle"},
-    Form{"hold", 0, 3, "hold [Ctrl] [Shift] [Alt]"},
-    Form{"pressure", 1, 3, "pressure PART|none [over SECONDS]"},
-    Form{"gamepad", 1, 1, "gamepad NAME|none"},
-    Form{"stick", 3, 5, "stick left|right X Y [over SECONDS]"},
-    Form{"trigger", 2, 4, "trigger left|right PART [over SECONDS]"},
-    Form{"pad", 1, 1, "pad BUTTON"},
-    Form{"scroll", 1, 1, "scroll STEPS"},
-    Form{"key", 1, 1, "key CHORD"},
-    Form{"type", 1, 1, "type TEXT"},
-    Form{"do", 1, 1, "do ACTION"},
-    Form{"open", 1, 9, "open FILE... [fails]"},
-    Form{"save", 1, 1, "save FILE"},
-    Form{"close", 0, 0, "close"},
-    Form{"wait", 1, 1, "wait SECONDS"},
-    Form{"screenshot", 1, 1, "screenshot FILE.png"},
-    Form{"expect", 2, 3, "expect FACT VALUE | expect FACT below|above NUMBER"},
-};
 
 tl::unexpected<Error> bad(std::string message) {
   return failure(ErrorKind::bad_input, std::move(message));
@@ -179,8 +151,9 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, std::string_
     if (!words)
       return bad(fmt::format("{}:{}: expected a closing quote, found none", name, number));
     if (words->empty()) continue;
-    const auto* command = std::ranges::find(kForms, words->front(), &Form::name);
-    if (command == kForms.end())
+    const auto commands = ScriptRunner::commands();
+    const auto command = std::ranges::find(commands, words->front(), &ScriptCommand::name);
+    if (command == commands.end())
       return bad(fmt::format("{}:{}: expected a command, found {}", name, number, words->front()));
     const std::size_t arguments = words->size() - 1;
     if (arguments < command->fewest || arguments > command->most)
@@ -188,7 +161,7 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, std::string_
                              arguments, arguments == 1 ? "" : "s"));
     if (const std::string fault = fault_of(*words); !fault.empty())
       return bad(fmt::format("{}:{}: {}", name, number, fault));
-    lines.push_back({number, *words});
+    lines.push_back({number, *words, &*command});
   }
   return lines;
 }

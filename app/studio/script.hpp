@@ -11,9 +11,19 @@
 
 namespace clay::studio {
 
+class ScriptRunner;
+
+struct ScriptCommand {
+  std::string_view name;
+  std::size_t fewest, most;  ///< number of arguments
+  const char* form;          ///< as docs/studio.md lists it
+  Result<void> (ScriptRunner::*run)(const std::vector<std::string>& words);
+};
+
 struct ScriptLine {
   std::size_t number = 0;          ///< line number in the file, from 1
   std::vector<std::string> words;  ///< the command and its arguments
+  const ScriptCommand* command = nullptr;
 };
 
 /// One command per line; "#" begins a comment; arguments with blanks are in double quotes. Errors

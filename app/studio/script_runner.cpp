@@ -14,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 namespace clay::studio {
 namespace {
@@ -29,6 +28,34 @@ double over_s(const std::vector<std::string>& words, std::size_t from) {
 
 }  // namespace
 
+std::span<const ScriptCommand> ScriptRunner::commands() noexcept {
+  static constexpr std::array kCommands = {
+      ScriptCommand{"move", 2, 4, "move X Y [over SECONDS]", &ScriptRunner::point},
+      ScriptCommand{"point", 2, 4, "point RHO_MM Y_MM [over SECONDS]", &ScriptRunner::point},
+      ScriptCommand{"press", 1, 1, "press left|right|middle", &ScriptRunner::button},
+      ScriptCommand{"release", 1, 1, "release left|right|middle", &ScriptRunner::button},
+      ScriptCommand{"hold", 0, 3, "hold [Ctrl] [Shift] [Alt]", &ScriptRunner::hold},
+      ScriptCommand{"pressure", 1, 3, "pressure PART|none [over SECONDS]", &ScriptRunner::pressure},
+      ScriptCommand{"gamepad", 1, 1, "gamepad NAME|none", &ScriptRunner::gamepad},
+      ScriptCommand{"stick", 3, 5, "stick left|right X Y [over SECONDS]", &ScriptRunner::stick},
+      ScriptCommand{"trigger", 2, 4, "trigger left|right PART [over SECONDS]",
+                    &ScriptRunner::trigger},
+      ScriptCommand{"pad", 1, 1, "pad BUTTON", &ScriptRunner::pad_button},
+      ScriptCommand{"scroll", 1, 1, "scroll STEPS", &ScriptRunner::scroll},
+      ScriptCommand{"key", 1, 1, "key CHORD", &ScriptRunner::key},
+      ScriptCommand{"type", 1, 1, "type TEXT", &ScriptRunner::type},
+      ScriptCommand{"do", 1, 1, "do ACTION", &ScriptRunner::run_command},
+      ScriptCommand{"open", 1, 9, "open FILE... [fails]", &ScriptRunner::open},
+      ScriptCommand{"save", 1, 1, "save FILE", &ScriptRunner::save},
+      ScriptCommand{"close", 0, 0, "close", &ScriptRunner::close},
+      ScriptCommand{"wait", 1, 1, "wait SECONDS", &ScriptRunner::wait},
+      ScriptCommand{"screenshot", 1, 1, "screenshot FILE.png", &ScriptRunner::picture},
+      ScriptCommand{"expect", 2, 3, "expect FACT VALUE | expect FACT below|above NUMBER",
+                    &ScriptRunner::expect},
+  };
+  return kCommands;
+}
+
 Result<void> ScriptRunner::run(const std::vector<ScriptLine>& lines, std::string_view name) {
   frames(2);
   for (const ScriptLine& line : lines) {
@@ -36,7 +63,7 @@ Result<void> ScriptRunner::run(const std::vector<ScriptLine>& lines, std::string
       return failure(
           ErrorKind::bad_input,
           fmt::format("{}:{}: expected an open window, found a closed one", name, line.number));
-    if (auto done = act(line.words); !done)
+    if (auto done = (this->*line.command->run)(line.words); !done)
       return failure(done.error().kind,
                      fmt::format("{}:{}: {}", name, line.number, done.error().message));
   }
@@ -97,25 +124,6 @@ Result<void> ScriptRunner::screenshot(const std::string& path) {
   studio_.frame(Painting::always);
   host_.bind();
   return publish(path, render::png_of(host_.read()));
-}
-
-Result<void> ScriptRunner::act(const Words& words) {
-  using Verb = Result<void> (ScriptRunner::*)(const Words&);
-  static constexpr std::array<std::pair<std::string_view, Verb>, 20> kVerbs = {{
-      {"move", &ScriptRunner::point},         {"point", &ScriptRunner::point},
-      {"press", &ScriptRunner::button},       {"release", &ScriptRunner::button},
-      {"hold", &ScriptRunner::hold},          {"pressure", &ScriptRunner::pressure},
-      {"gamepad", &ScriptRunner::gamepad},    {"stick", &ScriptRunner::stick},
-      {"trigger", &ScriptRunner::trigger},    {"pad", &ScriptRunner::pad_button},
-      {"scroll", &ScriptRunner::scroll},      {"key", &ScriptRunner::key},
-      {"type", &ScriptRunner::type},          {"do", &ScriptRunner::run_command},
-      {"open", &ScriptRunner::open},          {"save", &ScriptRunner::save},
-      {"close", &ScriptRunner::close},        {"wait", &ScriptRunner::wait},
-      {"screenshot", &ScriptRunner::picture}, {"expect", &ScriptRunner::expect},
-  }};
-  const auto* verb = std::ranges::find(kVerbs, std::string_view(words.front()),
-                                       &std::pair<std::string_view, Verb>::first);
-  return (this->*verb->second)(words);  // parse_script has refused unknown commands
 }
 
 Result<void> ScriptRunner::point(const Words& words) {

@@ -7,6 +7,7 @@
 #include "app/studio/studio.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,9 @@ class ScriptRunner {
  public:
   ScriptRunner(OffscreenHost& host, Studio& studio) : host_(host), studio_(studio) {}
 
+  /// All commands of scripts.
+  [[nodiscard]] static std::span<const ScriptCommand> commands() noexcept;
+
   /// Runs until the script or the window ends. A failed `expect` returns an `unsound` error with
   /// its line.
   Result<void> run(const std::vector<ScriptLine>& lines, std::string_view name);
@@ -24,7 +28,6 @@ class ScriptRunner {
 
  private:
   using Words = std::vector<std::string>;  // a command and its arguments
-  Result<void> act(const Words& words);
   Result<void> point(const Words& words);
   Result<void> button(const Words& words);
   Result<void> hold(const Words& words);

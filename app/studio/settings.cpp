@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -159,7 +160,9 @@ LoadedSettings load_settings(const std::filesystem::path& path) {
   return {{}, fmt::format("{}; it was renamed to {}", settings.error().message, aside.string())};
 }
 
-Result<void> save_settings(const Settings& settings, const std::filesystem::path& path) {
+namespace {
+
+Result<void> write_to(const std::filesystem::path& path, std::string_view text) {
   if (path.empty()) return failure(ErrorKind::io, std::string("settings: ") + kNoHome);
   std::error_code failed;
   if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed))
@@ -168,7 +171,23 @@ Result<void> save_settings(const Settings& settings, const std::filesystem::path
   if (failed)
     return failure(ErrorKind::io, fmt::format("{}: could not create: {}",
                                               path.parent_path().string(), failed.message()));
-  return publish(path, write_settings(settings));
+  return publish(path, text);
+}
+
+/// What another window has saved; empty if nothing that can be read.
+std::optional<std::string> saved_by_others(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+  const auto text = read_file(path, kMostBytes);
+  const auto settings =
+      text ? parse_settings(*text, path.string()) : tl::make_unexpected(text.error());
+  return settings ? std::optional(write_settings(*settings)) : std::nullopt;
+}
+
+}  // namespace
+
+Result<void> save_settings(const Settings& settings, const std::filesystem::path& path) {
+  return write_to(path, write_settings(settings));
 }
 
 SettingsFile::SettingsFile(std::filesystem::path path, const Settings& stored)
@@ -195,7 +214,10 @@ Result<void> SettingsFile::save(const Settings& settings) {
   wanted.scale = scale_.to_store(settings.scale);
   std::string text = write_settings(wanted);
   if (text == stored_) return {};
-  return save_settings(wanted, path_).map([&] { stored_ = std::move(text); });
+  const auto others = saved_by_others(path_);
+  return write_to(path_, others ? merged_fields(stored_, text, *others) : text).map([&] {
+    stored_ = std::move(text);
+  });
 }
 
 }  // namespace clay::studio

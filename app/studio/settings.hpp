@@ -90,7 +90,7 @@ class ForThisWindow {
 };
 
 /// Saves settings soon after they change, so that a window that is killed loses only the changes of
-/// its last second.
+/// its last second. A window saves only what it has changed itself: several may be open.
 class SettingsFile {
  public:
   /// Saves nothing.
@@ -107,7 +107,7 @@ class SettingsFile {
 
  private:
   std::filesystem::path path_;
-  std::string stored_;
+  std::string stored_;  // of this window, when it last saved
   ForThisWindow<Theme> theme_;
   ForThisWindow<float> scale_;
   double next_s_ = 0.0;

@@ -1,5 +1,7 @@
 #include "core/json/cbor_reader.hpp"
 
+#include "core/text.hpp"
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -40,7 +42,7 @@ class CborReader {
   bool document() {
     if (!item()) return false;
     return rest_.empty() || builder_.refuse("expected the end of the file, found " +
-                                            std::to_string(rest_.size()) + " bytes more");
+                                            counted(rest_.size(), "more byte"));
   }
 
  private:

@@ -43,6 +43,21 @@ void describe(Io& io, const PlainObject& object) {
   (*object.describe_fields)(fields);
 }
 
+std::string text_of(const Json& object) {
+  return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// `flags` is the only field that is an object itself.
+void merge(Json& mine, const Json& before, const Json& theirs) {
+  for (const auto& [name, value] : theirs.items()) {
+    const Json own = mine.value(name, Json()), old = before.value(name, Json());
+    if (own.is_object() && old.is_object() && value.is_object())
+      merge(mine[name], old, value);
+    else if (own == old)
+      mine[name] = value;
+  }
+}
+
 }  // namespace
 
 Result<void> read_fields(std::string_view text, std::string_view name, std::string_view schema,
@@ -54,8 +69,13 @@ Result<void> read_fields(std::string_view text, std::string_view name, std::stri
 }
 
 std::string write_fields(std::string_view schema, const DescribeFields& describe_fields) {
-  const Json object = ObjectWriter::write(PlainObject{schema, &describe_fields});
-  return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(ObjectWriter::write(PlainObject{schema, &describe_fields}));
+}
+
+std::string merged_fields(std::string_view before, std::string_view mine, std::string_view theirs) {
+  Json merged = Json::parse(mine);
+  merge(merged, Json::parse(before), Json::parse(theirs));
+  return text_of(merged);
 }
 
 }  // namespace clay::inline json

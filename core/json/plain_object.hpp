@@ -34,5 +34,9 @@ Result<void> read_fields(std::string_view text, std::string_view name, std::stri
                          std::size_t max_values, const DescribeFields& describe_fields);
 [[nodiscard]] std::string write_fields(std::string_view schema,
                                        const DescribeFields& describe_fields);
+/// `mine`, with `theirs` of each field that is the same in `mine` and `before`: the changes of two
+/// programs to one file. All are texts of write_fields with the same fields.
+[[nodiscard]] std::string merged_fields(std::string_view before, std::string_view mine,
+                                        std::string_view theirs);
 
 }  // namespace clay::inline json

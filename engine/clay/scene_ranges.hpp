@@ -10,7 +10,7 @@ namespace clay::ranges {
 inline constexpr Range kRings = from(1).to(static_cast<double>(kMaxRings));
 inline constexpr Range kRingLimit = from(0).to(static_cast<double>(kMaxRings));  ///< 0: default
 inline constexpr Range kRingHeightMm = from(kMinRingHeightMm).to(kMaxRingHeightMm);
-inline constexpr Range kDensity = from(0.1).to(25);  ///< [g/cm^3]
+inline constexpr Range kDensity = from(kMinDensityGCm3).to(kMaxDensityGCm3);
 inline constexpr Range kGapMm = from(kMinRadiusMm).to(1e3);
 
 inline constexpr Range kRatePerS = from(0).to(1e6);

@@ -164,8 +164,10 @@ Result<Pot> pot_from(const LocatedJson& document, const PotRecord& record) {
   if (!stack) return tl::make_unexpected(document.field_error({"rings"}, stack.error().message));
   if (const WideQuanta imbalance = record.ledger.imbalance(stack->recount()); imbalance != 0)
     return tl::make_unexpected(document.field_error(
-        {"ledger"}, "expected every quantum accounted for, found " + to_string(imbalance) +
-                        " too many (in the stack, trimmed and outside, less initial and added)"));
+        {"ledger"}, "expected every quantum accounted for, found " +
+                        to_string(imbalance < 0 ? -imbalance : imbalance) +
+                        (imbalance < 0 ? " too few" : " too many") +
+                        " (in the stack, trimmed and outside, less initial and added)"));
   Pot pot{std::move(*stack),
           record.ledger,
           record.model,

@@ -1,4 +1,5 @@
 #include "claystack/export/formats.hpp"
+#include "core/text.hpp"
 #include "export/formats/draco_bits.hpp"
 #include "export/formats/draco_counts.hpp"
 #include "export/formats/draco_grid.hpp"
@@ -142,8 +143,9 @@ Result<TriangleMesh> decode_plain(std::string_view bytes, std::string_view name)
   auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
   if (!decoded.ok()) return bad_file(name, "Draco: " + decoded.status().error_msg_string());
   if (buffer.remaining_size() != 0) {
-    return bad_file(name, "expected the end of the file after the mesh, found " +
-                              std::to_string(buffer.remaining_size()) + " bytes more");
+    return bad_file(name,
+                    "expected the end of the file after the mesh, found " +
+                        counted(static_cast<std::size_t>(buffer.remaining_size()), "more byte"));
   }
   return from_draco(*decoded.value(), name);
 }

@@ -51,7 +51,7 @@ class BinaryNumbers {
     const std::size_t end = file_.find_last_not_of(" \t\r\n") + 1;
     if (fault_ || at_ >= std::min(end, file_.size())) return;
     fault_ = bad_file(name_, "expected the end of the file after its elements, found " +
-                                 std::to_string(file_.size() - at_) + " bytes more")
+                                 counted(file_.size() - at_, "more byte"))
                  .value();
   }
   [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }

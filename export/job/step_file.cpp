@@ -74,9 +74,8 @@ tl::unexpected<Error> crossing_curves(const Wall& thinnest, double tolerance_mm)
                  "STEP: expected curves within the tolerance of " + nine_digit_text(tolerance_mm) +
                      " mm that stay apart, found that they cross; the thinnest wall has " +
                      nine_digit_text(thinnest.thickness_mm) + " mm at a height of " +
-                     nine_digit_text(thinnest.from.y) +
-                     " mm; straight lines instead of curves are exact, and a smaller tolerance "
-                     "brings the curves closer");
+                     nine_digit_text(thinnest.from.y) + " mm; " + kLinesAreExact +
+                     ", and a smaller tolerance brings the curves closer");
 }
 
 /// Closer curves, as long as those so far cross, or only they make a wall thinner than its limit.

@@ -215,8 +215,8 @@ Result<std::pair<BrepBody, double>> body_of(const Polygon& polygon, StepWalls wa
     if (deviation <= std::max(tolerance_mm, 2.0 * kBrepGridMm)) return std::pair(body, deviation);
   }
   return failure(ErrorKind::bad_input, "expected a tolerance that curves can keep, found " +
-                                           nine_digit_text(tolerance_mm) +
-                                           " mm; straight lines instead of curves are exact");
+                                           nine_digit_text(tolerance_mm) + " mm; " +
+                                           kLinesAreExact);
 }
 
 }  // namespace

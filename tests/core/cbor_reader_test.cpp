@@ -122,6 +122,11 @@ TEST(CborReader, RefusesTypesThatPotsDoNotUse) {
     EXPECT_FALSE(read(from_hex(hex)).value) << hex;
 }
 
+TEST(CborReader, CountsTheBytesAfterTheEnd) {
+  EXPECT_EQ(read(from_hex("80a0")).refusal, "expected the end of the file, found 1 more byte");
+  EXPECT_EQ(read(from_hex("80a0a0")).refusal, "expected the end of the file, found 2 more bytes");
+}
+
 TEST(CborReader, RefusesHugeLengthsBeforeAllocating) {
   for (const char* hex : {"9bffffffffffffffff", "bbffffffffffffffff", "7bffffffffffffffff",
                           "9a7fffffff00", "ba7fffffff616100", "7a7fffffff61"})

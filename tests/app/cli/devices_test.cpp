@@ -36,7 +36,8 @@ TEST(Devices, PrintsFaultAndRemedyOfADeviceThatDoesNotOpen) {
 }
 
 TEST(Devices, RefusesAnUnknownKind) {
-  for (const char* arguments : {"devices mouse", "devices simulated --seconds nan"})
+  for (const char* arguments : {"devices mouse", "devices simulated --monitor --seconds nan",
+                                "devices simulated --monitor --seconds 0"})
     EXPECT_EQ(claystack(arguments).status, 2) << arguments;
 }
 

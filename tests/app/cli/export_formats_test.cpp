@@ -1,5 +1,6 @@
 // Options of `claystack export` for files: facets, proof, formats, standard output.
 
+#include "claystack/engine/files.hpp"
 #include "tests/app/cli/thrown_bowl.hpp"
 
 #include <gtest/gtest.h>
@@ -89,6 +90,30 @@ TEST_F(ExportFormats, AGlbByMeshoptIsCertifiedAsDecoded) {
   EXPECT_LE(file.at("max_error_mm").get<double>(), 0.05);
   EXPECT_GT(file.at("max_error_mm").get<double>(), 1e-3);
   EXPECT_EQ(claystack("check " + glb).status, 0);
+}
+
+/// The bore of this pot is rough and 1e-6 mm from the outside, so curves cross at any tolerance.
+TEST(ExportStep, NamesTheOptionForLinesWhereCurvesCross) {
+  std::vector<Ring> rings(4, {quanta_from_radius(20.0), 0});
+  for (int i = 0; i < 40; ++i) {
+    const double outside = 20.0 + 2.0 * std::sin(0.25 * i);
+    const double bore = outside - 1e-6 - 2.0 * std::fmod(0.37 * i * i, 1.0);
+    rings.push_back({quanta_from_radius(outside), quanta_from_radius(bore)});
+  }
+  Pot pot;
+  pot.stack = ClayStack::from_rings(0.5, rings, 0, 100).value();
+  pot.ledger.initial = pot.stack.volume();
+  pot.density_g_cm3 = 1.9;
+  const ScratchFolder folder;
+  const std::string file = folder.file("rough.pot.json"), step = folder.file("rough.step");
+  write_text(file, write_pot(pot, PotEncoding::json));
+  const Ran crossing = claystack("export --pieces " + file + " " + step);
+  EXPECT_EQ(crossing.status, 1);
+  EXPECT_NE(crossing.err.find("mm; --step lines is exact, and a smaller tolerance brings"),
+            std::string::npos)
+      << crossing.err;
+  EXPECT_FALSE(std::filesystem::exists(step));
+  EXPECT_EQ(claystack("export -q --pieces --step lines " + file + " " + step).status, 0);
 }
 
 TEST_F(ExportFormats, TheWallMapColoursGlbAnd3mfAlone) {

@@ -56,6 +56,24 @@ TEST(Import, RefusesAZigzagInLittleMemory) {
   EXPECT_LT(run.err.size(), 1000u);
 }
 
+/// A pot may have every density that a scene may have.
+TEST(Import, TakesTheDensitiesOfScenes) {
+  const ScratchFolder folder;
+  const auto run_with = [&](const std::string& density) {
+    return claystack("import " + sample("drawings/tumbler.csv") + " --density " + density + " -o " +
+                     folder.file("a.pot.json"));
+  };
+  for (const char* density : {"0.1", "25"}) {
+    const Ran run = run_with(density);
+    EXPECT_EQ(run.status, 0) << run.err;
+  }
+  for (const char* density : {"0.0999", "25.001"}) {
+    const Ran run = run_with(density);
+    EXPECT_EQ(run.status, 2) << density;
+    EXPECT_THAT(run.err, HasSubstr("0.1 to 25"));
+  }
+}
+
 TEST(Import, BoundsTheTextThatItQuotes) {
   const ScratchFolder folder;
   write_text(folder.file("wide.csv"), std::string(1'000'000, 'x') + ",y\n1,2\n");

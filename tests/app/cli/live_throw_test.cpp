@@ -218,6 +218,47 @@ TEST(LiveThrow, WarnsBeforeAThrowThatIsNotKept) {
         << kept;
 }
 
+/// In the settings 0 stands for the default: --force-gain 0 must not mean the full force.
+TEST(LiveThrow, RefusesAZeroThatWouldMeanTheDefault) {
+  const std::string live = kBowl + " --device simulated ";
+  for (const std::string option : {"--seconds", "--clay-rate", "--force-gain"}) {
+    const std::string others = option == "--seconds" ? "" : " --seconds 0.1";
+    for (const char* zero : {"0", "0.0", "-0"}) {
+      const Ran run = claystack(live + option + " " + zero + others);
+      EXPECT_EQ(run.status, 2) << option;
+      EXPECT_NE(run.err.find(option + ": expected a number above 0, found " + zero),
+                std::string::npos)
+          << run.err;
+    }
+  }
+  const Ran negative = claystack(live + "--seconds 0.1 --force-gain -1");
+  EXPECT_EQ(negative.status, 2);
+  EXPECT_NE(negative.err.find("--force-gain: expected"), std::string::npos) << negative.err;
+}
+
+/// As the session that a replay of the scene plays by default.
+TEST(LiveThrow, MayRecordBesideItsScene) {
+  const ScratchFolder folder;
+  const std::string scene = folder.file("mug.scene.json"), session = folder.file("mug.session");
+  write_text(scene, read_text(sample("paper/bowl.scene.json")));
+  const std::string live = "throw " + scene + " --device simulated --seconds 0.2 --record ";
+  const Ran first = claystack(live + session + " -o " + folder.file("a.pot.json"));
+  EXPECT_EQ(first.status, 0) << first.err;
+  const Ran again = claystack("throw " + scene + " -o " + folder.file("b.pot.json"));
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(read_text(folder.file("a.pot.json")), read_text(folder.file("b.pot.json")));
+  const Ran reads_it = claystack(live + session);
+  EXPECT_EQ(reads_it.status, 2) << "the simulated arm plays the session beside the scene";
+  EXPECT_NE(reads_it.err.find("the same file as the input"), std::string::npos) << reads_it.err;
+}
+
+TEST(LiveThrow, RefusesASessionThatNoArmPlays) {
+  const Ran run = claystack(kBowl + " --device falcon -s " + sample("paper/bowl.session"));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("--session: expected --device simulated too"), std::string::npos)
+      << run.err;
+}
+
 TEST(LiveThrow, ErrorsOfDampingNameTheOption) {
   const std::string live =
       "throw " + sample("paper/bowl.scene.json") + " --device simulated --seconds 0.1 --damping ";

@@ -260,6 +260,27 @@ TEST(Throw, WarnsAboutASessionOfAnotherScene) {
   EXPECT_NE(run.err.find("recorded on another scene (bowl)"), std::string::npos) << run.err;
 }
 
+/// The name of a scene does not change the pot, and --model is a choice.
+TEST(Throw, KnowsTheSceneOfASessionWhateverItsNameAndTheChosenModel) {
+  const ScratchFolder folder;
+  auto scene = nlohmann::json::parse(read_text(sample("cylinder.scene.json")));
+  const auto warning_of = [&](const std::string& options) {
+    write_text(folder.file("a.scene.json"), scene.dump());
+    const Ran run = claystack("throw -q " + folder.file("a.scene.json") + " --session " +
+                              sample("cylinder.session") + options);
+    EXPECT_EQ(run.status, 0);
+    return run.err;
+  };
+  scene["name"] = "mug";
+  EXPECT_EQ(warning_of(""), "");
+  scene["model"] = "paper";
+  const std::string warning = "recorded on another scene (cylinder)";
+  EXPECT_NE(warning_of("").find(warning), std::string::npos);
+  EXPECT_EQ(warning_of(" --model conserving"), "");
+  scene["removal"]["min_wall_mm"] = 2.5;
+  EXPECT_NE(warning_of(" --model conserving").find(warning), std::string::npos);
+}
+
 TEST(Throw, RefusesAPinchSessionWithoutAGapInTheScene) {
   const ScratchFolder folder;
   const std::string pot = folder.file("p.pot.json"), session = sample("paper/cylinder.session");

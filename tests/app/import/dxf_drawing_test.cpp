@@ -67,6 +67,20 @@ TEST(DxfDrawing, JoinsLinesInAnyOrderAndDirection) {
   EXPECT_NEAR(volume_of(file(cone)), kPi * 90.0 / 3.0 * (1600.0 + 800.0 + 400.0), 0.01 * 90 * 50);
 }
 
+/// LF, CR LF, and the CR of old Macintosh programs.
+TEST(DxfDrawing, ReadsEveryEndOfLine) {
+  const std::string box = file(line({0, 0}, {1, 0}) + line({1, 0}, {1, 2}) + line({1, 2}, {0, 2}) +
+                               line({0, 2}, {0, 0}));
+  for (const std::string end : {"\n", "\r\n", "\r", "\r\r\n"}) {
+    std::string text;
+    for (const char c : box) text += c == '\n' ? end : std::string(1, c);
+    EXPECT_NEAR(volume_of(text), 2.0 * kPi, 1e-9) << testing::PrintToString(end);
+    text.replace(text.find("10"), 2, "x0");
+    EXPECT_THAT(refusal_of(read_drawing(text, "pot.dxf")), HasSubstr("pot.dxf:19: expected"))
+        << testing::PrintToString(end);
+  }
+}
+
 TEST(DxfDrawing, ACircleIsABall) {
   // Whatever the number of its chords.
   for (const double radius : {10.0, 20.0, 33.3, 50.0}) {

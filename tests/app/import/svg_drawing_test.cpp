@@ -256,6 +256,23 @@ TEST(SvgDrawing, ImportantDeclarationsPrevail) {
   EXPECT_NEAR(with("rect{display:none!important; display:inline}", ""), wanted, 1e-6);
 }
 
+TEST(SvgDrawing, KeywordsOfCssMayBeInCapitals) {
+  const std::string pot = "<path d='M 0 0 H 30 V 60 H 0 L 0 30 Z'/>";
+  for (const std::string hidden :
+       {"style='display:NONE'", "style='DISPLAY:none'", "display='None'", "class='off'",
+        "visibility='HIDDEN'", "style='fill:None;stroke:NONE'", "fill='Transparent'",
+        "style='display:None!IMPORTANT'"})
+    EXPECT_NEAR(volume_of("<style>.off{Display:nOne}</style>" + pot + "<rect " + hidden +
+                          " width='90' height='60'/>"),
+                kPi * 900.0 * 60.0, 1e-6)
+        << hidden;
+  for (const std::string shown :
+       {"visibility='VISIBLE'", "visibility='INHERIT'", "style='transform:NONE'"})
+    EXPECT_NEAR(volume_of(pot + "<rect " + shown + " y='60' width='30' height='40'/>"),
+                kPi * 900.0 * 100.0, 1e-6)
+        << shown;
+}
+
 TEST(SvgDrawing, ReportsClipPathsAndMasksOnce) {
   const std::string start = "<svg xmlns='http://www.w3.org/2000/svg'>";
   const auto notes_of = [&](const std::string& shapes) {

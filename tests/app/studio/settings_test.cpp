@@ -216,6 +216,38 @@ TEST(SettingsFile, SavesChangesAtMostOnceASecond) {
   EXPECT_EQ(test::read_text(path), write_settings(changed()));
 }
 
+TEST(SettingsFile, KeepsWhatAnotherWindowHasChanged) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("studio.json");
+  Settings first, second;
+  SettingsFile of_first(path, first), of_second(path, second);
+  first.unit = LengthUnit::in;
+  first.open = {{"force", false}};
+  ASSERT_TRUE(of_first.save(first));
+  second.wheel_rpm = 90.0;
+  second.open = {{"walls", true}};
+  ASSERT_TRUE(of_second.save(second));
+  const auto stored = [&] { return load_settings(path).settings; };
+  EXPECT_EQ(stored().unit, LengthUnit::in);
+  EXPECT_EQ(stored().wheel_rpm, 90.0);
+  EXPECT_EQ(stored().open, (std::map<std::string, bool>{{"force", false}, {"walls", true}}));
+  first.wheel_rpm = 60.0;
+  ASSERT_TRUE(of_first.save(first));
+  second.wall_map = true;
+  ASSERT_TRUE(of_second.save(second));
+  EXPECT_EQ(stored().wheel_rpm, 60.0) << "the second window has not changed it again";
+  EXPECT_TRUE(stored().wall_map);
+}
+
+TEST(SettingsFile, WritesItsOwnSettingsWhereTheFileIsDamaged) {
+  const test::ScratchFolder folder;
+  const std::string path = folder.file("studio.json");
+  SettingsFile file(path, Settings());
+  test::write_text(path, "{\"schema\": 7}");
+  ASSERT_TRUE(file.save(changed()));
+  EXPECT_EQ(test::read_text(path), write_settings(changed()));
+}
+
 /// `--theme` and `--scale` are for one window.
 TEST(SettingsFile, StoresTheLookOfTheCommandLineOnlyWhenTheUserChangesIt) {
   const test::ScratchFolder folder;

@@ -139,7 +139,7 @@ TEST(PotFile, RefusesALedgerOffByOneQuantum) {
   pot.ledger.added += 1;
   const std::string text = write_pot(pot, PotEncoding::json);
   const std::string message =
-      "ledger: expected every quantum accounted for, found -1 too many (in the stack, trimmed and "
+      "ledger: expected every quantum accounted for, found 1 too few (in the stack, trimmed and "
       "outside, less initial and added)";
   test::expect_refused(parse_pot(text, "p"),
                        "p:" + std::to_string(test::line_of(text, "\"ledger\"")) + ": " + message);

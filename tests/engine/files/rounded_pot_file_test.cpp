@@ -153,7 +153,7 @@ TEST(RoundedPotFile, RefusesALedgerOffByOneQuantum) {
   Pot pot = small_rounded_pot();
   pot.ledger.added += 1;
   test::expect_refused(parse_pot(write_pot(pot, PotEncoding::cbor), "p"),
-                       "p: ledger: expected every quantum accounted for, found -1 too many (in "
+                       "p: ledger: expected every quantum accounted for, found 1 too few (in "
                        "the stack, trimmed and outside, less initial and added)");
 }
 

@@ -40,7 +40,7 @@ TEST(ReadDrc, RefusesEveryTruncation) {
     EXPECT_GT(message.size(), std::string_view("pot.drc: Draco: ").size());
   }
   EXPECT_EQ(message_of(decode_drc(whole + "xy", "pot.drc")),
-            "pot.drc: expected the end of the file after the mesh, found 2 bytes more");
+            "pot.drc: expected the end of the file after the mesh, found 2 more bytes");
 }
 
 TEST(ReadDrc, ErrorsNameTheFaultInTheHeader) {

@@ -177,7 +177,7 @@ TEST(Ply, RefusesBadValues) {
   expect(with(ply_text(), "3 0 3 2\n", ""), "the end of the line or file");
   expect(ply_text() + "9\n", "expected the end of the file after its elements");
   std::string binary = ply_binary(std::endian::little);
-  expect(binary + "x", "found 1 bytes more");
+  expect(binary + "x", "found 1 more byte");
   expect(binary.substr(0, binary.size() - 1), "face 4: the file ends early");
   const std::size_t body = binary.find("end_header\n") + 11;
   const double bad = std::nan("");

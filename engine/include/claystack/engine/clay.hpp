@@ -30,6 +30,7 @@ inline constexpr double kMm2PerQuantum = 1.0 / kQuantaPerMm2;
 inline constexpr double kMinRadiusMm = 1e-3;
 inline constexpr double kMaxRadiusMm = 5000.0;
 inline constexpr double kMinRingHeightMm = 1e-3, kMaxRingHeightMm = 1e3;
+inline constexpr double kMinDensityGCm3 = 0.1, kMaxDensityGCm3 = 25.0;
 inline constexpr std::size_t kMaxRings = std::size_t{1} << 24;
 
 /// The squared radius nearest to `mm2` [mm^2], halves up. Needs 0 <= mm2 < 1.3e8.

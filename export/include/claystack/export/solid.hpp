@@ -70,6 +70,9 @@ TriangleMesh revolve(const Profile& profile, std::size_t segments);
 /// plane for each of its edges.
 enum class StepWalls { spline, lines };
 
+/// The remedy that messages name where curves do not keep within the tolerance: StepWalls::lines.
+inline constexpr const char* kLinesAreExact = "straight lines instead of curves are exact";
+
 // ---- decimate ------------------------------------------------------------------------
 // Fewer triangles for meshes that have no profile to revolve again.
 
