@@ -28,6 +28,7 @@ bool in_lesson(View view) { return view.guide.active(); }
 bool in_step(View view) {
   return view.guide.active() && !view.guide.finished() && !view.readings.fallen();
 }
+bool can_show_step(View view) { return in_step(view) && !view.stroke.has_device(); }
 bool has_work(View view) { return view.document.has_work(); }
 bool view_is_free(View view) { return !view.view_is_held(); }
 /// A panel that is out of sight takes room from the view.
@@ -104,6 +105,11 @@ const char* why_no_pictures(View view) {
 }
 bool can_import(View view) {
   const auto* import = std::get_if<ImportDialog>(&view.ui.dialog);
+const char* why_no_show(View view) {
+  return can_show_step(view)        ? nullptr
+         : view.stroke.has_device() ? "an arm holds the tool"
+                                    : "no step of a lesson is in progress";
+}
   return import != nullptr && import->made;
 }
 /// Smoothing is a clay rule; works thrown without the rules have none.
@@ -254,7 +260,7 @@ const std::array kCommands = {
     C{"view.larger", "Larger text", key(GLFW_KEY_EQUAL, kCtrl), key(GLFW_KEY_EQUAL, kCtrlShift), ScaleText{kTextStep}, view_is_free, nullptr, why_view_is_held},
     C{"view.smaller", "Smaller text", key(GLFW_KEY_MINUS, kCtrl), kNone, ScaleText{1.0f / kTextStep}, view_is_free, nullptr, why_view_is_held},
 
-    C{"help.show_step", "Show this step", key(GLFW_KEY_G), kNone, ShowStep{}, in_step},
+    C{"help.show_step", "Show this step", key(GLFW_KEY_G), kNone, ShowStep{}, can_show_step, nullptr, why_no_show},
     C{"help.next_step", "Next step", key(GLFW_KEY_N), kNone, NextStep{}, in_step},
     C{"help.end_lesson", "End the guide", kNone, kNone, EndLesson{}, in_lesson},
     C{"help.panels", "Go to the panels", key(GLFW_KEY_F6), kNone, NextColumn{}, can_go_to_panels, has_keys_in_panels, why_view_is_held},

@@ -102,11 +102,25 @@ void update_strokes(AppState& state) {
                           "clay cannot rise above the rim.");
 }
 
+/// A stroke of a device has no end of its own. In a lesson it ends when the tool leaves the clay,
+/// and the next one is planned. The window cannot lead a tool that a hand holds.
+void guide_device(AppState& state) {
+  if (!state.stroke.has_device()) return;
+  if (state.stroke.has_left_clay()) state.stroke.release();
+  if (state.guide.demonstration() == Demonstration::none) return;
+  state.guide.demonstrate(Demonstration::none);
+  note(state, Grade::warning,
+       state.stroke.device_name() +
+           " holds the tool: throw the steps with it, or disconnect it and choose Show me",
+       kDeviceNoteS);
+}
+
 /// A new step selects its tool.
 void update_guide(AppState& state) {
+  if (state.guide.active()) guide_device(state);
   state.guide.update(state.document, state.stroke);
   if (!state.guide.active()) return;
-  if (state.guide.take_new_step() && !state.stroke.throwing()) {
+  if (state.guide.take_new_step() && !state.stroke.by_hand()) {
     const LessonPlan& plan = *state.guide.plan();
     choose(state.guide.tool(), state.settings.tool);
     state.settings.tool.mode = plan.mode;

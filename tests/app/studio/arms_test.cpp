@@ -248,5 +248,41 @@ TEST_F(Arms, BannerExplainsHomingUntilItIsDone) {
   play("wait 0.1\nexpect banner \"\"\n");
 }
 
+constexpr std::size_t kCylinder = 3;
+
+/// A stroke of an arm has no end of its own: in a lesson it ends when the tool leaves the clay.
+TEST_F(Arms, LeadsThroughALesson) {
+  ArmScript& arm = arms_.emplace_back();
+  plug_and_engage(arm);
+  state().settings.tool.mode = ToolMode::wire;
+  apply(state(), BeginLesson{kCylinder, false});
+  play("wait 3\nexpect throwing yes\nexpect force engaged\nexpect step Open\n");
+  ASSERT_NE(state().guide.plan(), nullptr);
+  EXPECT_EQ(state().document.scene().tool.mode, ToolMode::press) << "the tool of the step";
+  const std::size_t plans = state().guide.plan_number();
+  arm.goal_mm = 38.0;
+  play("wait 1\nexpect contact yes\nexpect strokes 0\n");
+  arm.goal_mm = 80.0;
+  play("wait 1\nexpect contact no\nexpect strokes 1\nexpect throwing yes\n");
+  EXPECT_GT(state().guide.plan_number(), plans) << "for the new pot";
+}
+
+TEST_F(Arms, TakesTheToolFromADemonstration) {
+  state().scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state(), BeginLesson{kCylinder, true});
+  play("wait 3\nexpect throwing yes\n");
+  plug(arms_.emplace_back());
+  wait_until_in_use();
+  play("wait 0.1\n");
+  EXPECT_EQ(state().guide.demonstration(), Demonstration::none);
+  EXPECT_NE(banner().find("holds the tool"), std::string::npos) << banner();
+  EXPECT_FALSE(find_command("help.show_step")->enabled(view_model(state())));
+  apply(state(), BeginLesson{kCylinder, true});
+  play("key Ctrl+D\nwait 0.2\nexpect overlay none\n");
+  EXPECT_TRUE(state().guide.active());
+  EXPECT_EQ(state().guide.demonstration(), Demonstration::none);
+  EXPECT_FALSE(state().guide.shown()) << "nothing was shown";
+}
+
 }  // namespace
 }  // namespace clay::studio
