@@ -84,8 +84,15 @@ void Performer::operator()(const YourTurn&) const {
   start_lesson(state.guide.sample(), Demonstration::none);
 }
 
+/// A stroke in progress belongs to the step that ends.
 void Performer::operator()(const NextStep&) const {
-  if (state.guide.active()) state.guide.next();
+  if (!state.guide.active()) return;
+  const std::size_t step = state.guide.step();
+  if (state.stroke.by_hand() || state.stroke.touched()) {
+    state.stroke.release();
+    state.guide.update(state.document, state.stroke);
+  }
+  if (state.guide.step() == step) state.guide.next();
 }
 
 void Performer::operator()(const ShowStep&) const {

@@ -265,6 +265,9 @@ TEST_F(Arms, LeadsThroughALesson) {
   arm.goal_mm = 80.0;
   play("wait 1\nexpect contact no\nexpect strokes 1\nexpect throwing yes\n");
   EXPECT_GT(state().guide.plan_number(), plans) << "for the new pot";
+  play("key N\nwait 3\nexpect force engaged\n");
+  EXPECT_EQ(state().guide.step(), 1u);
+  EXPECT_NE(state().guide.plan(), nullptr);
 }
 
 TEST_F(Arms, TakesTheToolFromADemonstration) {
