@@ -86,7 +86,7 @@ void update_strokes(AppState& state) {
   else if (news.error)
     report(state, *news.error);
   if (!news.stroke_ended) return;
-  if (state.document.has_work() && !state.stroke.throwing())
+  if (state.document.has_work() && !state.stroke.by_hand())
     state.scene.follow(state.stroke.view(), news.before, state.settings.tool.mode);
   state.log(fmt::format("stroke ended: {} poses, {} ticks", news.poses, news.ticks));
   if (!news.nothing_cut.empty()) note(state, Grade::note, news.nothing_cut, kCutNoteS);
@@ -225,7 +225,7 @@ render::PotView thumb_of(const Pot& pot) {
 void update_thumbs(AppState& state) {
   UiState& ui = state.ui;
   ui.thumbs_missing = false;
-  if (!state.document.has_work() || state.stroke.throwing()) return;
+  if (!state.document.has_work() || state.stroke.by_hand()) return;
   const history::Work& work = state.document.work();
   std::vector<history::NodeId> wanted{0};
   for (const TimelineCard& card : timeline_of(work)) wanted.push_back(card.node);

@@ -7,6 +7,7 @@
 #include "tests/app/servo/live_bench.hpp"
 #include "tests/app/studio/clocked_arm.hpp"
 #include "tests/app/studio/socket.hpp"
+#include "tests/support/run_program.hpp"
 
 #include <gtest/gtest.h>
 
@@ -246,6 +247,19 @@ TEST_F(Arms, BannerExplainsHomingUntilItIsDone) {
   EXPECT_EQ(arm.max_force_n, 0.0);
   arm.state = falcon::DeviceState::ready;
   play("wait 0.1\nexpect banner \"\"\n");
+}
+
+/// It never rests.
+TEST_F(Arms, TheTimelineShowsThePotAfterEveryStroke) {
+  const test::ScratchFolder folder;
+  for (int press = 0; press < 2; ++press) play(std::string(kMousePresses) + "release left\n");
+  plug_and_engage(arms_.emplace_back());
+  const std::string file = folder.file("two.work");
+  play("save \"" + file + "\"\nopen \"" + file + "\"\nwait 0.5\nexpect throwing yes\n");
+  for (const history::NodeId node : {0u, 1u, 2u}) {
+    ASSERT_TRUE(state().ui.thumbs.contains(node)) << node;
+    EXPECT_FALSE(state().ui.thumbs.at(node).rows.empty()) << node;
+  }
 }
 
 constexpr std::size_t kCylinder = 3;
