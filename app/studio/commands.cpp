@@ -122,7 +122,10 @@ const char* why_no_rules(View view) {
                            : "this tool needs a pot thrown with the clay rules";
 }
 const char* why_no_drag(View view) {
-  return view.fingers ? "this needs a mouse; the panels have sliders" : why_not_between(view);
+  if (can_drag(view)) return nullptr;
+  return view.fingers               ? "this needs a mouse; the panels have sliders"
+         : view.stroke.has_device() ? "an arm holds the tool; the panels have sliders"
+                                    : why_not_between(view);
 }
 bool pinching(View view) { return view.settings.tool.mode == ToolMode::pinch; }
 bool rearmable(View view) { return view.waits_for_rearm(); }

@@ -188,7 +188,9 @@ void StrokeController::lose_device() {
 void StrokeController::hold(const ToolSpec& tool, double wheel_rpm) {
   if (!device_ || !document_.has_work()) return;
   const SceneSpec scene = document_.scene_with(tool, wheel_rpm);
-  if (scene == document_.scene()) return;
+  // The stiffness is changed in the scene of the document.
+  const bool felt = !throwing() || scene.force == force_;
+  if (felt && scene == document_.scene()) return;
   release();
   document_.set_scene(scene);
 }
@@ -222,9 +224,9 @@ void StrokeController::advance(std::int64_t now_ns) {
 
 void StrokeController::read_servo() {
   status_ = live_->status();
+  if (status_.contact) contact_ns_ = last_ns_;
   touched_ = touched_ || status_.contact;
   const servo::LiveProfile* profile = live_->new_profile();
-  if (status_.contact) contact_ns_ = last_ns_;
   if (profile == nullptr) return;
   view_ = view_of(*profile);
   crown_mm_ = profile->crown_mm;

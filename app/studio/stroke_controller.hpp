@@ -89,7 +89,7 @@ class StrokeController {
   [[nodiscard]] bool has_device() const noexcept { return device_ != nullptr; }
   /// The device can exert force.
   [[nodiscard]] bool has_motors() const noexcept { return device_ && device_->info().can_push; }
-  /// Sets the tool of the device from the next frame on.
+  /// Sets the tool of the device from the next frame on, and lets it feel a changed stiffness.
   void hold(const ToolSpec& tool, double wheel_rpm);
   [[nodiscard]] std::string device_name() const {
     return device_ ? device_->info().name : mouse_.info().name;

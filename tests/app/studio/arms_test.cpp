@@ -249,6 +249,29 @@ TEST_F(Arms, BannerExplainsHomingUntilItIsDone) {
   play("wait 0.1\nexpect banner \"\"\n");
 }
 
+/// The first contact compresses the same clay by the same way.
+TEST_F(Arms, AChangedStiffnessIsFelt) {
+  ArmScript& arm = arms_.emplace_back();
+  plug_and_engage(arm);
+  const auto touch = [&] {
+    arm.max_force_n = 0.0;
+    arm.goal_mm = 57.0;
+    play("wait 0.1\nexpect contact yes\n");
+    arm.goal_mm = 80.0;
+    play("wait 3\nexpect contact no\nexpect force engaged\n");
+    return arm.max_force_n;
+  };
+  const double before_n = touch();
+  ASSERT_GT(before_n, 0.05);
+  apply(state(), SetStiffness{0.25 * state().document.stiffness()});
+  play("key Ctrl+Z\nwait 3\nexpect force engaged\n");
+  const double undone_n = touch();
+  EXPECT_NEAR(undone_n, 0.25 * before_n, 0.05 * before_n) << "after undo";
+  apply(state(), SetStiffness{4.0 * state().document.stiffness()});
+  play("wait 3\nexpect force engaged\n");
+  EXPECT_GT(touch(), 2.0 * undone_n) << "at once";
+}
+
 /// It never rests.
 TEST_F(Arms, TheTimelineShowsThePotAfterEveryStroke) {
   const test::ScratchFolder folder;
