@@ -71,7 +71,9 @@ const char* why_no_write(View view) {
   return view.ui.exporting.refused ? "these files cannot be exported" : nullptr;
 }
 bool can_write(View view) { return why_no_write(view) == nullptr; }
-bool writing(View view) { return view.writing() || view.picture_running; }
+bool can_cancel(View view) {
+  return view.writing() || (view.picture_running && !view.ui.shows<ExportDialog>());
+}
 bool has_written(View view) {
   return view.ui.shows<PictureDialog>() ? !view.ui.pictures.written.empty()
                                         : !view.ui.exporting.written.empty();
@@ -103,13 +105,13 @@ const char* why_no_pictures(View view) {
                                     : "a web page cannot write pictures; open the pot in the "
                                       "program for the desktop";
 }
-bool can_import(View view) {
-  const auto* import = std::get_if<ImportDialog>(&view.ui.dialog);
 const char* why_no_show(View view) {
   return can_show_step(view)        ? nullptr
          : view.stroke.has_device() ? "an arm holds the tool"
                                     : "no step of a lesson is in progress";
 }
+bool can_import(View view) {
+  const auto* import = std::get_if<ImportDialog>(&view.ui.dialog);
   return import != nullptr && import->made;
 }
 /// Smoothing is a clay rule; works thrown without the rules have none.
@@ -203,7 +205,7 @@ const std::array kCommands = {
     C{"recover.discard", "Discard the unsaved work", kNone, kNone, DiscardRecoverable{}, recoverable},
     C{"recover.confirm", "Discard the work", key(GLFW_KEY_D, kCtrlShift), kNone, DiscardAsked{}, asks_to_discard},
     C{"export.write", "Export the files", key(GLFW_KEY_ENTER, kCtrl), kNone, WriteExport{}, can_write, nullptr, why_no_write},
-    C{"export.cancel", "Cancel the export", kNone, kNone, CancelExport{}, writing},
+    C{"export.cancel", "Cancel the export", kNone, kNone, CancelExport{}, can_cancel},
     C{"export.folder", "Open the folder", kNone, kNone, ShowExportFolder{}, has_written},
     C{"import.take", "Place on the wheel", key(GLFW_KEY_ENTER, kCtrlShift), kNone, TakeImport{}, can_import},
 

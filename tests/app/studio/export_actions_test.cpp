@@ -128,6 +128,27 @@ TEST_F(ActionsTest, QuittingWaitsForAnExport) {
   EXPECT_TRUE(state.done);
 }
 
+/// A turntable may be in writing, too.
+TEST_F(ActionsTest, CancelEndsWhatTheDialogShows) {
+  apply(state, ShowDialog{DialogKind::picture});
+  PictureFile picture = state.ui.pictures.file;
+  picture.folder = folder.path().string();
+  apply(state, EditPicture{picture});
+  apply(state, WriteExport{});
+  ASSERT_TRUE(state.pictures.busy());
+  apply(state, CloseDialog{});
+  apply(state, ShowDialog{DialogKind::export_files});
+  EXPECT_FALSE(find_command("export.cancel")->enabled(view_model(state)));
+  ExportChoices choices = state.ui.exporting.choices;
+  choices.folder = folder.path().string();
+  choices.tolerance_mm = kFinestMm;
+  apply(state, EditExport{choices});
+  apply(state, WriteExport{});
+  apply(state, CancelExport{});
+  update(state);
+  EXPECT_NE(log.find("export cancelled"), std::string::npos) << log;
+}
+
 /// A dialog that is opened again shows no earlier failure, so a banner reports it.
 TEST_F(ActionsTest, AFailureAfterTheDialogWasClosedIsABanner) {
   const std::string gone = folder.file("gone");
