@@ -238,7 +238,9 @@ void update_export(AppState& state) {
     exporting.preview.reset();
     exporting.problem.clear();
     exporting.refused = false;
-    if (!exporting.choices.meshes.empty())
+    if (exporting.choices.meshes.empty())
+      state.exporter.cancel();  // the preview of the choices before
+    else
       state.exporter.preview(state.document.shared_pot(), exporting.choices);
   }
   if (!state.host.real_time()) state.exporter.wait();  // frames of a script are reproducible
@@ -246,7 +248,7 @@ void update_export(AppState& state) {
   if (!outcome) return;
   if (outcome->kind == Exporter::Kind::files)
     take_files(state, std::move(*outcome));
-  else if (dialog != nullptr)
+  else if (dialog != nullptr && dialog->previewed == solid_choices(outcome->choices))
     take_preview(state, std::move(*outcome));
 }
 

@@ -128,6 +128,20 @@ TEST_F(ActionsTest, QuittingWaitsForAnExport) {
   EXPECT_TRUE(state.done);
 }
 
+/// A preview that is ready after another choice is not that of the choices shown.
+TEST_F(ActionsTest, APreviewOfTheChoicesBeforeIsNotShown) {
+  apply(state, ShowDialog{DialogKind::export_files});
+  ExportChoices choices = state.ui.exporting.choices;
+  ASSERT_FALSE(choices.meshes.empty());
+  state.exporter.preview(state.document.shared_pot(), choices);
+  state.exporter.wait();
+  choices.meshes.clear();
+  choices.step = true;
+  apply(state, EditExport{choices});
+  update(state);
+  EXPECT_FALSE(state.ui.exporting.preview);
+}
+
 /// A turntable may be in writing, too.
 TEST_F(ActionsTest, CancelEndsWhatTheDialogShows) {
   apply(state, ShowDialog{DialogKind::picture});
