@@ -250,6 +250,9 @@ void Performer::show_work() const {
   state.ui.dialog = NoDialog{};
   show_from(ViewFrom::home);
   state.ui.exporting.written.clear();
+  state.ui.exporting.of_other_work = state.exporter.running() == Exporter::Kind::files;
+  state.ui.pictures.written.clear();
+  state.ui.pictures.of_other_work = state.pictures.busy();
   state.ui.thumbs.clear();
   state.log("work started: " + state.document.scene().name);
 }
