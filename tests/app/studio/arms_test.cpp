@@ -285,14 +285,14 @@ TEST_F(Arms, TheTimelineShowsThePotAfterEveryStroke) {
   }
 }
 
-constexpr std::size_t kCylinder = 3;
+constexpr std::size_t kLearned = 3;  // the cylinder
 
 /// A stroke of an arm has no end of its own: in a lesson it ends when the tool leaves the clay.
 TEST_F(Arms, LeadsThroughALesson) {
   ArmScript& arm = arms_.emplace_back();
   plug_and_engage(arm);
   state().settings.tool.mode = ToolMode::wire;
-  apply(state(), BeginLesson{kCylinder, false});
+  apply(state(), BeginLesson{kLearned, false});
   play("wait 3\nexpect throwing yes\nexpect force engaged\nexpect step Open\n");
   ASSERT_NE(state().guide.plan(), nullptr);
   EXPECT_EQ(state().document.scene().tool.mode, ToolMode::press) << "the tool of the step";
@@ -309,7 +309,7 @@ TEST_F(Arms, LeadsThroughALesson) {
 
 TEST_F(Arms, TakesTheToolFromADemonstration) {
   state().scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
-  apply(state(), BeginLesson{kCylinder, true});
+  apply(state(), BeginLesson{kLearned, true});
   play("wait 3\nexpect throwing yes\n");
   plug(arms_.emplace_back());
   wait_until_in_use();
@@ -317,7 +317,7 @@ TEST_F(Arms, TakesTheToolFromADemonstration) {
   EXPECT_EQ(state().guide.demonstration(), Demonstration::none);
   EXPECT_NE(banner().find("holds the tool"), std::string::npos) << banner();
   EXPECT_FALSE(find_command("help.show_step")->enabled(view_model(state())));
-  apply(state(), BeginLesson{kCylinder, true});
+  apply(state(), BeginLesson{kLearned, true});
   play("key Ctrl+D\nwait 0.2\nexpect overlay none\n");
   EXPECT_TRUE(state().guide.active());
   EXPECT_EQ(state().guide.demonstration(), Demonstration::none);
