@@ -28,6 +28,7 @@ bool in_lesson(View view) { return view.guide.active(); }
 bool in_step(View view) {
   return view.guide.active() && !view.guide.finished() && !view.readings.fallen();
 }
+bool can_show_step(View view) { return in_step(view) && !view.stroke.has_device(); }
 bool has_work(View view) { return view.document.has_work(); }
 bool view_is_free(View view) { return !view.view_is_held(); }
 /// A panel that is out of sight takes room from the view.
@@ -70,7 +71,9 @@ const char* why_no_write(View view) {
   return view.ui.exporting.refused ? "these files cannot be exported" : nullptr;
 }
 bool can_write(View view) { return why_no_write(view) == nullptr; }
-bool writing(View view) { return view.writing() || view.picture_running; }
+bool can_cancel(View view) {
+  return view.writing() || (view.picture_running && !view.ui.shows<ExportDialog>());
+}
 bool has_written(View view) {
   return view.ui.shows<PictureDialog>() ? !view.ui.pictures.written.empty()
                                         : !view.ui.exporting.written.empty();
@@ -102,6 +105,11 @@ const char* why_no_pictures(View view) {
                                     : "a web page cannot write pictures; open the pot in the "
                                       "program for the desktop";
 }
+const char* why_no_show(View view) {
+  return can_show_step(view)        ? nullptr
+         : view.stroke.has_device() ? "an arm holds the tool"
+                                    : "no step of a lesson is in progress";
+}
 bool can_import(View view) {
   const auto* import = std::get_if<ImportDialog>(&view.ui.dialog);
   return import != nullptr && import->made;
@@ -116,7 +124,10 @@ const char* why_no_rules(View view) {
                            : "this tool needs a pot thrown with the clay rules";
 }
 const char* why_no_drag(View view) {
-  return view.fingers ? "this needs a mouse; the panels have sliders" : why_not_between(view);
+  if (can_drag(view)) return nullptr;
+  return view.fingers               ? "this needs a mouse; the panels have sliders"
+         : view.stroke.has_device() ? "an arm holds the tool; the panels have sliders"
+                                    : why_not_between(view);
 }
 bool pinching(View view) { return view.settings.tool.mode == ToolMode::pinch; }
 bool rearmable(View view) { return view.waits_for_rearm(); }
@@ -194,7 +205,7 @@ const std::array kCommands = {
     C{"recover.discard", "Discard the unsaved work", kNone, kNone, DiscardRecoverable{}, recoverable},
     C{"recover.confirm", "Discard the work", key(GLFW_KEY_D, kCtrlShift), kNone, DiscardAsked{}, asks_to_discard},
     C{"export.write", "Export the files", key(GLFW_KEY_ENTER, kCtrl), kNone, WriteExport{}, can_write, nullptr, why_no_write},
-    C{"export.cancel", "Cancel the export", kNone, kNone, CancelExport{}, writing},
+    C{"export.cancel", "Cancel the export", kNone, kNone, CancelExport{}, can_cancel},
     C{"export.folder", "Open the folder", kNone, kNone, ShowExportFolder{}, has_written},
     C{"import.take", "Place on the wheel", key(GLFW_KEY_ENTER, kCtrlShift), kNone, TakeImport{}, can_import},
 
@@ -254,7 +265,7 @@ const std::array kCommands = {
     C{"view.larger", "Larger text", key(GLFW_KEY_EQUAL, kCtrl), key(GLFW_KEY_EQUAL, kCtrlShift), ScaleText{kTextStep}, view_is_free, nullptr, why_view_is_held},
     C{"view.smaller", "Smaller text", key(GLFW_KEY_MINUS, kCtrl), kNone, ScaleText{1.0f / kTextStep}, view_is_free, nullptr, why_view_is_held},
 
-    C{"help.show_step", "Show this step", key(GLFW_KEY_G), kNone, ShowStep{}, in_step},
+    C{"help.show_step", "Show this step", key(GLFW_KEY_G), kNone, ShowStep{}, can_show_step, nullptr, why_no_show},
     C{"help.next_step", "Next step", key(GLFW_KEY_N), kNone, NextStep{}, in_step},
     C{"help.end_lesson", "End the guide", kNone, kNone, EndLesson{}, in_lesson},
     C{"help.panels", "Go to the panels", key(GLFW_KEY_F6), kNone, NextColumn{}, can_go_to_panels, has_keys_in_panels, why_view_is_held},

@@ -117,8 +117,10 @@ void Performer::operator()(const WriteExport& write) const {
 }
 
 void Performer::operator()(const CancelExport&) const {
-  if (state.pictures.busy()) return state.pictures.cancel();
-  state.exporter.cancel();
+  // Both may be in writing: the dialog shows which one is meant.
+  const bool files = state.ui.shows<ExportDialog>() || !state.pictures.busy();
+  if (files) return state.exporter.cancel();
+  state.pictures.cancel();
 }
 
 void Performer::operator()(const ShowExportFolder&) const { show_written_folder(state); }

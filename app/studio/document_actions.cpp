@@ -87,8 +87,15 @@ void Performer::operator()(const YourTurn&) const {
   start_lesson(state.guide.sample(), Demonstration::none);
 }
 
+/// A stroke in progress belongs to the step that ends.
 void Performer::operator()(const NextStep&) const {
-  if (state.guide.active()) state.guide.next();
+  if (!state.guide.active()) return;
+  const std::size_t step = state.guide.step();
+  if (state.stroke.by_hand() || state.stroke.touched()) {
+    state.stroke.release();
+    state.guide.update(state.document, state.stroke);
+  }
+  if (state.guide.step() == step) state.guide.next();
 }
 
 void Performer::operator()(const ShowStep&) const {
@@ -246,6 +253,9 @@ void Performer::show_work() const {
   state.ui.dialog = NoDialog{};
   show_from(ViewFrom::home);
   state.ui.exporting.written.clear();
+  state.ui.exporting.of_other_work = state.exporter.running() == Exporter::Kind::files;
+  state.ui.pictures.written.clear();
+  state.ui.pictures.of_other_work = state.pictures.busy();
   state.ui.thumbs.clear();
   state.log("work started: " + state.document.scene().name);
 }

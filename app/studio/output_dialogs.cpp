@@ -56,6 +56,7 @@ void write_export(AppState& state, bool replace) {
   exporting.problem.clear();
   exporting.result.clear();
   exporting.grade = Grade::note;
+  exporting.of_other_work = false;
   state.log("export started");
   state.exporter.write(state.document.shared_pot(), exporting.choices);
 }
@@ -120,6 +121,7 @@ void write_picture(AppState& state, bool replace) {
   pictures.written.clear();
   pictures.problem.clear();
   pictures.result.clear();
+  pictures.of_other_work = false;
   state.log("picture started");
   state.pictures.write(state.document.shared_pot(), pictures.file);
 }
@@ -132,7 +134,7 @@ void show_export(AppState& state) {
   choices.name = export_name(state);
   choices.folder = export_folder(state);
   choices.material = state.settings.material.id;
-  exporting = ExportState{.choices = choices};
+  exporting = ExportState{.choices = choices, .of_other_work = exporting.of_other_work};
   state.ui.dialog = ExportDialog{};
 }
 
@@ -187,10 +189,14 @@ void take_files(AppState& state, Exporter::Outcome outcome) {
     return show_failure<ExportDialog>(state, problem_of(outcome, state.settings.unit),
                                       exporting.problem);
   }
-  exporting.written = outcome.paths;
   exporting.result = result_text(*outcome.done, outcome.paths.size());
   exporting.grade = outcome.done->failed > 0 ? Grade::warning : Grade::note;
-  if (outcome.done->has_solid) {
+  // Files of another work are not this work's to replace.
+  if (exporting.of_other_work)
+    exporting.result = "Of the work before: " + exporting.result;
+  else
+    exporting.written = outcome.paths;
+  if (outcome.done->has_solid && !exporting.of_other_work) {
     mark_problems(state, outcome);
     exporting.preview = std::move(*outcome.done);
   }
@@ -238,7 +244,9 @@ void update_export(AppState& state) {
     exporting.preview.reset();
     exporting.problem.clear();
     exporting.refused = false;
-    if (!exporting.choices.meshes.empty())
+    if (exporting.choices.meshes.empty())
+      state.exporter.cancel();  // the preview of the choices before
+    else
       state.exporter.preview(state.document.shared_pot(), exporting.choices);
   }
   if (!state.host.real_time()) state.exporter.wait();  // frames of a script are reproducible
@@ -246,7 +254,7 @@ void update_export(AppState& state) {
   if (!outcome) return;
   if (outcome->kind == Exporter::Kind::files)
     take_files(state, std::move(*outcome));
-  else if (dialog != nullptr)
+  else if (dialog != nullptr && dialog->previewed == solid_choices(outcome->choices))
     take_preview(state, std::move(*outcome));
 }
 
@@ -260,13 +268,14 @@ void update_picture(AppState& state) {
   }
   if (!outcome->bytes)
     return show_failure<PictureDialog>(state, outcome->bytes.error().message, pictures.problem);
-  pictures.written = path_of(outcome->file);
+  const std::string written = path_of(outcome->file);
+  if (!pictures.of_other_work) pictures.written = written;
   pictures.result = fmt::format("{}: {} \xc3\x97 {} pixels, {:.2f} MB",
-                                std::filesystem::path(pictures.written).filename().string(),
+                                std::filesystem::path(written).filename().string(),
                                 outcome->file.look.size.width_px, outcome->file.look.size.height_px,
                                 1e-6 * static_cast<double>(*outcome->bytes));
-  state.host.file_written(pictures.written);
-  state.log("exported: " + pictures.written);
+  state.host.file_written(written);
+  state.log("exported: " + written);
   if (!state.ui.shows<PictureDialog>()) note(state, Grade::note, pictures.result, kExportNoteS);
   state.settings.folder = outcome->file.folder;
 }

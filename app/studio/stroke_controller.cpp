@@ -1,5 +1,6 @@
 #include "app/studio/stroke_controller.hpp"
 
+#include "app/history/split.hpp"
 #include "app/servo/servo_check.hpp"
 
 #include <fmt/format.h>
@@ -145,6 +146,11 @@ void StrokeController::release() {
   device_waits_ = device_ != nullptr && news_.ending != servo::Ending::collapsed;
 }
 
+bool StrokeController::has_left_clay() const noexcept {
+  const double away_s = 1e-9 * static_cast<double>(last_ns_ - contact_ns_);
+  return touched() && !status_.contact && away_s > history::kFreeAirS;
+}
+
 /// A needle or a wire can be in the clay without changing it.
 std::string StrokeController::why_nothing_cut() const {
   const ClayStack& stack = wheel_->stack();
@@ -182,7 +188,9 @@ void StrokeController::lose_device() {
 void StrokeController::hold(const ToolSpec& tool, double wheel_rpm) {
   if (!device_ || !document_.has_work()) return;
   const SceneSpec scene = document_.scene_with(tool, wheel_rpm);
-  if (scene == document_.scene()) return;
+  // The stiffness is changed in the scene of the document.
+  const bool felt = !throwing() || scene.force == force_;
+  if (felt && scene == document_.scene()) return;
   release();
   document_.set_scene(scene);
 }
@@ -216,6 +224,7 @@ void StrokeController::advance(std::int64_t now_ns) {
 
 void StrokeController::read_servo() {
   status_ = live_->status();
+  if (status_.contact) contact_ns_ = last_ns_;
   touched_ = touched_ || status_.contact;
   const servo::LiveProfile* profile = live_->new_profile();
   if (profile == nullptr) return;

@@ -75,6 +75,10 @@ class StrokeController {
   [[nodiscard]] bool throwing() const noexcept { return live_.has_value(); }
   /// A stroke of the mouse, the gamepad or the guide, not of a device.
   [[nodiscard]] bool by_hand() const noexcept { return throwing() && !has_device(); }
+  /// The tool has touched the clay in the stroke in progress.
+  [[nodiscard]] bool touched() const noexcept { return throwing() && touched_; }
+  /// It has, and has been off the clay since for longer than history::kFreeAirS.
+  [[nodiscard]] bool has_left_clay() const noexcept;
   /// How hard the mouse pulls the tool: the distance from the tool to its target [mm].
   [[nodiscard]] double stretch_mm() const noexcept { return live_ ? mouse_.stretch_mm() : 0.0; }
 
@@ -85,7 +89,7 @@ class StrokeController {
   [[nodiscard]] bool has_device() const noexcept { return device_ != nullptr; }
   /// The device can exert force.
   [[nodiscard]] bool has_motors() const noexcept { return device_ && device_->info().can_push; }
-  /// Sets the tool of the device from the next frame on.
+  /// Sets the tool of the device from the next frame on, and lets it feel a changed stiffness.
   void hold(const ToolSpec& tool, double wheel_rpm);
   [[nodiscard]] std::string device_name() const {
     return device_ ? device_->info().name : mouse_.info().name;
@@ -137,9 +141,10 @@ class StrokeController {
   std::optional<ForceSpec> force_;        // of the work's scene
   servo::LiveStatus status_;
   ServoRecord servo_;
-  bool touched_ = false;  // the clay, in this stroke
-  render::PotView view_;  // during a stroke
-  render::Extent begun_;  // of the pot at its start
+  bool touched_ = false;         // the clay, in this stroke
+  std::int64_t contact_ns_ = 0;  // time of the last frame in which it did
+  render::PotView view_;         // during a stroke
+  render::Extent begun_;         // of the pot at its start
   double crown_mm_ = 0.0;
   StrokeNews news_;
   double resisting_rpm_ = 0.0;  // speed of the wheel whose clay resists the mouse; 0: none does

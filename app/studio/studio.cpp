@@ -268,12 +268,12 @@ void Studio::lay_out(const ViewModel& model, Actions& actions) {
   draw_overlays(model, actions, parts, card);
 }
 
-/// The pot stands above the card of the guide. The room for the card grows between strokes only,
-/// because the view stands still during a stroke.
+/// The pot stands above the card of the guide. The room for the card does not grow
+/// during a stroke of the mouse, because the view stands still then.
 void Studio::place_view(const ViewModel& model, const ViewRect& view, float timeline, bool card) {
   const bool guided = card && model.guide.active();
   const float before = std::exchange(guide_px_, guided ? guide_px_ : 0.0f);
-  if (guided && !model.stroke.throwing()) guide_px_ = std::max(before, guide_height());
+  if (guided && !model.stroke.by_hand()) guide_px_ = std::max(before, guide_height());
   state_.scene.place(view, timeline + std::min(guide_px_, 0.5f * view.size_px.y));
   state_.scene.set_over_panel(ImGui::GetIO().WantCaptureMouse);
   if (before == 0.0f && guide_px_ > 0.0f) state_.scene.look(model.stroke.view(), ViewFrom::lesson);

@@ -125,6 +125,7 @@ struct ExportState {
   std::optional<ExportFigures> preview{};
   std::string problem{};               ///< why there is no preview, or no file
   bool refused = false;                ///< the preview has failed, and so would the export
+  bool of_other_work = false;          ///< the files in writing: another work is on the wheel now
   std::vector<std::string> written{};  ///< files of the last export
   std::string result{};                ///< outcome as text
   Grade grade = Grade::note;           ///< of the outcome; a warning: a limit failed
@@ -135,6 +136,7 @@ struct PictureState {
   PictureFile file;
   std::string written;  ///< path of the last picture
   std::string problem, result;
+  bool of_other_work = false;  ///< as in ExportState
 };
 
 /// The last report about an arm, in the banner and the log.

@@ -86,7 +86,7 @@ void update_strokes(AppState& state) {
   else if (news.error)
     report(state, *news.error);
   if (!news.stroke_ended) return;
-  if (state.document.has_work() && !state.stroke.throwing())
+  if (state.document.has_work() && !state.stroke.by_hand())
     state.scene.follow(state.stroke.view(), news.before, state.settings.tool.mode);
   state.log(fmt::format("stroke ended: {} poses, {} ticks", news.poses, news.ticks));
   if (!news.nothing_cut.empty()) note(state, Grade::note, news.nothing_cut, kCutNoteS);
@@ -102,11 +102,25 @@ void update_strokes(AppState& state) {
                           "clay cannot rise above the rim.");
 }
 
+/// A stroke of a device has no end of its own. In a lesson it ends when the tool leaves the clay,
+/// and the next one is planned. The window cannot lead a tool that a hand holds.
+void guide_device(AppState& state) {
+  if (!state.stroke.has_device()) return;
+  if (state.stroke.has_left_clay()) state.stroke.release();
+  if (state.guide.demonstration() == Demonstration::none) return;
+  state.guide.demonstrate(Demonstration::none);
+  note(state, Grade::warning,
+       state.stroke.device_name() +
+           " holds the tool: throw the steps with it, or disconnect it and choose Show me",
+       kDeviceNoteS);
+}
+
 /// A new step selects its tool.
 void update_guide(AppState& state) {
+  if (state.guide.active()) guide_device(state);
   state.guide.update(state.document, state.stroke);
   if (!state.guide.active()) return;
-  if (state.guide.take_new_step() && !state.stroke.throwing()) {
+  if (state.guide.take_new_step() && !state.stroke.by_hand()) {
     const LessonPlan& plan = *state.guide.plan();
     choose(state.guide.tool(), state.settings.tool);
     state.settings.tool.mode = plan.mode;
@@ -211,7 +225,7 @@ render::PotView thumb_of(const Pot& pot) {
 void update_thumbs(AppState& state) {
   UiState& ui = state.ui;
   ui.thumbs_missing = false;
-  if (!state.document.has_work() || state.stroke.throwing()) return;
+  if (!state.document.has_work() || state.stroke.by_hand()) return;
   const history::Work& work = state.document.work();
   std::vector<history::NodeId> wanted{0};
   for (const TimelineCard& card : timeline_of(work)) wanted.push_back(card.node);

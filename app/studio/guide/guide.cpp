@@ -93,7 +93,9 @@ void Guide::receive(LessonPlan plan) {
 
 void Guide::update(const Document& document, const StrokeController& stroke) {
   if (!active() || !document.has_work()) return;
-  if (stroke.throwing()) {
+  // A device holds the tool off the clay between what is shaped.
+  if (stroke.by_hand() || stroke.touched()) {
+    shown_ = shown_ || demonstration_ == Demonstration::all;
     if (finished() || !plan_ || plan_->path.empty() || stroke.view() == seen_) return;
     seen_ = stroke.view();
     const double left = plan_->left_from(seen_);

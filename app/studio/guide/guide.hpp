@@ -34,12 +34,10 @@ class Guide {
   /// The user goes on to the next step.
   void next();
   /// Plays the stroke of the step, or those of all steps that are left.
-  void demonstrate(Demonstration what) {
-    demonstration_ = what;
-    shown_ = shown_ || what == Demonstration::all;
-  }
+  void demonstrate(Demonstration what) { demonstration_ = what; }
 
-  /// Once a frame. Between strokes the next one is planned, and a step ends when the clay is there.
+  /// Once a frame. While the tool is off the clay, the next stroke is planned, and a step ends when
+  /// the clay is there.
   void update(const Document& document, const StrokeController& stroke);
 
   [[nodiscard]] bool active() const noexcept { return script_ != nullptr; }

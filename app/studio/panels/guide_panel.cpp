@@ -81,7 +81,12 @@ void draw_present_step(const ViewModel& model, Actions& actions) {
     faint_text(colours, kWatch);
     return;
   }
+  const Command& show = *find_command("help.show_step");
+  ImGui::BeginDisabled(!show.enabled(model));
   if (ImGui::Button("Show me")) actions.emplace_back(ShowStep{});
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("%s", tip_of(show, model).c_str());
   same_line_if_room("Next step");
   if (ImGui::Button("Next step")) actions.emplace_back(NextStep{});
   same_line_if_room("End the guide");
@@ -189,7 +194,7 @@ void draw_path(const ViewModel& model, const ViewRect& rect) {
     if (const auto at = model.scene.pixel_of(point.at_mm)) line.emplace_back(at->x, at->y);
   if (line.size() < 2) return;
   const float em = ImGui::GetFontSize();
-  const bool throwing = model.stroke.throwing();
+  const bool throwing = model.stroke.by_hand() || model.stroke.touched();
   const bool off = throwing && model.stroke.status().ticks > 0 &&
                    distance_mm(*plan, model.stroke.status().tool_mm) > 2.0 * kPathToleranceMm;
   const ImVec4 colour = off ? model.colours().warning : model.colours().good;

@@ -7,6 +7,7 @@
 #include "tests/app/servo/live_bench.hpp"
 #include "tests/app/studio/clocked_arm.hpp"
 #include "tests/app/studio/socket.hpp"
+#include "tests/support/run_program.hpp"
 
 #include <gtest/gtest.h>
 
@@ -246,6 +247,81 @@ TEST_F(Arms, BannerExplainsHomingUntilItIsDone) {
   EXPECT_EQ(arm.max_force_n, 0.0);
   arm.state = falcon::DeviceState::ready;
   play("wait 0.1\nexpect banner \"\"\n");
+}
+
+/// The first contact compresses the same clay by the same way.
+TEST_F(Arms, AChangedStiffnessIsFelt) {
+  ArmScript& arm = arms_.emplace_back();
+  plug_and_engage(arm);
+  const auto touch = [&] {
+    arm.max_force_n = 0.0;
+    arm.goal_mm = 57.0;
+    play("wait 0.1\nexpect contact yes\n");
+    arm.goal_mm = 80.0;
+    play("wait 3\nexpect contact no\nexpect force engaged\n");
+    return arm.max_force_n;
+  };
+  const double before_n = touch();
+  ASSERT_GT(before_n, 0.05);
+  apply(state(), SetStiffness{0.25 * state().document.stiffness()});
+  play("key Ctrl+Z\nwait 3\nexpect force engaged\n");
+  const double undone_n = touch();
+  EXPECT_NEAR(undone_n, 0.25 * before_n, 0.05 * before_n) << "after undo";
+  apply(state(), SetStiffness{4.0 * state().document.stiffness()});
+  play("wait 3\nexpect force engaged\n");
+  EXPECT_GT(touch(), 2.0 * undone_n) << "at once";
+}
+
+/// It never rests.
+TEST_F(Arms, TheTimelineShowsThePotAfterEveryStroke) {
+  const test::ScratchFolder folder;
+  for (int press = 0; press < 2; ++press) play(std::string(kMousePresses) + "release left\n");
+  plug_and_engage(arms_.emplace_back());
+  const std::string file = folder.file("two.work");
+  play("save \"" + file + "\"\nopen \"" + file + "\"\nwait 0.5\nexpect throwing yes\n");
+  for (const history::NodeId node : {0u, 1u, 2u}) {
+    ASSERT_TRUE(state().ui.thumbs.contains(node)) << node;
+    EXPECT_FALSE(state().ui.thumbs.at(node).rows.empty()) << node;
+  }
+}
+
+constexpr std::size_t kLearned = 3;  // the cylinder
+
+/// A stroke of an arm has no end of its own: in a lesson it ends when the tool leaves the clay.
+TEST_F(Arms, LeadsThroughALesson) {
+  ArmScript& arm = arms_.emplace_back();
+  plug_and_engage(arm);
+  state().settings.tool.mode = ToolMode::wire;
+  apply(state(), BeginLesson{kLearned, false});
+  play("wait 3\nexpect throwing yes\nexpect force engaged\nexpect step Open\n");
+  ASSERT_NE(state().guide.plan(), nullptr);
+  EXPECT_EQ(state().document.scene().tool.mode, ToolMode::press) << "the tool of the step";
+  const std::size_t plans = state().guide.plan_number();
+  arm.goal_mm = 38.0;
+  play("wait 1\nexpect contact yes\nexpect strokes 0\n");
+  arm.goal_mm = 80.0;
+  play("wait 1\nexpect contact no\nexpect strokes 1\nexpect throwing yes\n");
+  EXPECT_GT(state().guide.plan_number(), plans) << "for the new pot";
+  play("key N\nwait 3\nexpect force engaged\n");
+  EXPECT_EQ(state().guide.step(), 1u);
+  EXPECT_NE(state().guide.plan(), nullptr);
+}
+
+TEST_F(Arms, TakesTheToolFromADemonstration) {
+  state().scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state(), BeginLesson{kLearned, true});
+  play("wait 3\nexpect throwing yes\n");
+  plug(arms_.emplace_back());
+  wait_until_in_use();
+  play("wait 0.1\n");
+  EXPECT_EQ(state().guide.demonstration(), Demonstration::none);
+  EXPECT_NE(banner().find("holds the tool"), std::string::npos) << banner();
+  EXPECT_FALSE(find_command("help.show_step")->enabled(view_model(state())));
+  apply(state(), BeginLesson{kLearned, true});
+  play("key Ctrl+D\nwait 0.2\nexpect overlay none\n");
+  EXPECT_TRUE(state().guide.active());
+  EXPECT_EQ(state().guide.demonstration(), Demonstration::none);
+  EXPECT_FALSE(state().guide.shown()) << "nothing was shown";
 }
 
 }  // namespace

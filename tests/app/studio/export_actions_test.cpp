@@ -128,6 +128,75 @@ TEST_F(ActionsTest, QuittingWaitsForAnExport) {
   EXPECT_TRUE(state.done);
 }
 
+/// A new work may have the name of the one before.
+TEST_F(ActionsTest, FilesOfTheWorkBeforeAreNotReplacedUnasked) {
+  const auto begin_again = [this] { apply(state, BeginWork{test::small_scene(), nullptr, {}}); };
+  const auto in_folder = [this] {
+    ExportChoices choices = state.ui.exporting.choices;
+    choices.folder = folder.path().string();
+    apply(state, EditExport{choices});
+  };
+  apply(state, ShowDialog{DialogKind::export_files});
+  in_folder();
+  apply(state, WriteExport{});
+  begin_again();
+  apply(state, ShowDialog{DialogKind::export_files});
+  in_folder();
+  update(state);  // takes the outcome
+  EXPECT_EQ(state.ui.exporting.result.find("Of the work before: 1 file written"), 0u);
+  apply(state, WriteExport{});
+  EXPECT_TRUE(state.ui.shows<ReplaceDialog>());
+  apply(state, ReplaceFiles{});
+  update(state);
+  EXPECT_EQ(state.ui.exporting.written.size(), 1u) << "of this work";
+
+  apply(state, ShowDialog{DialogKind::picture});
+  PictureFile picture = state.ui.pictures.file;
+  picture.folder = folder.path().string();
+  apply(state, EditPicture{picture});
+  apply(state, WriteExport{});
+  begin_again();
+  apply(state, ShowDialog{DialogKind::picture});
+  update(state);
+  apply(state, WriteExport{});
+  EXPECT_TRUE(state.ui.shows<ReplaceDialog>());
+}
+
+/// A preview that is ready after another choice is not that of the choices shown.
+TEST_F(ActionsTest, APreviewOfTheChoicesBeforeIsNotShown) {
+  apply(state, ShowDialog{DialogKind::export_files});
+  ExportChoices choices = state.ui.exporting.choices;
+  ASSERT_FALSE(choices.meshes.empty());
+  state.exporter.preview(state.document.shared_pot(), choices);
+  state.exporter.wait();
+  choices.meshes.clear();
+  choices.step = true;
+  apply(state, EditExport{choices});
+  update(state);
+  EXPECT_FALSE(state.ui.exporting.preview);
+}
+
+/// A turntable may be in writing, too.
+TEST_F(ActionsTest, CancelEndsWhatTheDialogShows) {
+  apply(state, ShowDialog{DialogKind::picture});
+  PictureFile picture = state.ui.pictures.file;
+  picture.folder = folder.path().string();
+  apply(state, EditPicture{picture});
+  apply(state, WriteExport{});
+  ASSERT_TRUE(state.pictures.busy());
+  apply(state, CloseDialog{});
+  apply(state, ShowDialog{DialogKind::export_files});
+  EXPECT_FALSE(find_command("export.cancel")->enabled(view_model(state)));
+  ExportChoices choices = state.ui.exporting.choices;
+  choices.folder = folder.path().string();
+  choices.tolerance_mm = kFinestMm;
+  apply(state, EditExport{choices});
+  apply(state, WriteExport{});
+  apply(state, CancelExport{});
+  update(state);
+  EXPECT_NE(log.find("export cancelled"), std::string::npos) << log;
+}
+
 /// A dialog that is opened again shows no earlier failure, so a banner reports it.
 TEST_F(ActionsTest, AFailureAfterTheDialogWasClosedIsABanner) {
   const std::string gone = folder.file("gone");

@@ -194,6 +194,24 @@ TEST_F(Lesson, AStepIsSkippedIfItHasNoStroke) {
   EXPECT_EQ(state.guide.skipped_steps(), 1u);
 }
 
+/// The stroke ends with its step; what it has done is kept.
+TEST_F(Lesson, NextStepEndsTheStrokeThatIsShown) {
+  state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
+  apply(state, BeginLesson{kCylinder, true});
+  while (!state.stroke.status().contact && host.frame_ns() < 60'000'000'000) frames(1);
+  frames(30);
+  ASSERT_TRUE(state.stroke.throwing());
+  apply(state, NextStep{});
+  EXPECT_FALSE(state.stroke.throwing());
+  EXPECT_EQ(state.document.work().at(), 1u);
+  EXPECT_EQ(state.guide.step(), 1u);
+  EXPECT_FALSE(state.guide.skipped(0)) << "it has a stroke";
+  const auto next = [&] { return state.stroke.throwing() || host.frame_ns() > 60'000'000'000; };
+  while (!next()) frames(1);
+  EXPECT_TRUE(state.stroke.throwing()) << "the stroke of the next step is shown";
+  EXPECT_EQ(state.guide.step(), 1u);
+}
+
 /// On a finished pot, as far as the sample needs no stroke there.
 TEST_F(Lesson, AStepWithoutAChangeIsLeftOut) {
   const Sample& sample = samples()[kCylinder];
