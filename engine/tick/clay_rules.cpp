@@ -5,6 +5,7 @@
 #include "engine/tick/bending.hpp"
 #include "engine/tick/heave.hpp"
 #include "engine/tick/joints.hpp"
+#include "engine/tick/kernel_flow.hpp"
 #include "engine/tick/relief.hpp"
 #include "engine/tick/rim_growth.hpp"
 #include "engine/tick/shell.hpp"
