@@ -18,7 +18,8 @@
 namespace clay {
 namespace {
 
-// Of a motion: longer than a device's steps, shorter than a hand's.
+// Time constant of the mean motion: longer than the steps of an encoder at 1 kHz, shorter than the
+// changes of direction of a hand.
 constexpr double kMemoryS = 0.05;
 
 template <unsigned rules>
