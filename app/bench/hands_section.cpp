@@ -175,8 +175,8 @@ bool measure_task(Task task, const Effort& effort, Table& table, Section& sectio
     };
     const std::uint64_t first = effort.quick ? kPottersQuick : kPotters;
     for (std::uint64_t k = 0; k < first; ++k) add(k);
-    // A few pots cannot tell 85 % from less. So a task that misses its requirement in a quick run
-    // is thrown by all potters, and judged as in the full run.
+    // A few pots do not distinguish 85 % from less. So a task that misses its requirement in a
+    // quick run is thrown by all potters, and judged as in the full run.
     if (all && (!effort.quick || !holds(facts, outcome))) {
       for (std::uint64_t k = first; k < kPotters; ++k) add(k);
       for (std::uint64_t k = 0; k < kPotters; ++k) add(kOtherSeeds + k);

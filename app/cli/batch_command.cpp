@@ -130,17 +130,24 @@ void print_summary(const Json& summary, const Console& console) {
   console.print(line);
 }
 
-Result<int> batch(BatchOptions options, const Console& console) {
-  if (options.results == "-") options.results.clear();
+/// The jobs of this part, none of which spoils a file of another.
+Result<std::vector<BatchJob>> checked_jobs(const BatchOptions& options, const Console& console) {
   auto jobs = read_jobs(options.jobs).and_then([&](std::vector<BatchJob> all) {
     return part_of(std::move(all), options.part);
   });
-  if (!jobs) return tl::make_unexpected(jobs.error());
+  if (!jobs) return jobs;
   if (auto free = check_outputs({{options.results}}, {options.jobs}, console); !free)
     return tl::make_unexpected(free.error());
   if (options.processes > 1)
     if (auto apart = check_job_outputs(*jobs, options.jobs); !apart)
       return tl::make_unexpected(apart.error());
+  return jobs;
+}
+
+Result<int> batch(BatchOptions options, const Console& console) {
+  if (options.results == "-") options.results.clear();
+  auto jobs = checked_jobs(options, console);
+  if (!jobs) return tl::make_unexpected(jobs.error());
   auto results = ResultFile::open(options.results);
   if (!results) return tl::make_unexpected(results.error());
   const std::size_t asked = jobs->size();

@@ -80,7 +80,7 @@ void print_pot(const Console& console, const history::Work& work, history::NodeI
 Result<void> throw_work(const WorkJob& job, Console console) {
   if (job.pot_path == "-") console.quiet = true;
   Progress progress(console, "throwing", 0);
-  progress.stage("replaying the strokes");
+  progress.stage("reading");
   auto loaded = history::load(job.work_path);
   if (!loaded) return tl::make_unexpected(loaded.error());
   history::Work& work = loaded->work;
@@ -94,13 +94,13 @@ Result<void> throw_work(const WorkJob& job, Console console) {
   const auto named = [&](const Error& error) {
     return failure(error.kind, job.work_path + ": " + error.message);
   };
+  progress.stage("replaying the strokes");
   Json json = {{"node", node}};
   if (job.list) {
     auto tree = tree_of(work, console);
     if (!tree) return named(tree.error());
     json["nodes"] = std::move(*tree);
   }
-  progress.stage("replaying the strokes");
   const auto pot = work.pot(node);
   if (!pot) return named(pot.error());
   json.update(pot_json(**pot));

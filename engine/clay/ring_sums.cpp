@@ -8,17 +8,17 @@ namespace clay {
 namespace {
 
 WideQuanta volume_of(const Ring& ring) noexcept { return ring.volume(); }
-WideQuanta volume_of(const Stretch& stretch) noexcept { return stretch.volume; }
+WideQuanta volume_of(const RingBlock& block) noexcept { return block.volume; }
 
-Stretch sum(std::span<const Stretch> parts) noexcept {
-  Stretch stretch{0, parts.front().least};
-  for (const Stretch& part : parts) {
-    stretch.volume += part.volume;
-    stretch.least = std::min(stretch.least, part.least);
+RingBlock sum(std::span<const RingBlock> parts) noexcept {
+  RingBlock block{0, parts.front().least};
+  for (const RingBlock& part : parts) {
+    block.volume += part.volume;
+    block.least = std::min(block.least, part.least);
   }
-  return stretch;
+  return block;
 }
-Stretch sum(std::span<const Ring> rings) noexcept { return stretch_of(rings); }
+RingBlock sum(std::span<const Ring> rings) noexcept { return block_of(rings); }
 
 /// The volumes of n rings, in any order.
 template <std::size_t n>
@@ -34,9 +34,9 @@ CLAYSTACK_INLINE inline Quantas<n> volumes_of(const Ring* rings) noexcept {
 /// the sum of 64 bits follows from the sum of the upper halves.
 template <std::size_t n>
 CLAYSTACK_INLINE inline void add_packs(const Ring* rings, std::size_t count,
-                                       Stretch* stretch) noexcept {
+                                       RingBlock* block) noexcept {
   Bits<n> sum{}, high{};
-  auto least = all_of<Quantas<n>>(stretch->least), second = least;
+  auto least = all_of<Quantas<n>>(block->least), second = least;
   const auto add = [&](Quantas<n> volume, Quantas<n>& smallest) CLAYSTACK_INLINE {
     const auto bits = reinterpret_cast<Bits<n>>(volume);
     sum += bits;
@@ -51,23 +51,23 @@ CLAYSTACK_INLINE inline void add_packs(const Ring* rings, std::size_t count,
   for (std::size_t k = 0; k < n; ++k) {
     // The lower halves: the rest of the sum, if there are at most 2^32 rings.
     const auto low = static_cast<std::uint64_t>(sum[k] - (high[k] << 32));
-    stretch->volume += (WideQuanta{high[k]} << 32) + WideQuanta{low};
-    stretch->least = std::min(stretch->least, Quanta{least[k]});
+    block->volume += (WideQuanta{high[k]} << 32) + WideQuanta{low};
+    block->least = std::min(block->least, Quanta{least[k]});
   }
 }
 
-/// Recomputes the sums of the stretches that contain parts first..last.
+/// Recomputes the sums of the blocks that contain parts first..last.
 template <class Part>
 void sum_parts(std::span<const Part> parts, std::size_t first, std::size_t last,
-               std::span<Stretch> stretches) noexcept {
+               std::span<RingBlock> blocks) noexcept {
   constexpr std::size_t fan = RingSums::kFan;
   for (std::size_t k = first / fan; k <= last / fan; ++k)
-    stretches[k] = sum(parts.subspan(k * fan, std::min(fan, parts.size() - k * fan)));
+    blocks[k] = sum(parts.subspan(k * fan, std::min(fan, parts.size() - k * fan)));
 }
 
-/// The sum of the parts after the i-th in the same stretch.
+/// The sum of the parts after the i-th in the same block.
 template <class Part>
-WideQuanta rest_of_stretch(std::span<const Part> parts, std::size_t i) noexcept {
+WideQuanta rest_of_block(std::span<const Part> parts, std::size_t i) noexcept {
   const std::size_t end = std::min(parts.size(), (i / RingSums::kFan + 1) * RingSums::kFan);
   WideQuanta rest = 0;
   for (std::size_t k = i + 1; k < end; ++k) rest += volume_of(parts[k]);
@@ -76,16 +76,16 @@ WideQuanta rest_of_stretch(std::span<const Part> parts, std::size_t i) noexcept 
 
 }  // namespace
 
-Stretch stretch_of(std::span<const Ring> rings) noexcept {
-  Stretch stretch{0, rings.front().volume()};
+RingBlock block_of(std::span<const Ring> rings) noexcept {
+  RingBlock block{0, rings.front().volume()};
   const std::size_t packed = rings.size() / (2 * kWidestPack) * (2 * kWidestPack);
-  in_packs([=, from = rings.data(), to = &stretch](auto n)
+  in_packs([=, from = rings.data(), to = &block](auto n)
                CLAYSTACK_INLINE { add_packs<n>(from, packed, to); });
   for (const Ring& ring : rings.subspan(packed)) {
-    stretch.volume += ring.volume();
-    stretch.least = std::min(stretch.least, ring.volume());
+    block.volume += ring.volume();
+    block.least = std::min(block.least, ring.volume());
   }
-  return stretch;
+  return block;
 }
 
 RingSums::RingSums(const ClayStack& stack) {
@@ -100,17 +100,17 @@ void RingSums::refresh(std::span<const Ring> rings, std::size_t first, std::size
     first /= kFan;
     last /= kFan;
     const std::size_t parts = used(rings.size(), level - 1);
-    sum_parts(std::span<const Stretch>(levels_[level - 1]).first(parts), first, last,
+    sum_parts(std::span<const RingBlock>(levels_[level - 1]).first(parts), first, last,
               std::span(levels_[level]));
   }
 }
 
 WideQuanta RingSums::above(std::span<const Ring> rings, std::size_t i) const noexcept {
-  WideQuanta sum = rest_of_stretch(rings, i);
+  WideQuanta sum = rest_of_block(rings, i);
   for (std::size_t level = 0; level < levels_.size(); ++level) {
     i /= kFan;
     const std::size_t parts = used(rings.size(), level);
-    sum += rest_of_stretch(std::span<const Stretch>(levels_[level]).first(parts), i);
+    sum += rest_of_block(std::span<const RingBlock>(levels_[level]).first(parts), i);
   }
   return sum;
 }

@@ -9,17 +9,17 @@
 
 namespace clay {
 
-/// Sums of some consecutive rings.
-struct Stretch {
+/// Sums over a block of consecutive rings.
+struct RingBlock {
   WideQuanta volume = 0;
   Quanta least = 0;  ///< volume of the smallest ring
 };
 
 /// Of one ring at least.
-[[nodiscard]] Stretch stretch_of(std::span<const Ring> rings) noexcept;
+[[nodiscard]] RingBlock block_of(std::span<const Ring> rings) noexcept;
 
-/// Stretches of 64 rings, stretches of 64 such stretches, and so on up to the first level of at
-/// most 64: three levels for the 2^24 rings of the largest stack, half a byte per ring.
+/// Blocks of 64 rings, blocks of 64 such blocks, and so on up to the first level of at most 64:
+/// three levels for the 2^24 rings of the largest stack, half a byte per ring.
 class RingSums {
  public:
   static constexpr std::size_t kFan = 64;
@@ -34,10 +34,10 @@ class RingSums {
   /// Volume of all rings above ring i, with at most 63 additions per level and as many rings.
   [[nodiscard]] WideQuanta above(std::span<const Ring> rings, std::size_t i) const noexcept;
 
-  /// Searches the stack from the top. Calls scan(first, last, weight) for the stretches of at most
-  /// 64 rings for which suspect(weight, least) is true, for them and for every stretch that
-  /// contains them. The weight of scan is the load on ring `last`; that of suspect also includes
-  /// the stretch itself. `crown` is the load on the top ring.
+  /// Searches the stack from the top. Calls scan(first, last, weight) for the blocks of at most 64
+  /// rings for which suspect(weight, least) is true, for them and for every block that contains
+  /// them. The weight of scan is the load on ring `last`; that of suspect also includes the block
+  /// itself. `crown` is the load on the top ring.
   template <class Suspect, class Scan>
   void search(std::size_t rings, WideQuanta crown, Suspect suspect, Scan scan) const noexcept {
     const std::size_t top = levels_.size() - 1;
@@ -45,20 +45,20 @@ class RingSums {
   }
 
  private:
-  /// Number of stretches of a level that contain the given number of rings.
+  /// Number of blocks of a level that contain the given number of rings.
   [[nodiscard]] static std::size_t used(std::size_t rings, std::size_t level) noexcept {
     for (std::size_t k = 0; k <= level; ++k) rings = (rings + kFan - 1) / kFan;
     return rings;
   }
 
-  /// Searches stretches first..end-1 of a level. Returns the weight below them.
+  /// Searches blocks first..end-1 of a level. Returns the weight below them.
   template <class Suspect, class Scan>
   WideQuanta search(std::size_t rings, std::size_t level, std::size_t first, std::size_t end,
                     WideQuanta weight, Suspect& suspect, Scan& scan) const noexcept {
     for (std::size_t k = end; k-- > first;) {
-      const Stretch& stretch = levels_[level][k];
-      const WideQuanta below = weight + stretch.volume;
-      if (suspect(below, stretch.least)) {
+      const RingBlock& block = levels_[level][k];
+      const WideQuanta below = weight + block.volume;
+      if (suspect(below, block.least)) {
         const std::size_t parts = level == 0 ? rings : used(rings, level - 1);
         const std::size_t from = k * kFan, to = from + kFan < parts ? from + kFan : parts;
         if (level == 0)
@@ -71,7 +71,7 @@ class RingSums {
     return weight;
   }
 
-  std::vector<std::vector<Stretch>> levels_;  ///< shortest stretches first
+  std::vector<std::vector<RingBlock>> levels_;  ///< smallest blocks first
 };
 
 }  // namespace clay

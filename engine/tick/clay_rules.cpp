@@ -5,6 +5,7 @@
 #include "engine/tick/bending.hpp"
 #include "engine/tick/heave.hpp"
 #include "engine/tick/joints.hpp"
+#include "engine/tick/kernel_flow.hpp"
 #include "engine/tick/relief.hpp"
 #include "engine/tick/rim_growth.hpp"
 #include "engine/tick/shell.hpp"
@@ -17,7 +18,8 @@
 namespace clay {
 namespace {
 
-// Of a motion: longer than a device's steps, shorter than a hand's.
+// Time constant of the mean motion: longer than the steps of an encoder at 1 kHz, shorter than the
+// changes of direction of a hand.
 constexpr double kMemoryS = 0.05;
 
 template <unsigned rules>

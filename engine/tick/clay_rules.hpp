@@ -6,6 +6,7 @@
 #include "claystack/engine/plan.hpp"
 #include "engine/tick/band.hpp"
 #include "engine/tick/centring.hpp"
+#include "engine/tick/finger.hpp"
 #include "engine/tick/redistribution.hpp"
 #include "engine/tick/relief.hpp"
 #include "engine/tick/removal.hpp"

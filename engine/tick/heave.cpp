@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kSteepest = 0.5;  // steepest slope: change of thickness over height
 constexpr std::size_t kRows = 64;
-// A share fills at most this part of r^2, as it was before the shift, which leaves a quarter of it.
+// A share fills at most this part of r^2. The radii are those before the shift, which leaves at
+// least a quarter of r^2, so that the bore stays open.
 constexpr float kMostOfBore = 0.2f;
 // Rings beyond this part of the largest radius get no share.
 constexpr float kMostOfRadius = 0.999f;

@@ -4,7 +4,7 @@
 #include "claystack/engine/clay.hpp"
 #include "engine/clay/stack_writer.hpp"
 #include "engine/tick/band.hpp"
-#include "engine/tick/relief.hpp"
+#include "engine/tick/finger.hpp"
 #include "engine/tick/wall_radii.hpp"
 
 namespace clay {

@@ -41,17 +41,6 @@ double excess(const Cone& cone, const Ring& ring, double middle_mm) noexcept {
   return cone.excess(middle_mm, cone.outside ? ring.outer_mm() : ring.inner_mm());
 }
 
-/// The clay that leaves a ring whose surface projects by `out`: d out / dt = -kappa (R - r) min(1,
-/// out / yield depth), by a step that cannot go too far. Afterwards `out` is the distance by which
-/// the surface moves.
-Quanta yielded(const RemovalPlan& plan, double dt_s, const Ring& ring, bool outside,
-               double& out) noexcept {
-  const double outer = ring.outer_mm(), inner = ring.inner_mm(), wall = outer - inner;
-  const double z = plan.rate_per_s * wall * dt_s / std::max(plan.yield_depth_mm, out);
-  out = std::min(out * z / (1.0 + z), std::max(wall - plan.min_wall_mm, 0.0));
-  return outside ? take_outside(ring, outer, out) : take_inside(ring, inner, out);
-}
-
 double end_of(const Tool& tool, bool up) {
   const auto steep = [&](double t) { return (up ? -tool.slope(t) : tool.slope(t)) > kReliefSlope; };
   const double end = up ? tool.high() : tool.low(),
@@ -83,6 +72,14 @@ Ring left_of(std::size_t i, const ClayStack& stack, const Squeeze& squeeze,
 }
 
 }  // namespace
+
+Quanta yielded(const RemovalPlan& plan, double dt_s, const Ring& ring, bool outside,
+               double& out) noexcept {
+  const double outer = ring.outer_mm(), inner = ring.inner_mm(), wall = outer - inner;
+  const double z = plan.rate_per_s * wall * dt_s / std::max(plan.yield_depth_mm, out);
+  out = std::min(out * z / (1.0 + z), std::max(wall - plan.min_wall_mm, 0.0));
+  return outside ? take_outside(ring, outer, out) : take_inside(ring, inner, out);
+}
 
 Shoulders shoulders_of(const Tool& tool) { return {end_of(tool, false), end_of(tool, true)}; }
 
@@ -117,48 +114,6 @@ std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoul
         !rings.has(i) && excess(cone, stack.rings()[i], (static_cast<double>(i) + 0.5) * h) > 0.0;
   }
   return cones;
-}
-
-Finger finger_of(const StepPlan& plan, const ToolState& tool, const ClayStack& stack,
-                 const Contact& contact) noexcept {
-  if (!(plan.clay.finger_mm > 0.0) || contact.side != Side::expansive) return {};
-  const double from = tool.hip_mm.y, to = from + plan.clay.finger_mm;
-  const double widest = plan.tool.widest();
-  const double bore = contact.axis_distance_mm - Finger::kBehind * widest;
-  if (!(bore > 0.0)) return {};
-  // A hand's tick lays far less on a wall than this, so most bores are clear of the finger. The
-  // next tick removes what a longer tick lays into it.
-  constexpr double kNearMm = 5.0;
-  const Quanta near = quanta_from_radius(bore + kNearMm);
-  const auto rings = stack.rings();
-  const double above = std::max(to / stack.ring_height_mm(), 0.0);
-  const auto end = static_cast<std::size_t>(std::min(above, static_cast<double>(rings.size())));
-  const std::size_t begin = std::min(contact.rings.to(), end);
-  if (std::none_of(rings.begin() + static_cast<std::ptrdiff_t>(begin),
-                   rings.begin() + static_cast<std::ptrdiff_t>(end),
-                   [near](const Ring& ring) { return ring.inner2 < near; }))
-    return {};
-  return {from, to, bore, widest};
-}
-
-WideQuanta relieve_finger(const StepPlan& plan, const Finger& finger, const ClayStack& stack,
-                          double dt_s, const Contact& contact, StackWriter& writer) noexcept {
-  const double h = stack.ring_height_mm();
-  WideQuanta total = 0;
-  for (std::size_t i = contact.rings.to(); i < stack.size(); ++i) {
-    const Ring& ring = stack.rings()[i];
-    const double middle = (static_cast<double>(i) + 0.5) * h, bore = finger.bore_at(middle);
-    if (!(middle < finger.to_mm && bore > 0.0) || ring.inner2 == 0) break;
-    // Most rings are clear of it, which needs no root.
-    if (static_cast<double>(ring.inner2) * kMm2PerQuantum >= bore * bore) continue;
-    double out = bore - ring.inner_mm();
-    const Quanta all = yielded(plan.removal, dt_s, ring, false, out);
-    const double part = finger.part(wall_mm(ring));
-    const auto amount = static_cast<Quanta>(part * static_cast<double>(all));
-    writer.take_inside(i, amount);
-    total += amount;
-  }
-  return total;
 }
 
 WideQuanta relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack,

@@ -26,8 +26,8 @@ struct ToolRemoval {
 /// nothing else.
 ///
 /// `paper`: eps = k (R - r).
-/// `conserving`: as yielding.hpp says, never past the tool's surface and never through the minimum
-/// wall. Sets the contact's depths to the rest.
+/// `conserving`: by the equation of yielding.hpp, never past the tool's surface and never through
+/// the minimum wall. Sets the contact's depths to the rest.
 template <Model model>
 void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
                      std::vector<Quanta>& removed) noexcept;

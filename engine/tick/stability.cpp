@@ -39,7 +39,7 @@ void note_worse(const StabilityPlan& plan, WideQuanta above, std::span<const Rin
 void find_weakest(const StabilityPlan& plan, std::span<const Ring> rings, WideQuanta above,
                   std::size_t from, std::size_t to, std::optional<Failure>& worst) noexcept {
   const Threshold threshold(plan);
-  const Stretch all = stretch_of(rings.subspan(to, from + 1 - to));
+  const RingBlock all = block_of(rings.subspan(to, from + 1 - to));
   if (!threshold.near(static_cast<double>(above + all.volume), all.least)) return;
   double about = static_cast<double>(above);
   std::size_t end = from + 1;

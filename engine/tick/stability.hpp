@@ -19,7 +19,7 @@ struct Failure {
 /// Stress is examined only where it can have risen. Clay moves locally, so the weight above a ring
 /// changes only between the places that lost clay and those that got it: rings lowest..highest of
 /// the flow. The weight above `highest` is carried along as the tool moves a little, and summed
-/// from stretches of rings when it jumps. The stretches are updated when a few hundred rings have
+/// from blocks of rings when it jumps. The blocks are updated when a few hundred rings have
 /// changed, not at every tick.
 class StabilityWatch {
  public:
@@ -34,8 +34,8 @@ class StabilityWatch {
   /// After it, with `highest` as given to move_to: the ring of greatest stress among those above
   /// the threshold, if any, or a lower ring that has parted from the ring above it. Finds the same
   /// stress as check_all, if that found none before the flow. Reads the rings of the flow and the
-  /// new ones. If clay has come on top from far below, it also reads the stretches whose thinnest
-  /// ring could not carry the weight above the lower end of the stretch.
+  /// new ones. If clay has come on top from far below, it also reads the blocks whose thinnest
+  /// ring could not carry the weight above the lower end of the block.
   [[nodiscard]] std::optional<Failure> check(const StabilityPlan& plan, const ClayStack& stack,
                                              const Flow& flow) noexcept;
 

@@ -18,7 +18,8 @@ struct Approach {
   Row at_most;  ///< that gives way [mm]
 };
 
-/// Factors that all rings have in common.
+/// Factors that all rings have in common. The knee is the yield depth [mm]: deeper clay yields at
+/// the full rate. The turn is kappa times the time step.
 struct Pace {
   double knee, turn;
   double per_knee = 1.0 / knee, fraction = 1.0 - exp_neg(turn);

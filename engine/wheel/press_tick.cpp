@@ -2,6 +2,7 @@
 #include "engine/tick/contact.hpp"
 #include "engine/tick/force.hpp"
 #include "engine/tick/front.hpp"
+#include "engine/tick/kernel_flow.hpp"
 #include "engine/tick/rim_growth.hpp"
 #include "engine/wheel/wheel_state.hpp"
 

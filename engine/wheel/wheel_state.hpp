@@ -38,8 +38,9 @@ struct WheelState {
   bool touching = false;  // at the last pose
   StabilityWatch watch;
   std::array<ToolRemoval, 2> removals;  // scratch, reserved once; the second is for pinches alone
-  Motion motion;                        // of scenes with clay rules, as these three
-  std::array<FlatEnds, 2> ends;         // of the tools of `removals`
+  // These four serve scenes with clay rules only.
+  Motion motion;
+  std::array<FlatEnds, 2> ends;  // of the tools of `removals`
   RuleWork work;
   RuleSteps rules;
   std::optional<double> turned_mm;  // height of a pot that stands upside down

@@ -137,8 +137,8 @@ class PieceSmoother {
     return !thinned.empty() && plan_.use_chords(thinned);
   }
 
-  /// Rings whose walls only the fairing has made thin. Steps cannot tell: a single tread of their
-  /// noise counts as a flange as thin as a ring, and allows one.
+  /// Rings whose walls only the fairing has made thin. The comparison is with the chords, not with
+  /// the steps: a single tread of noise counts there as a flange as thin as a ring.
   std::vector<ThinRing> thinned_by_fairing(const Profile& profile, const Wall& thinnest) {
     if (fairing_length_mm(piece_, options_) == 0.0) return {};
     const double most = options_.min_wall_mm ? limit_ : kLeastOfChords * limit_;

@@ -21,8 +21,8 @@ class BandedSystem {
 
   explicit BandedSystem(std::size_t unknowns) : rows_(unknowns), right_(unknowns) {}
 
-  /// Adds weight (sum of factors times the unknowns from `first` on - value)^2 to what is
-  /// minimised.
+  /// Adds a term to the sum that `solved` minimises: weight (s - value)^2, where s is the sum of
+  /// the factors times the unknowns from `first` on.
   void add(std::size_t first, const Factors& factors, double weight, const Vector& value) {
     for (std::size_t a = 0; a <= band; ++a) {
       for (std::size_t b = 0; b <= a; ++b)

@@ -22,7 +22,7 @@ struct WallCurve {
 
 /// The curve of least squares from the first to the last point, with as few knots as halving spans
 /// finds for this distance. Where a knot for every 2^-20 of the length is too few, the distance is
-/// larger: ask `distance_bound`.
+/// larger; `distance_bound` computes it.
 [[nodiscard]] WallCurve fitted(const Polygon& line, double tolerance_mm);
 
 /// Upper bound of the distance [mm] between points of the curve and of the line at equal shares of

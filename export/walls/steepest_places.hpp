@@ -11,9 +11,6 @@
 
 namespace clay::solid::inline walls {
 
-/// The tangent of kHeldDeg.
-inline constexpr double kSteepestHeld = 10.0;
-
 /// A small part of an underside.
 template <class Place>
 struct UndersidePart {

@@ -23,7 +23,7 @@ begin_stroke() {
   until_line "stroke started"
   for x in 803 783 763 753 748; do xdotool mousemove --window "$window" "$x" 420 sleep 0.03; done
 }
-# offered: opens the next window and tells whether it offers the work.
+# offered: opens the next window and reports whether it offers the work.
 offered() {
   wait "$studio" 2>/dev/null
   xdotool mouseup 1

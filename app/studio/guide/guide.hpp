@@ -57,7 +57,7 @@ class Guide {
   [[nodiscard]] const ToolSpec& tool() const noexcept { return scene_.tool; }
   /// The path to follow, of the pot on the wheel; null while it is planned, and at the end.
   [[nodiscard]] const LessonPlan* plan() const noexcept { return plan_ ? &*plan_ : nullptr; }
-  /// Counts the plans, to tell one from the next; 0: none yet.
+  /// Number of the plan, so that a reader notices a new one; 0: none yet.
   [[nodiscard]] std::size_t plan_number() const noexcept { return plan_number_; }
   /// How far the clay has come in this step, from 0 to 1.
   [[nodiscard]] double progress() const noexcept { return progress_; }

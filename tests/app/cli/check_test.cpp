@@ -6,8 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
+#include <regex>
+#include <string>
 
 namespace clay::test {
 namespace {
@@ -222,6 +225,21 @@ TEST_F(CheckMesh, ReportsASpikeThroughTheWallAsSelfIntersection) {
   const auto json = expect_problem("spike.stl", stl, 1, "self-intersection", "prints");
   EXPECT_TRUE(json.at("closed"));
   EXPECT_GT(json.at("self_intersections"), 0);
+}
+
+TEST(CheckPot, MinimumWallIsThatOfItsThinnestPart) {
+  // A leaning wall, drawn 6 mm thick, is a few micrometres thinner in the solid. Rounded up in one
+  // place and down in the other, the line would contradict itself.
+  const ScratchFolder folder;
+  const std::string pot = folder.file("p.pot.json");
+  ASSERT_EQ(
+      claystack("import " + sample("drawings/tumbler.csv") + " -o " + pot + " --wall 6").status, 0);
+  const std::string text = claystack("check " + pot).out;
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(
+      text, found, std::regex(R"(minimum wall (\S+) mm \(wall (\S+) mm .*lip (\S+) mm)")))
+      << text;
+  EXPECT_EQ(found.str(1), std::min(found.str(2), found.str(3))) << text;
 }
 
 TEST(CheckPot, MeasuresTheWall) {

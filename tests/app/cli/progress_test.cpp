@@ -32,7 +32,7 @@ class ProgressLine : public testing::Test {
     std::vector<Shown> all = {
         {"throw " + bowl_ + " -o " + out + ".pot.json", {"throwing: reading", "throwing: writing"}},
         {"throw " + sample("mouse.work") + " -o " + out + ".pot.json",
-         {"throwing: replaying the strokes"}},
+         {"throwing: reading", "throwing: replaying the strokes"}},
         {"strokes " + bowl_ + " " + folder_.file("a.strokes.json") + " -o " + out + ".session",
          {"strokes: playing"}},
         {"plan " + bowl_, {"measuring: "}},

@@ -144,7 +144,7 @@ TEST(SvgDrawing, TransformsOfStylesAreHonouredOrRefusedByName) {
   // Twice as large about any origin.
   EXPECT_NEAR(volume_of("<path style='transform-origin: 7px 9mm; transform: scale(2)'" + shape),
               8.0 * wanted, 1e-5);
-  // About (50, 0) the left half comes to lie over the right one: the axis in the drawing tells.
+  // Mirrored about (50, 0), x from 0 to 30 becomes 70 to 100; the axis is the left end.
   const auto turned =
       section_of(page("<path style='transform:scaleX(-1);transform-origin:50px 0px'" + shape),
                  "pot.svg", {AxisRule::left, 0.0, {}});

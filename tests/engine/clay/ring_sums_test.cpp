@@ -57,8 +57,8 @@ TEST(RingSums, AddUpTheLargestRings) {
   const std::vector<Ring> rings(200, Ring{quanta_from_radius(kMaxRadiusMm), 1});
   for (const bool two : {true, false}) {
     const TwoLanesScope lanes(two);
-    EXPECT_TRUE(stretch_of(rings).volume == 200 * WideQuanta{rings[0].volume()});
-    EXPECT_EQ(stretch_of(rings).least, rings[0].volume());
+    EXPECT_TRUE(block_of(rings).volume == 200 * WideQuanta{rings[0].volume()});
+    EXPECT_EQ(block_of(rings).least, rings[0].volume());
   }
 }
 

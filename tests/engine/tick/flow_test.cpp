@@ -1,3 +1,4 @@
+#include "engine/tick/rayleigh_kernel.hpp"
 #include "engine/tick/redistribution.hpp"
 #include "tests/engine/clay/stack_samples.hpp"
 #include "tests/engine/wheel/flow_samples.hpp"

@@ -2,6 +2,7 @@
 
 #include "engine/clay/stress.hpp"
 
+#include "engine/tick/kernel_flow.hpp"
 #include "engine/tick/redistribution.hpp"
 #include "tests/engine/clay/stack_samples.hpp"
 #include "tests/engine/tick/contact_samples.hpp"

@@ -69,8 +69,9 @@ TEST(RimPress, NoRimRises) {
   double highest = 0.0;
   for (double d = 30.0; d <= 61.0; d += 0.5) {
     highest = std::max(highest, pressed(rim_scene(true), 12.0, d).stack().height_mm());
-    if (d <= 31.0 || d >= 60.0)
+    if (d <= 31.0 || d >= 60.0) {
       EXPECT_NEAR(pressed(rim_scene(true), 12.0, d).stack().height_mm(), kHeightMm, 0.5) << d;
+    }
   }
   EXPECT_LT(highest, kHeightMm + 0.6);
   EXPECT_GT(pressed(rim_scene(false), 12.0, 46.0).stack().height_mm(), kHeightMm + 10.0);

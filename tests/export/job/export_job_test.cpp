@@ -226,7 +226,7 @@ TEST(RunExport, APotInPiecesFailsTheSameCheckWithAndWithoutAFinish) {
 }
 
 TEST(RunExport, WallsLostInFloat32AreRefusedWithThePlace) {
-  // Half an ulp of float32 at 73 mm is 3.8e-6 mm; the doubles still tell the radii apart.
+  // Half an ulp of float32 at 73 mm is 3.8e-6 mm; the doubles still differ.
   const Pot pot = pot_of(stack_of(5.0, {{73.0, 73.0 - 1e-6}}));
   ASSERT_TRUE(certify(profile_of(pot.stack)->profile));
   EXPECT_TRUE(refused(exported(pot, {MeshFormat::stl_binary}, {}), ErrorKind::unsound,

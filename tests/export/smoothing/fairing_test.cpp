@@ -339,7 +339,7 @@ TEST(Fairing, ShortensTheLengthWhereAWallWouldBecomeTooThin) {
   EXPECT_GT(made.fairing.moved_mm, 0.01);  // elsewhere
 }
 
-TEST(Fairing, WithoutALengthIsTheSameAsBefore) {
+TEST(Fairing, GoesThroughTheMiddlesOfTheRingsWithoutALength) {
   const ClayStack stack = tube(120.0, 0.5, lively);
   SmoothingOptions chords = faired(0.0, 0.02);
   const SmoothedProfile made = smooth(stack, chords);

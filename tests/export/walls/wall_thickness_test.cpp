@@ -122,7 +122,7 @@ TEST(WallThickness, OfAHoopIsNeverInfinite) {
   EXPECT_NEAR(wall_of({{40, 0}, {40.5, 0}, {40.5, 0.5}, {40, 0.5}}), 0.5, 0.5 * 1.001e-3);
 }
 
-TEST(WallThickness, OfAWedgeEndsWhereItsTipIsThreeDiametersOfBoundaryLong) {
+TEST(WallThickness, OfACutOffWedgeMatchesItsClosedForm) {
   // A lip that narrows from 8 mm to 1 mm, symmetric. Two faces at an angle a that would meet at a
   // distance e from the lip's ends: discs of diameter D, at places of which one is z times as far
   // from there as the other, D = 2 tan(a / 4) (x + z x) at best, and 3 D = x + z x - 2 e + 1.
@@ -133,7 +133,7 @@ TEST(WallThickness, OfAWedgeEndsWhereItsTipIsThreeDiametersOfBoundaryLong) {
     EXPECT_NEAR(wall_of(divided(lip, parts)), per * both, 1e-9) << parts;
 }
 
-TEST(WallThickness, OfABevelHasNoCliff) {
+TEST(WallThickness, ChangesGraduallyWithTheAngleOfABevel) {
   // A wall of 6 mm whose outside is bevelled by `degrees`, down to a lip of 0.23 mm.
   const auto bevelled = [](double degrees) {
     const double height = 5.77 / std::tan(degrees * M_PI / 180.0);
@@ -150,7 +150,7 @@ TEST(WallThickness, OfABevelHasNoCliff) {
   }
 }
 
-TEST(WallThickness, OfATipIsZeroUpToFourTimesTheArctangentOfASixth) {
+TEST(WallThickness, OfATipIsZeroUpToALimitOfItsAngle) {
   const double limit = 4.0 * std::atan(1.0 / 6.0);
   const auto hoop = [](double angle) {
     return wall_of({{40, 0},
@@ -215,7 +215,7 @@ TEST(WallThickness, OfAHoopAsThinAsRoundingIsFound) {
   EXPECT_NEAR(wall.thickness_mm, outer - inner, 1e-14);
 }
 
-TEST(WallThickness, OfABluntEdgeIsNotThatOfItsBevel) {
+TEST(WallThickness, OfARoofIsNotTheWidthOfItsRidge) {
   // A roof of 60 degrees whose ridge is 10 nm wide.
   const Polygon roof{{30, 0}, {40, 0}, {35 + 5e-6, 8.66}, {35 - 5e-6, 8.66}};
   EXPECT_GT(min_wall_mm({{roof}}), 1.0);

@@ -79,9 +79,10 @@ struct Ring {
 };
 
 /// Rings 0..N-1 from the wheel up (the paper's 1..N). Ring i spans the heights
-/// [i h, (i+1) h] in mm above the wheel head; the axis is y. The crown is a last
-/// ring of fractional height with the radii of ring N-1: clay too little for a
-/// whole ring, counted in normalised quanta like a ring's volume.
+/// [i h, (i+1) h] in mm above the wheel head; the axis is y. The crown is clay on
+/// ring N-1 with its radii, counted in normalised quanta like a ring's volume:
+/// usually less than a ring, but more where a ring cannot grow (max_rings, a tool
+/// in its place).
 ///
 /// Reading is public; only StackWriter, private to the engine, writes.
 class ClayStack {

@@ -14,7 +14,8 @@
 
 namespace clay::solid::inline check {
 
-/// Of the real meshes whose only fault is self-intersection, half have fewer pairs.
+/// A judgement: of the meshes of docs/repair.md (Real meshes) whose only fault is
+/// self-intersection, half have fewer pairs.
 inline constexpr std::size_t kMostUnitedPairs = 200;
 
 /// Whether a slicer makes one body of a mesh that is not sound (`report` is on it): it is closed,

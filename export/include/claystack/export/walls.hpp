@@ -227,16 +227,17 @@ struct WallDemand {
 // ---- overhang ------------------------------------------------------------------------
 
 // The angle of a place on an underside, printed upright, is that of the face there [deg from the
-// vertical: 0 for a wall, 90 for a ceiling], or, if that is less and at most kHeldDeg, of the
-// straight line nearest to the vertical down to clay that is at most kOverhangDepthMm lower. So
-// each step of a staircase is held by those below it, and a ledge is held that is narrower than the
-// depth times the tangent of the limit. The bed holds all that is at most kOverhangDepthMm above
-// it. The overhang of a solid is the largest angle that places of kOverhangAreaMm2 together reach.
+// vertical: 0 for a wall, 90 for a ceiling]. If clay lies at most kOverhangDepthMm lower, it is
+// that of the straight line down to it that is nearest to the vertical, if this is less and its
+// tangent is at most kSteepestHeld. So each step of a staircase is held by those below it, and a
+// ledge is held that is narrower than the depth times the tangent of the limit. The bed holds all
+// that is at most kOverhangDepthMm above it. The overhang of a solid is the largest angle that
+// places of kOverhangAreaMm2 together reach.
 
 /// About two layers of a filament printer.
 inline constexpr double kOverhangDepthMm = 0.5;
-/// Clay within kOverhangDepthMm of height and 10 times as far aside.
-inline constexpr double kHeldDeg = 84.3;
+/// Tangent of 84.3 degrees: clay farther aside than 10 times the height does not hold a place.
+inline constexpr double kSteepestHeld = 10.0;
 /// Smaller undersides need no support.
 inline constexpr double kOverhangAreaMm2 = 4.0;
 
