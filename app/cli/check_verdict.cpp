@@ -313,7 +313,7 @@ void print_verdict(const Console& console, const std::string& file, const Verdic
                     mesh.size_mm.x, mesh.size_mm.y, mesh.size_mm.z, mesh.area_mm2 / 100.0));
   }
   if (verdict.wall_mm)
-    console.print(fmt::format("  minimum wall {} mm ({})", size_text(*verdict.wall_mm, 3),
+    console.print(fmt::format("  minimum wall {} mm ({})", bound_text(*verdict.wall_mm, 3),
                               solid::text_of(verdict.wall_parts)));
   if (verdict.wall_sampled) print_wall(console, *verdict.wall_sampled);
   if (verdict.certificate_holds) print_certificate(console, *verdict.certificate);
