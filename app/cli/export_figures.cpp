@@ -1,5 +1,7 @@
 #include "app/cli/export_figures.hpp"
 
+#include "core/size_text.hpp"
+
 #include <fmt/format.h>
 
 #include <cassert>
@@ -33,7 +35,7 @@ double distance_mm(const ExportReport& report, const FileReport& file) {
 }
 
 std::string thinnest_height(const ExportReport& report) {
-  return fmt::format("a height of {:.1f} mm{}", report.walls.thinnest.from.y,
+  return fmt::format("a height of {} mm{}", size_text(report.walls.thinnest.from.y, 1),
                      report.collapsed ? " before the fall" : "");
 }
 

@@ -173,7 +173,8 @@ class Page {
           "td", false);
       for (const auto& [part, thickness_mm, at] : report_.walls.parts)
         row({fmt::format("{} of the round section", solid::name_of(part)),
-             fmt::format("{}, at a height of {:.1f} mm", at_least_mm(thickness_mm, 2), at.y)},
+             fmt::format("{}, at a height of {} mm", at_least_mm(thickness_mm, 2),
+                         size_text(at.y, 1))},
             "td", false);
       if (const auto& limit = report_.walls.limit)
         row({"required",

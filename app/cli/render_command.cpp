@@ -93,7 +93,7 @@ void print_picture(const Console& console, const RenderCommand& command, const R
         "walls: dark violet 0 mm to yellow {:g} mm{}; thinnest {} mm", done.map->top_mm,
         done.map->limit_mm > 0.0 ? fmt::format(", hatched red below {:.4g} mm", done.map->stated_mm)
                                  : std::string(),
-        size_text(*done.thinnest_mm, 3)));
+        bound_text(*done.thinnest_mm, 3)));
   if (done.frame)
     console.print(fmt::format("{:.1f} ms a frame of {}, {:.1f} ms anti-aliased, on {}",
                               done.frame->ms, size, done.frame->anti_aliased_ms, done.renderer));

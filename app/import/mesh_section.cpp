@@ -201,7 +201,8 @@ Result<std::vector<ScannedSlab>> common_slabs(const Levels& levels,
       return failure(
           ErrorKind::bad_input,
           fmt::format("{}: expected clay around the axis at every height, found none from "
-                      "{:.3f} to {:.3f} mm above the foot",
+                      "{:.3f} to {:.3f} mm above the lowest clay; remove the part below or above "
+                      "this gap",
                       name, slabs.back().slab.to_mm - slabs.front().slab.from_mm,
                       from - slabs.front().slab.from_mm));
     slabs.push_back({slab_through(from, to, low->wall, high->wall, levels.scanned),

@@ -1,5 +1,6 @@
 // Judges a STEP file of this program by its text alone: topology, incidence, orientation, volume.
 
+#include "core/compensated_sum.hpp"
 #include "export/formats/step.hpp"
 #include "export/formats/step_entities.hpp"
 #include "export/formats/step_shapes.hpp"
@@ -26,6 +27,7 @@ class StepJudge {
       for (const StepValue& item : step_.list(entity, 1)) judge_item(item.word);
     }
     if (solid_.bodies == 0) throw BadStep{"expected a solid, found none"};
+    solid_.volume_mm3 = volume_mm3_.value();
     return solid_;
   }
 
@@ -62,9 +64,9 @@ class StepJudge {
     if (item.word != "MANIFOLD_SOLID_BREP" && item.word != "BREP_WITH_VOIDS")
       bad_entity(ref, std::string("a solid, found ").append(item.word));
     ++solid_.bodies;
-    const double before = solid_.volume_mm3;
+    const double before = volume_mm3_.value();
     judge_shell(step_.word(item, 1));
-    if (!(solid_.volume_mm3 > before)) bad_entity(ref, "normals out of the solid");
+    if (!(volume_mm3_.value() > before)) bad_entity(ref, "normals out of the solid");
     if (item.size < 3) return;
     for (const StepValue& hole : step_.list(item, 2)) {
       const StepValue& oriented = step_.entity(hole.word, "ORIENTED_CLOSED_SHELL", 4);
@@ -152,7 +154,7 @@ class StepJudge {
     if (circles[low].forward != same_sense || circles[high].forward == same_sense)
       bad_entity(ref, "edges counterclockwise around its normal");
     const double volume = half_volume(surface, level(low), level(high));
-    solid_.volume_mm3 += same_sense ? volume : -volume;
+    volume_mm3_.add(same_sense ? volume : -volume);
   }
 
   /// Half of the volume between the surface and the axis.
@@ -165,6 +167,7 @@ class StepJudge {
 
   StepEntities step_;
   StepSolid solid_;
+  CompensatedSum volume_mm3_;
   std::vector<ShellEdge> edges_;     ///< of the shell that is judged
   std::vector<std::size_t> places_;  ///< in `edges_`, of each entity
 };

@@ -217,6 +217,14 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
                return encode_on_grid(format, settings);
              },
              judge)
+      .map_error([&](Error error) {
+        if (error.kind == ErrorKind::unsound)
+          error.message =
+              "no grid of this format is fine enough for the thinnest places of the "
+              "pot; write it in another format, such as .stl: " +
+              error.message;
+        return error;
+      })
       .and_then([&](const std::string& bytes) {
         return store_judged(format, bytes, store).and_then([&] {
           return certified(format, farthest_mm, Proof::exact_test, bytes, store);

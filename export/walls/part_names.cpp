@@ -111,8 +111,8 @@ std::vector<PartWall> walls_by_part(const Profile& profile, const std::vector<Wa
 std::string text_of(const std::vector<PartWall>& parts) {
   std::string text;
   for (const auto& [part, thickness_mm, at] : parts)
-    text += fmt::format("{}{} {} mm at a height of {:.1f} mm", text.empty() ? "" : ", ",
-                        name_of(part), bound_text(thickness_mm, 3), at.y);
+    text += fmt::format("{}{} {} mm at a height of {} mm", text.empty() ? "" : ", ", name_of(part),
+                        bound_text(thickness_mm, 3), size_text(at.y, 1));
   return text;
 }
 

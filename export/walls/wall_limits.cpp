@@ -121,7 +121,7 @@ std::string WallLimit::asked_by() const {
 
 const WallLimit& ProcessLimits::wall_for(double size_sum_mm) const noexcept {
   const auto limit = std::find_if(walls.begin(), walls.end(), [&](const WallLimit& wall) {
-    return size_sum_mm <= wall.up_to_size_sum_mm;
+    return size_sum_mm <= wall.up_to_size_sum_mm + 3.0 * kSizeAllowanceMm;
   });
   return limit == walls.end() ? walls.back() : *limit;
 }
@@ -196,9 +196,10 @@ Result<ProcessLimits> read_process(const std::string& name) {
 }
 
 bool SizeLimit::fits(const glm::dvec3& size_mm) const noexcept {
+  const auto within = [](double mm, double limit_mm) { return mm <= limit_mm + kSizeAllowanceMm; };
   const auto [least, most] = std::minmax(size_mm.x, size_mm.y);
-  return least <= std::min(width_mm, depth_mm) && most <= std::max(width_mm, depth_mm) &&
-         size_mm.z <= height_mm;
+  return within(least, std::min(width_mm, depth_mm)) &&
+         within(most, std::max(width_mm, depth_mm)) && within(size_mm.z, height_mm);
 }
 
 std::optional<WallLimit> WallDemand::for_size(double size_sum_mm) const {

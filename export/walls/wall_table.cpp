@@ -46,8 +46,7 @@ std::vector<Stretch> thin_stretches(const Profile& profile, const WallLimit& lim
 
 /// "rim at a height of 12.0 mm", "outer from 3.1 to 9.8 mm of height".
 std::string text_of(const Stretch& stretch) {
-  const std::string low = fmt::format("{:.1f}", stretch.low_mm);
-  const std::string high = fmt::format("{:.1f}", stretch.high_mm);
+  const std::string low = size_text(stretch.low_mm, 1), high = size_text(stretch.high_mm, 1);
   return low == high ? fmt::format("{} at a height of {} mm", stretch.name, low)
                      : fmt::format("{} from {} to {} mm of height", stretch.name, low, high);
 }
@@ -72,8 +71,8 @@ std::string thin_wall_text(const Profile& profile, double thinnest_mm, const Wal
   if (!stretches.empty()) return text;
   // Between two samples.
   const Wall thinnest = min_wall(profile);
-  return text + fmt::format("; thinnest: {} at a height of {:.1f} mm",
-                            name_of(part_of(profile, thinnest)), thinnest.from.y);
+  return text + fmt::format("; thinnest: {} at a height of {} mm",
+                            name_of(part_of(profile, thinnest)), size_text(thinnest.from.y, 1));
 }
 
 std::string_view name_of(WallFace face) {

@@ -133,6 +133,25 @@ TEST(WallVerdict, AWallDrawnAtTheLimitPasses) {
   }
 }
 
+/// A tube of 1.5 mm, whose wall with its facets is a little less: no line rounds it up to 1.500.
+TEST(WallVerdict, IsRoundedDownByEveryCommandThatPrintsIt) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("tube.pot.json"), png = folder.file("tube.png");
+  Pot tube;
+  tube.stack =
+      ClayStack::from_rings(1.0, {80, {quanta_from_radius(30.0), quanta_from_radius(28.5)}}, 0, 80)
+          .value();
+  tube.ledger.initial = tube.stack.volume();
+  write_text(pot, write_pot(tube, PotEncoding::json));
+  const Ran checked = claystack("check " + pot);
+  const double wall_mm = claystack("check --json " + pot).json().at("min_wall_mm");
+  ASSERT_GT(wall_mm, 1.4995);
+  ASSERT_LT(wall_mm, 1.5);
+  EXPECT_NE(checked.out.find("minimum wall 1.499 mm"), std::string::npos) << checked.out;
+  const Ran drawn = claystack("render --wall-map --size 64x64 " + pot + " -o " + png);
+  EXPECT_NE(drawn.out.find("thinnest 1.499"), std::string::npos) << drawn.out << drawn.err;
+}
+
 // Inside and outside differ by the smallest step of a pot file; float32 has no such step.
 TEST(WallVerdict, OfALipThatNoMeshFileCanHoldIsTheSameOfCheckAndExport) {
   const ScratchFolder folder;

@@ -291,6 +291,17 @@ TEST(MeshPot, RefusesWhatIsNotOfRevolution) {
   EXPECT_THAT(none.error().message, HasSubstr("expected a mesh of a pot"));
 }
 
+/// Heights count from the lowest clay, which is not the foot of the pot here.
+TEST(MeshPot, NamesAGapAboveAPartBelowThePot) {
+  TriangleMesh mesh = Exported("bowl").mesh;
+  add_box(mesh, {-3.0, -3.0, -9.0}, {3.0, 3.0, -2.0});
+  const auto made = mesh_pot(mesh, {}, "bowl.stl");
+  ASSERT_FALSE(made);
+  EXPECT_THAT(made.error().message,
+              HasSubstr("found none from 7.000 to 9.000 mm above the lowest clay; remove the part "
+                        "below or above this gap"));
+}
+
 TEST(MeshPot, CommandReportsAxisAndDeviationAndRefusesOptionsOfDrawings) {
   const Exported sample("bowl");
   const std::string pot = sample.folder.file("again.pot.json");

@@ -54,6 +54,22 @@ TEST(Step, ACupIsExactInBothKinds) {
   }
 }
 
+/// A rod of 20 000 rings, alternately 40 and 42 mm in radius: the volumes between its faces and the
+/// axis are so many that a plain sum of them loses 1e-13 of the whole.
+TEST(Step, TheVolumeOfManyFacesIsSummedWithoutLoss) {
+  constexpr int kRings = 20'000;
+  constexpr double kHeightMm = 0.0051;
+  Polygon piece{{0, 0}};
+  for (int i = 0; i < kRings; ++i)
+    for (const int end : {0, 1}) piece.push_back({40.0 + 2.0 * (i % 2), (i + end) * kHeightMm});
+  piece.push_back({0, kRings * kHeightMm});
+  const RevolvedBrep brep = revolved_brep({{piece}}, StepWalls::lines, 0.01).value();
+  const double volume = kPi * kHeightMm * (kRings / 2) * (40.0 * 40.0 + 42.0 * 42.0);
+  EXPECT_NEAR(brep.volume_mm3 / volume, 1.0, 1e-13);
+  const StepSolid found = verify_step(encode_step(brep, "rod"), "rod.step").value();
+  EXPECT_NEAR(found.volume_mm3 / volume, 1.0, 1e-13);
+}
+
 TEST(Step, ACurveKeepsToleranceAndVolume) {
   const Profile lines = sphere(200);
   const double volume = volume_of(lines);

@@ -316,6 +316,17 @@ TEST(RunExport, WithoutMarginsDracoGetsBitsUntilTheExactTestPasses) {
   EXPECT_LE(result->report.files[0].max_error_mm, options.tolerance_mm);
   EXPECT_TRUE(check_mesh(*decode_mesh(result->files[0], MeshFormat::drc, "pot")).sound());
 }
+
+/// A wall of 2.2e-6 mm is two steps of float32 thick, less than the rounding of Draco's grid, which
+/// is in float32 too.
+TEST(RunExport, AWallBelowEveryDracoGridIsRefusedWithTheRemedy) {
+  std::vector<shapes::Radii> radii(81, {8.797671115784807, 8.79766887984723});
+  for (std::size_t i = 0; i < 18; ++i) radii[i].inner_mm = 0.0;
+  const Pot pot = pot_of(stack_of(0.15, radii));
+  EXPECT_TRUE(exported(pot, {MeshFormat::stl_binary}, {}));
+  EXPECT_TRUE(refused(exported(pot, {MeshFormat::drc}, {}), ErrorKind::unsound,
+                      "write it in another format, such as .stl: "));
+}
 #endif
 
 RC_GTEST_PROP(RunExport, WhatIsWrittenIsSoundOrRefused, (const ClayStack& stack)) {

@@ -1,6 +1,8 @@
 #include "claystack/export/walls.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <string>
 
 namespace clay::solid {
@@ -28,8 +30,23 @@ TEST(ProcessLimits, WallsGrowWithTheObject) {
   const ProcessLimits sla = process_named("sla").value();
   EXPECT_EQ(sla.wall_for(150.0).min_wall_mm, 1.0);
   EXPECT_EQ(sla.wall_for(200.0).min_wall_mm, 1.0);
-  EXPECT_EQ(sla.wall_for(200.1).min_wall_mm, 2.0);
+  EXPECT_EQ(sla.wall_for(200.4).min_wall_mm, 2.0);
   EXPECT_EQ(sla.wall_for(1e6).min_wall_mm, 3.0);
+}
+
+/// A cylinder drawn at the limits, 60 mm wide and 80 mm high: a revolve of n facets that has its
+/// volume is wider by the factor sqrt((2 pi / n) / sin(2 pi / n)), here 60.037 mm.
+TEST(ProcessLimits, APotDrawnAtALimitOfSizePassesWithItsFacets) {
+  const double angle = 2.0 * std::numbers::pi / 72.0;
+  const double wide = 60.0 * std::sqrt(angle / std::sin(angle));
+  ASSERT_GT(wide, 60.03);
+  const SizeLimit kiln{60.0, 60.0, 80.0, "our kiln"};
+  EXPECT_TRUE(kiln.fits({wide, wide, 80.0}));
+  EXPECT_FALSE(kiln.fits({60.2, 60.0, 80.0}));
+  EXPECT_FALSE(kiln.fits({60.0, 60.2, 80.0}));
+  EXPECT_FALSE(kiln.fits({60.0, 60.0, 80.2}));
+  const ProcessLimits sla = process_named("sla").value();
+  EXPECT_EQ(sla.wall_for(size_sum_mm({wide, wide, 80.0})).min_wall_mm, 1.0);
 }
 
 TEST(ProcessLimits, MessagesHaveTheTitleOfTheProcess) {

@@ -131,6 +131,14 @@ TEST(WallParts, TheUpwardFaceOfALipIsNoFloor) {
   EXPECT_EQ(text.find("floor"), std::string::npos) << text;
 }
 
+/// A ring of 0.02 mm on a floor as thick: all of it is lower than 0.05 mm.
+TEST(WallText, StatesTheHeightsOfALowPot) {
+  const Profile profile{{{{0, 0}, {3, 0}, {3, 0.06}, {2.98, 0.06}, {2.98, 0.02}, {0, 0.02}}}};
+  const std::string text = thin_wall_text(profile, 0.02, {1e9, 0.5, "test", {}});
+  EXPECT_NE(text.find("floor at a height of 0.02 mm"), std::string::npos) << text;
+  EXPECT_EQ(text.find("floor at a height of 0.0 mm"), std::string::npos) << text;
+}
+
 TEST(WallText, IsALowerBoundThatDiffersFromAHigherLimit) {
   const auto text = [](double thinnest_mm, double limit_mm) {
     const std::string full = wall_text(thinnest_mm, {1e9, limit_mm, "test", {}});

@@ -129,7 +129,8 @@ inline constexpr double kWallTableSpacingMm = 0.5;
 
 /// A minimum wall and its source.
 struct WallLimit {
-  /// Applies to objects whose width, depth and height add up to at most this.
+  /// Applies to objects whose width, depth and height add up to at most this, each of them with the
+  /// allowance of a size.
   double up_to_size_sum_mm = std::numeric_limits<double>::infinity();
   double min_wall_mm = 0.0;
   std::string source;   ///< source of the figure
@@ -161,6 +162,10 @@ struct EdgeLimit {
   std::string source;
 };
 
+/// A width, depth or height passes a limit of size up to this much above it [mm], so that a pot
+/// drawn at the limit passes although facets and a grid make it a little larger.
+inline constexpr double kSizeAllowanceMm = 0.1;
+
 /// The sum by which a process chooses its minimum wall, of width, depth and height [mm].
 [[nodiscard]] inline double size_sum_mm(const glm::dvec3& size_mm) noexcept {
   return size_mm.x + size_mm.y + size_mm.z;
@@ -176,7 +181,7 @@ struct SizeLimit {
   std::string source;
 
   /// Whether an object of this width, depth and height fits upright, turned by 90 degrees if
-  /// needed.
+  /// needed, with the allowance of a size.
   [[nodiscard]] bool fits(const glm::dvec3& size_mm) const noexcept;
 };
 
