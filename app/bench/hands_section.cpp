@@ -1,5 +1,6 @@
 #include "app/bench/hands/tasks.hpp"
 #include "app/bench/section.hpp"
+#include "app/history/pot_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -22,7 +23,8 @@ struct RuleSet {
 };
 
 std::vector<RuleSet> rule_sets(bool quick) {
-  std::vector<RuleSet> sets{{"none", std::nullopt}, {"all", ClaySpec{}}};
+  std::vector<RuleSet> sets{
+      {"none", std::nullopt}, {"all", ClaySpec{}}, {"a new work", history::usual_clay()}};
   if (quick) return sets;
   const auto without = [&](const char* name, bool ClaySpec::*rule) {
     ClaySpec clay;
@@ -89,8 +91,9 @@ Table empty_table() {
        {"volume_error", "quanta"},
        {"tick_us", "us"}},
       {},
-      "All: the six clay rules. Printable: no closed cavity, wall of at least 2 mm, no ledge of "
-      "2 mm. Thinnest, ledge and width are the worst values of all pots of a row, so a row of more "
+      "All: the six clay rules; a new work: with all options too. Printable: no closed cavity, "
+      "wall of at least 2 mm, no ledge of 2 mm. Thinnest, ledge and width are the worst values of "
+      "all pots of a row, so a row of more "
       "pots looks worse; roughness is the median, the rest are means. Tick: CPU time of a tick in "
       "contact, median of the first three pots."};
 }
@@ -197,8 +200,8 @@ Section hands_section(const Effort& effort) {
   section.title = "Pots thrown by simulated hands";
   section.summary =
       "Quality of pots thrown by hand. Simulated potters with tremor, misjudged depth and strokes "
-      "that end early throw from 1 kg of clay, without the clay rules, with all of them, and with "
-      "each omitted in turn. ";
+      "that end early throw from 1 kg of clay, without the clay rules, with all of them, with the "
+      "settings of a new work, and with each rule omitted in turn. ";
   Table table = empty_table();
   int met = 0;
   for (const Task task : kTasks) met += measure_task(task, effort, table, section) ? 1 : 0;

@@ -142,15 +142,6 @@ Contender alone(const std::string& name, bool ClaySpec::*rule) {
   return with_rules(name + " alone", rules);
 }
 
-/// The settings of a new work: the six rules, a finger, a thin wall that yields, and a rim that
-/// sinks.
-ClaySpec rules_of_a_new_work() {
-  ClaySpec rules;
-  rules.finger_mm = history::kFingerMm;
-  rules.thin_wall_yields = rules.rim_sinks = true;
-  return rules;
-}
-
 /// The cost of each clay rule. The stroke is the same, but not the clay: a wall that does not move
 /// leaves more to heave.
 void measure_rules(Section& section, const Effort& effort) {
@@ -167,7 +158,7 @@ void measure_rules(Section& section, const Effort& effort) {
       alone("shift", &ClaySpec::shift),        alone("heave", &ClaySpec::heave),
       alone("smear", &ClaySpec::smear),        all_but("shift", &ClaySpec::shift),
       all_but("heave", &ClaySpec::heave),      all_but("smear", &ClaySpec::smear),
-      with_rules("all six", ClaySpec{}),       with_rules("a new work", rules_of_a_new_work())};
+      with_rules("all six", ClaySpec{}),       with_rules("a new work", history::usual_clay())};
   const auto ns = tick_ns(contenders, rounds_of(effort));
   for (std::size_t i = 0; i < ns.size(); ++i) {
     const Spread s = spread_of(ns[i]);

@@ -12,6 +12,11 @@ constexpr double kFloorMm = 5.0;  // usual for a pot that is not trimmed on its 
 
 }  // namespace
 
+ClaySpec usual_clay() {
+  return {
+      .floor_mm = kFloorMm, .finger_mm = kFingerMm, .thin_wall_yields = true, .rim_sinks = true};
+}
+
 SceneSpec usual_scene(double height_mm) {
   SceneSpec scene;
   scene.removal.yield_depth_mm = 2.0;
@@ -19,8 +24,7 @@ SceneSpec usual_scene(double height_mm) {
   scene.flow = {.sigma_mm = 0.12 * height_mm, .reach_mm = 0.5 * height_mm, .inside_share = 0.25};
   scene.force->stiffness_n_per_mm2 = 0.03;
   scene.force->friction = 0.2;
-  scene.clay = ClaySpec{
-      .floor_mm = kFloorMm, .finger_mm = kFingerMm, .thin_wall_yields = true, .rim_sinks = true};
+  scene.clay = usual_clay();
   return scene;
 }
 

@@ -11,7 +11,9 @@ namespace clay::history {
 /// The usual length of a finger, for `ClaySpec::finger_mm`.
 inline constexpr double kFingerMm = 90.0;
 
-/// The usual settings of the clay, for a lump or a pot of this height.
+/// The clay of a new work: the six rules and all options.
+[[nodiscard]] ClaySpec usual_clay();
+/// The usual settings, for a lump or a pot of this height.
 [[nodiscard]] SceneSpec usual_scene(double height_mm);
 
 /// For strokes on a pot: `Pot::thrown_with`, or the usual settings for its size. The scene

@@ -1,7 +1,7 @@
 #include "claystack/export/walls.hpp"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <numbers>
 #include <string>
 
