@@ -13,12 +13,12 @@ constexpr std::size_t kMostSunk = 64;
 /// The part of the tool's motion that presses the rim down: all of it where the tool's axis is over
 /// the wall. Beside the wall it is the square of the vertical part of the normal, of an ellipsoid
 /// at the edge of the rim. Less as the tool's middle comes down to the rim, if the tool moves along
-/// the wall or up, and where the wall is nearly solid.
+/// the wall or up, and inside of clay that is nearly solid: a tool opens it there.
 double part_down(const Tool& tool, const Motion& motion, const ClayStack& stack, double hip_y,
-                 double axis_distance_mm) noexcept {
+                 const Contact& contact) noexcept {
   const Ring& top = stack.rings().back();
-  const double beyond_mm =
-      std::max({axis_distance_mm - top.outer_mm(), top.inner_mm() - axis_distance_mm, 0.0});
+  const double d = contact.axis_distance_mm;
+  const double beyond_mm = std::max({d - top.outer_mm(), top.inner_mm() - d, 0.0});
   const double beyond = beyond_mm / tool.widest(), level = beyond * beyond;
   if (!(level < 1.0)) return 0.0;
   const double high = 0.5 * (tool.high() - tool.low());
@@ -27,7 +27,8 @@ double part_down(const Tool& tool, const Motion& motion, const ClayStack& stack,
   const double sinks = std::min(motion.upward_mm_s, 0.0), rises = motion.upward_mm_s - sinks;
   const double down2 = sinks * sinks + kSlowMmS * kSlowMmS;
   const double other2 = rises * rises + motion.outward_mm_s * motion.outward_mm_s;
-  return pliancy(top) * above * (1.0 - level) * down2 / (down2 + level * other2);
+  const double opens = contact.side == Side::expansive ? 1.0 - pliancy(top) : 0.0;
+  return (1.0 - opens) * above * (1.0 - level) * down2 / (down2 + level * other2);
 }
 
 /// The part of a ring's section that the tool covers, as R^2 - r^2 [mm^2].
@@ -42,7 +43,7 @@ double covered_mm2(const Ring& ring, double radius_mm, double axis_distance_mm) 
 RimPress press_rim(const Tool& tool, const Motion& motion, const ClayStack& stack, double hip_y,
                    Contact& contact) noexcept {
   if (contact.rings.to() != stack.size()) return {};
-  const double d = contact.axis_distance_mm, part = part_down(tool, motion, stack, hip_y, d);
+  const double d = contact.axis_distance_mm, part = part_down(tool, motion, stack, hip_y, contact);
   if (!(part > 0.0)) return {};
   const double outward = contact.side == Side::compressive ? 1.0 : -1.0;
   double mm2 = 0.0;

@@ -77,6 +77,20 @@ TEST(RimPress, NoRimRises) {
   EXPECT_GT(pressed(rim_scene(false), 12.0, 46.0).stack().height_mm(), kHeightMm + 10.0);
 }
 
+/// A solid lump: a ball near the axis opens it. Beyond the middle radius a ball makes it lower and
+/// wider; without the option it pushed the clay outside aside, which became a pillar.
+TEST(RimPress, OpensALumpOrFlattensIt) {
+  EXPECT_NEAR(pressed(rim_scene(true), kOuterMm, 0.0).stack().height_mm(), kHeightMm, 0.3);
+  for (const double d : {26.0, 30.0, 35.0, 40.0, 45.0, 49.0}) {
+    const Wheel wheel = pressed(rim_scene(true), kOuterMm, d);
+    EXPECT_GT(wheel.stack().height_mm(), kHeightMm - 10.0) << d;
+    EXPECT_LT(wheel.stack().height_mm(), kHeightMm - 8.0) << d;
+    EXPECT_GT(wheel.stack().rings().back().outer_mm(), kOuterMm + 2.0) << d;
+    expect_balanced(wheel);
+  }
+  EXPECT_GT(pressed(rim_scene(false), kOuterMm, 26.0).stack().height_mm(), kHeightMm + 30.0);
+}
+
 /// A press on the wall from outside and a pinch: as without the option, to the byte.
 TEST(RimPress, LeavesOtherStrokesAlone) {
   const auto rings_of = [](bool sinks, auto&& stroke) {
