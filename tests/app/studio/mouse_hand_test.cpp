@@ -1,5 +1,6 @@
 #include "app/studio/mouse_hand.hpp"
 
+#include "app/history/pot_scene.hpp"
 #include "app/studio/offscreen_host.hpp"
 #include "claystack/engine/wheel.hpp"
 
@@ -222,6 +223,41 @@ TEST(MouseHand, IsFreeAlongTheClayAndAwayFromIt) {
   HandAtLump hand({48.0, 30.0, 0.0});  // 2 mm deep
   EXPECT_NEAR(hand.pull({48.0, 45.0, 0.0}, 0.25, 401).y, 45.0, 0.1);
   EXPECT_NEAR(hand.pull({60.0, 45.0, 0.0}, 0.25, 401).x, 60.0, 0.1);
+}
+
+/// The height of a lump of radius 50 and height 60 mm after a stroke of the mouse from above it
+/// into it, with the clay of a new work; none if the lump has fallen.
+std::optional<double> height_after_stroke(const glm::dvec3& from_mm, const glm::dvec3& to_mm,
+                                          bool rim_sinks) {
+  SceneSpec scene = history::usual_scene(60.0);
+  scene.lump = {.rings = 120, .ring_height_mm = 0.5, .outer_radius_mm = 50.0};
+  scene.tool = {SphereSpec{10.0}, ToolMode::press, {}};
+  scene.stability = StabilitySpec{15.0};
+  scene.clay->rim_sinks = rim_sinks;
+  Wheel wheel = Wheel::build(scene).value();
+  Hand hand;
+  hand.device.begin_at(from_mm);
+  hand.device.meet({&wheel.stack(), &wheel.plan().tool, kRpm});
+  hand.device.aim({to_mm, kPressingMmPerS, 8.0});
+  for (int i = 1; i <= 1500 && !wheel.collapsed(); ++i)
+    wheel.step({1000 * i, hand.tick().position_mm, false, 0.0});
+  return wheel.collapsed() ? std::nullopt : std::optional(wheel.stack().height_mm());
+}
+
+/// A newcomer's first strokes. Where the rim does not sink, many push the clay outside of the tool
+/// up, to a pillar of twice the height, or make the lump fall.
+TEST(MouseHand, NoStrokeFromAboveMakesAPillar) {
+  int pillars_without = 0;
+  for (const double from : {5.0, 20.0, 35.0, 50.0})
+    for (const double to : {10.0, 25.0, 40.0, 55.0})
+      for (const double down : {25.0, 45.0}) {
+        const glm::dvec3 above_mm{from, 75.0, 0.0}, in_mm{to, down, 0.0};
+        const auto height = height_after_stroke(above_mm, in_mm, true);
+        ASSERT_TRUE(height.has_value()) << from << ' ' << to << ' ' << down;
+        EXPECT_LT(*height, 69.0) << from << ' ' << to << ' ' << down;
+        if (height_after_stroke(above_mm, in_mm, false).value_or(1e3) > 69.0) ++pillars_without;
+      }
+  EXPECT_GT(pillars_without, 5);
 }
 
 TEST(MouseHand, SamplesAreReadyAndFreshOnce) {

@@ -97,7 +97,9 @@ inline SceneSpec arbitrary_scene() {
                     on(),
                     *number_in(0, 1e3),
                     *number_in(0, 1e6),
-                    maybe<double>([] { return *number_in(0, 200); })};
+                    maybe<double>([] { return *number_in(0, 200); }),
+                    on(),
+                    on()};
   });
   return scene;
 }
