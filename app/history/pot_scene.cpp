@@ -6,17 +6,6 @@
 #include <utility>
 
 namespace clay::history {
-namespace {
-
-constexpr double kFloorMm = 5.0;  // usual for a pot that is not trimmed on its foot
-
-}  // namespace
-
-ClaySpec usual_clay() {
-  return {
-      .floor_mm = kFloorMm, .finger_mm = kFingerMm, .thin_wall_yields = true, .rim_sinks = true};
-}
-
 SceneSpec usual_scene(double height_mm) {
   SceneSpec scene;
   scene.removal.yield_depth_mm = 2.0;
