@@ -6,6 +6,7 @@
 #include <utility>
 
 namespace clay::history {
+
 SceneSpec usual_scene(double height_mm) {
   SceneSpec scene;
   scene.removal.yield_depth_mm = 2.0;
