@@ -12,8 +12,9 @@ constexpr std::size_t kMostSunk = 64;
 
 /// The part of the tool's motion that presses the rim down: all of it where the tool's axis is over
 /// the wall. Beside the wall it is the square of the vertical part of the normal, of an ellipsoid
-/// at the edge of the rim. Less as the tool's middle comes down to the rim, if the tool moves along
-/// the wall or up, and inside of clay that is nearly solid: a tool opens it there.
+/// at the edge of the rim, and less if the tool moves along the wall or up. A tool whose middle has
+/// come down to the rim presses it down only over the wall, and if it moves mainly down. A tool
+/// inside of clay that is nearly solid opens it instead.
 double part_down(const Tool& tool, const Motion& motion, const ClayStack& stack, double hip_y,
                  const Contact& contact) noexcept {
   const Ring& top = stack.rings().back();
@@ -27,8 +28,11 @@ double part_down(const Tool& tool, const Motion& motion, const ClayStack& stack,
   const double sinks = std::min(motion.upward_mm_s, 0.0), rises = motion.upward_mm_s - sinks;
   const double down2 = sinks * sinks + kSlowMmS * kSlowMmS;
   const double other2 = rises * rises + motion.outward_mm_s * motion.outward_mm_s;
+  const double from_above = down2 / (down2 + level * other2);
+  const double mainly_down = down2 > other2 ? 1.0 : down2 / other2;
+  const double in_clay = mainly_down * std::max(1.0 - 4.0 * beyond, 0.0);
   const double opens = contact.side == Side::expansive ? 1.0 - pliancy(top) : 0.0;
-  return (1.0 - opens) * above * (1.0 - level) * down2 / (down2 + level * other2);
+  return (1.0 - opens) * (1.0 - level) * (above * from_above + (1.0 - above) * in_clay);
 }
 
 /// The part of a ring's section that the tool covers, as R^2 - r^2 [mm^2].

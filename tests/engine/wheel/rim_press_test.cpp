@@ -91,6 +91,21 @@ TEST(RimPress, OpensALumpOrFlattensIt) {
   EXPECT_GT(pressed(rim_scene(false), kOuterMm, 26.0).stack().height_mm(), kHeightMm + 30.0);
 }
 
+/// A hand that stops at nothing goes 50 mm down into a lump at 60 mm/s.
+TEST(RimPress, AFastPlungeMakesNoPillar) {
+  const auto plunged = [](bool sinks) {
+    Wheel wheel = wheel_with(
+        rim_scene(sinks), kHeightMm, [](double) { return kOuterMm; }, [](double) { return 0.0; });
+    Hand hand(wheel);
+    hand.place_at(30.0, 71.0);
+    hand.move_to(26.0, 22.0, 60.0);
+    expect_balanced(wheel);
+    return wheel.stack().height_mm();
+  };
+  EXPECT_LT(plunged(true), kHeightMm + 1.0);
+  EXPECT_GT(plunged(false), kHeightMm + 30.0);
+}
+
 /// A press on the wall from outside and a pinch: as without the option, to the byte.
 TEST(RimPress, LeavesOtherStrokesAlone) {
   const auto rings_of = [](bool sinks, auto&& stroke) {
