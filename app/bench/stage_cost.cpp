@@ -42,7 +42,8 @@ std::optional<SceneSpec> with_rule(SceneSpec scene, std::string_view rule) {
     clay.finger_mm = history::kFingerMm;
   } else if (rule == "thin wall")
     clay.shift = clay.thin_wall_yields = true;
-  else if (rule == "pressed rim" && scene.tool.mode == ToolMode::press)
+  else if (rule == "pressed rim" &&
+           (scene.tool.mode == ToolMode::press || scene.tool.mode == ToolMode::trim))
     clay.heave = clay.rim_sinks = true;
   else
     return std::nullopt;

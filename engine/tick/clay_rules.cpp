@@ -84,7 +84,7 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
   const Squeeze squeeze{plan.removal.min_wall_mm, plan.clay.floor_rings,
                         plan.mode == ToolMode::trim_foot, (rules & kShift) ? &work.shift : nullptr};
   const bool two = removals.size() == 2;
-  const bool sinks = (rules & kHeave) && plan.clay.rim_sinks && !two && !press.trim;
+  const bool sinks = (rules & kHeave) && plan.clay.rim_sinks && !two;
   if (!two || kTwoToolBand<rules>)
     for (std::size_t k = 0; k < removals.size(); ++k) {
       Contact& contact = removals[k].contact;
@@ -278,13 +278,13 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
   if (press.trim && plan.clay.thin_wall_yields && plan.mode != ToolMode::trim_foot)
     for (const ToolRemoval& removal : removals)
       removed += cut_ledge(plan, removal.contact, stack, writer, flow);
+  writer.put_on_crown(-work.pressed.down);
   if (press.trim)
-    ledger.trimmed += removed;
+    ledger.trimmed += removed + work.pressed.down;
   else if ((rules & kLift) && removals.size() == 2)
     writer.put_on_crown(removed);
   else
-    writer.put_on_crown(displace<rules>(press, removals, work, removed, stack, rim) -
-                        work.pressed.down);
+    writer.put_on_crown(displace<rules>(press, removals, work, removed, stack, rim));
   if constexpr (rules & kSmear)
     if (!press.trim && press.tool.slow_s > 0.0)
       smear_surfaces(press, removals, work, stack, writer);

@@ -86,7 +86,8 @@ double finger_mm(const SceneSpec& s) {
 }
 
 bool sinks_rim(const SceneSpec& s) {
-  return s.clay && s.clay->rim_sinks && s.clay->heave && s.tool.mode == ToolMode::press;
+  return s.clay && s.clay->rim_sinks && s.clay->heave &&
+         (s.tool.mode == ToolMode::press || s.tool.mode == ToolMode::trim);
 }
 
 RulesPlan rules_plan(const SceneSpec& s) {
@@ -170,9 +171,10 @@ void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
                        : "a tool from inside goes through a wall at its minimum"});
   const bool sinks = any && sinks_rim(s);
   lines.push_back({"pressed rim", sinks,
-                   sinks               ? "a tool that comes down on the rim presses it down"
+                   sinks && cuts       ? "a cut from above lowers the rim"
+                   : sinks             ? "a tool that comes down on the rim presses it down"
                    : !any              ? none
-                   : s.clay->rim_sinks ? "heave is off, or the tool does not press"
+                   : s.clay->rim_sinks ? "heave is off, or the tool neither presses nor trims"
                                        : "a tool that comes down on the rim goes aside"});
 }
 

@@ -106,6 +106,23 @@ TEST(RimPress, AFastPlungeMakesNoPillar) {
   EXPECT_GT(plunged(false), kHeightMm + 30.0);
 }
 
+/// The rings that are left keep their radii, so the trimmed clay is that of the rings above.
+TEST(RimPress, ACutterFromAboveLowersTheRim) {
+  SceneSpec scene = rim_scene(true);
+  scene.tool.mode = ToolMode::trim;
+  const Wheel wheel = pressed(scene, 12.0, 44.0);
+  const double height = wheel.stack().height_mm();
+  EXPECT_GT(height, kHeightMm - 10.0);
+  EXPECT_LT(height, kHeightMm - 8.0);
+  for (const Ring& ring : wheel.stack().rings()) EXPECT_NEAR(wall_of(ring), 12.0, 1e-9);
+  const Quanta area = wheel.stack().rings().front().volume();
+  EXPECT_NEAR(static_cast<double>(wheel.ledger().trimmed) / static_cast<double>(area),
+              (kHeightMm - height) / kH, 1e-6);
+  expect_balanced(wheel);
+  scene.clay->rim_sinks = false;
+  EXPECT_NEAR(wall_of(pressed(scene, 12.0, 44.0).stack().rings().back()), 3.0, 0.1);
+}
+
 /// A press on the wall from outside and a pinch: as without the option, to the byte.
 TEST(RimPress, LeavesOtherStrokesAlone) {
   const auto rings_of = [](bool sinks, auto&& stroke) {

@@ -132,7 +132,7 @@ struct ClaySpec {
   /// would project as a ledge. A press from outside always bends the wall.
   bool thin_wall_yields = false;
   /// A tool that comes down on the rim. False: it goes aside. True: it presses the rim down (needs
-  /// `heave`), and the wall below becomes thicker.
+  /// `heave`), and the wall below becomes thicker; a cutter lowers the rim.
   bool rim_sinks = false;
   friend bool operator==(const ClaySpec&, const ClaySpec&) = default;
 };
