@@ -243,6 +243,15 @@ WideQuanta cut_ledge(const StepPlan& plan, const Contact& contact, const ClaySta
   return writer.cut_above(tip);
 }
 
+/// A cutter cuts the crown with the top ring, which held `before`: else the same clay would stand
+/// higher on a thinner ring. Returns the clay.
+WideQuanta cut_crown(const ClayStack& stack, Quanta before, StackWriter& writer) noexcept {
+  const WideQuanta crown = stack.crown(), left = crown * stack.rings().back().volume() / before;
+  const WideQuanta cut = std::max<WideQuanta>(crown - left, 0);
+  writer.put_on_crown(-cut);
+  return cut;
+}
+
 /// Keeps the rings that may have changed on their neighbours. Returns whether some of them hardly
 /// overlapped.
 bool keep_joined(const RulePress& press, std::span<const ToolRemoval> removals,
@@ -266,6 +275,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
                ClayStack& stack, Ledger& ledger, Rim& all_rim) noexcept {
   const StepPlan& plan = press.plan;
   Rim* const rim = (rules & kRim) ? nullptr : &all_rim;
+  const Quanta top_before = stack.rings().back().volume();
   StackWriter writer(stack);
   if constexpr (rules & kShift) {
     writer.change(work.shift.from(), work.shift.changes());
@@ -278,6 +288,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
   if (press.trim && plan.clay.thin_wall_yields && plan.mode != ToolMode::trim_foot)
     for (const ToolRemoval& removal : removals)
       removed += cut_ledge(plan, removal.contact, stack, writer, flow);
+  if (press.trim && plan.clay.rim_sinks) removed += cut_crown(stack, top_before, writer);
   writer.put_on_crown(-work.pressed.down);
   if (press.trim)
     ledger.trimmed += removed + work.pressed.down;

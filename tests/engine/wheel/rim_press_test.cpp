@@ -119,6 +119,8 @@ TEST(RimPress, ACutterFromAboveLowersTheRim) {
   EXPECT_NEAR(static_cast<double>(wheel.ledger().trimmed) / static_cast<double>(area),
               (kHeightMm - height) / kH, 1e-6);
   expect_balanced(wheel);
+  for (double d = 30.0; d <= 60.0; d += 1.0)
+    EXPECT_LT(pressed(scene, 12.0, d).stack().height_mm(), kHeightMm + 1e-9) << d;
   scene.clay->rim_sinks = false;
   EXPECT_NEAR(wall_of(pressed(scene, 12.0, 44.0).stack().rings().back()), 3.0, 0.1);
 }
