@@ -1,14 +1,12 @@
 #include "engine/tick/rim_press.hpp"
 
-#include "engine/tick/redistribution.hpp"
 #include "engine/tick/shell.hpp"
+#include "engine/tick/shift.hpp"
 
 #include <algorithm>
 
 namespace clay {
 namespace {
-
-constexpr std::size_t kMostSunk = 64;
 
 /// The part of the tool's motion that presses the rim down: all of it where the tool's axis is over
 /// the wall. Beside the wall it is the square of the vertical part of the normal, of an ellipsoid

@@ -8,8 +8,6 @@
 namespace clay {
 namespace {
 
-// Rings that one part of a tick may take out under the rim.
-constexpr std::size_t kMostSunk = 64;
 // A bore keeps half of its radius at least, even if a pose jumps far.
 constexpr float kMostOfBore = 0.75f;
 // The part of the wall's thickness, above and below the peak, over which one trail passes into the

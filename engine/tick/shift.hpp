@@ -11,6 +11,9 @@
 
 namespace clay {
 
+/// Rings that one part of a tick may take out under the rim.
+inline constexpr std::size_t kMostSunk = 64;
+
 /// The effect of a shift on the rings from() .. to()-1. Nothing is written: `after` is the later
 /// shape of a ring, and redistribution applies it. Storage is reserved once.
 class Shift {
