@@ -156,6 +156,10 @@ EMSCRIPTEN_KEEPALIVE void claystack_text(unsigned character) {
 EMSCRIPTEN_KEEPALIVE void claystack_paste(const char* text) {
   if (host) host->paste(text);
 }
+/// Works of a crash that the gallery offers.
+EMSCRIPTEN_KEEPALIVE int claystack_recoverable() {
+  return window ? static_cast<int>(window->state().recoverable.size()) : 0;
+}
 EMSCRIPTEN_KEEPALIVE void claystack_open(const char* path) { take(studio::FilesDropped{{path}}); }
 /// Whether gestures and the key Tab are for an open dialog or menu, not for the pot.
 EMSCRIPTEN_KEEPALIVE bool claystack_dialog_open() {

@@ -162,7 +162,8 @@ function fakePad() {
   navigator.getGamepads = () => [pad, null, null, null];
   window.hold = (button, value) => { pad.buttons[button] = {pressed: value > 0.5, value}; };
   window.lean = (axis, value) => { pad.axes[axis] = value; };
-  window.plug = () => window.dispatchEvent(new Event('gamepadconnected'));
+  window.plug = (other = {}) => window.dispatchEvent(
+    Object.assign(new Event('gamepadconnected'), {gamepad: {...pad, ...other}}));
 }
 
 /// Part of the full speed of a stick.
@@ -175,6 +176,8 @@ export async function gamepad({open, folder}) {
   const kHalf = 0.5, kFast = 0.9;                  // deflections of the stick
   const hold = (button, value) => page.evaluate((b, v) => window.hold(b, v), button, value);
   const lean = (axis, value) => page.evaluate((a, v) => window.lean(a, v), axis, value);
+  await page.evaluate(() => window.plug({id: 'Odd Pad (Vendor: 1234)', mapping: ''}));
+  await page.shows('status', /Odd Pad: the browser knows no layout for this gamepad/);
   await page.evaluate(() => window.plug());
   await pause(500);
   const press = async (pulled, count) => {

@@ -232,6 +232,7 @@ async function recover() {
   let browser = await launch();
   const page = await openPage(browser, kDesktop);
   await beginBowl(page);
+  const {hash} = await linked(page);
   await drag(page);
   await pause(2500);
   const {turned} = await page.lastLine('stroke started');
@@ -248,8 +249,18 @@ async function recover() {
   assert.equal(strokes.length, 1);
   const lost = turned - (strokes[0].at(-1).ms - strokes[0][0].ms);
   assert.ok(lost <= 1000, `expected at most the last second to be lost, found ${lost} ms`);
-  await browser.close();
   console.log(`killed in a stroke: recovered but for the last ${lost.toFixed(0)} ms`);
+
+  await drag(again);
+  await pause(2500);
+  browser.process().kill('SIGKILL');
+  await pause(1000);
+  browser = await launch();
+  const other = await openPage(browser, kDesktop, hash);
+  await other.says('recovery offered: 1');
+  await other.shows('status', /^Unsaved works from before: 1\. File > New offers them\.$/);
+  await browser.close();
+  console.log('a link names the works that wait');
 }
 
 /// Drawings become pots; a fallen pot is exported too.

@@ -9,9 +9,11 @@ const kPadButtons = [0, 1, 2, 3, 4, 5, 8, 9, 16, 10, 11, 12, 15, 13, 14];
 
 let padTimer = 0, padName = '', padState = '';
 
+const nameOf = pad => pad?.id.replace(/ *\(.*/, '') ?? '';
+
 function readPad() {
   const pad = [...navigator.getGamepads()].find(pad => pad?.connected && pad.mapping === 'standard');
-  const name = pad?.id.replace(/ *\(.*/, '') ?? '';
+  const name = nameOf(pad);
   if (name !== padName) {
     padName = name;
     padState = '';
@@ -35,7 +37,11 @@ function readPad() {
 /// Reads nothing until a gamepad is connected.
 function listenToGamepads() {
   if (!navigator.getGamepads) return;
-  window.addEventListener('gamepadconnected', () => { padTimer ||= setInterval(readPad, kPadMs); });
+  window.addEventListener('gamepadconnected', ({gamepad}) => {
+    if (gamepad.mapping !== 'standard')
+      return status(`${nameOf(gamepad)}: the browser knows no layout for this gamepad, so it cannot be used`);
+    padTimer ||= setInterval(readPad, kPadMs);
+  });
 }
 
 // ---- 3Dconnexion controllers -------------------------------------------------------------------

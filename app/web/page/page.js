@@ -172,6 +172,8 @@ async function openLink() {
     const packed = Uint8Array.from(atob(code.replace(/-/g, '+').replace(/_/g, '/')), c => c.charCodeAt(0));
     open({name: 'link.pot.cbor', bytes: await through(new DecompressionStream('deflate-raw'), packed)});
     history.replaceState(kOpened, '');
+    const works = studio._claystack_recoverable();
+    if (works > 0) status(`Unsaved works from before: ${works}. File > New offers them.`);
   } catch (error) {
     status('The link holds no pot: it was cut off or changed');
   }
