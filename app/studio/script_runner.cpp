@@ -29,30 +29,28 @@ double over_s(const std::vector<std::string>& words, std::size_t from) {
 }  // namespace
 
 std::span<const ScriptCommand> ScriptRunner::commands() noexcept {
-  static constexpr std::array kCommands = {
-      ScriptCommand{"move", 2, 4, "move X Y [over SECONDS]", &ScriptRunner::point},
-      ScriptCommand{"point", 2, 4, "point RHO_MM Y_MM [over SECONDS]", &ScriptRunner::point},
-      ScriptCommand{"press", 1, 1, "press left|right|middle", &ScriptRunner::button},
-      ScriptCommand{"release", 1, 1, "release left|right|middle", &ScriptRunner::button},
-      ScriptCommand{"hold", 0, 3, "hold [Ctrl] [Shift] [Alt]", &ScriptRunner::hold},
-      ScriptCommand{"pressure", 1, 3, "pressure PART|none [over SECONDS]", &ScriptRunner::pressure},
-      ScriptCommand{"gamepad", 1, 1, "gamepad NAME|none", &ScriptRunner::gamepad},
-      ScriptCommand{"stick", 3, 5, "stick left|right X Y [over SECONDS]", &ScriptRunner::stick},
-      ScriptCommand{"trigger", 2, 4, "trigger left|right PART [over SECONDS]",
-                    &ScriptRunner::trigger},
-      ScriptCommand{"pad", 1, 1, "pad BUTTON", &ScriptRunner::pad_button},
-      ScriptCommand{"scroll", 1, 1, "scroll STEPS", &ScriptRunner::scroll},
-      ScriptCommand{"key", 1, 1, "key CHORD", &ScriptRunner::key},
-      ScriptCommand{"type", 1, 1, "type TEXT", &ScriptRunner::type},
-      ScriptCommand{"do", 1, 1, "do ACTION", &ScriptRunner::run_command},
-      ScriptCommand{"open", 1, 9, "open FILE... [fails]", &ScriptRunner::open},
-      ScriptCommand{"save", 1, 1, "save FILE", &ScriptRunner::save},
-      ScriptCommand{"close", 0, 0, "close", &ScriptRunner::close},
-      ScriptCommand{"wait", 1, 1, "wait SECONDS", &ScriptRunner::wait},
-      ScriptCommand{"screenshot", 1, 1, "screenshot FILE.png", &ScriptRunner::picture},
-      ScriptCommand{"expect", 2, 3, "expect FACT VALUE | expect FACT below|above NUMBER",
-                    &ScriptRunner::expect},
-  };
+  static constexpr auto kCommands = std::to_array<ScriptCommand>({
+      {"move", 2, 4, "move X Y [over SECONDS]", &ScriptRunner::point},
+      {"point", 2, 4, "point RHO_MM Y_MM [over SECONDS]", &ScriptRunner::point},
+      {"press", 1, 1, "press left|right|middle", &ScriptRunner::button},
+      {"release", 1, 1, "release left|right|middle", &ScriptRunner::button},
+      {"hold", 0, 3, "hold [Ctrl] [Shift] [Alt]", &ScriptRunner::hold},
+      {"pressure", 1, 3, "pressure PART|none [over SECONDS]", &ScriptRunner::pressure},
+      {"gamepad", 1, 1, "gamepad NAME|none", &ScriptRunner::gamepad},
+      {"stick", 3, 5, "stick left|right X Y [over SECONDS]", &ScriptRunner::stick},
+      {"trigger", 2, 4, "trigger left|right PART [over SECONDS]", &ScriptRunner::trigger},
+      {"pad", 1, 1, "pad BUTTON", &ScriptRunner::pad_button},
+      {"scroll", 1, 1, "scroll STEPS", &ScriptRunner::scroll},
+      {"key", 1, 1, "key CHORD", &ScriptRunner::key},
+      {"type", 1, 1, "type TEXT", &ScriptRunner::type},
+      {"do", 1, 1, "do ACTION", &ScriptRunner::run_command},
+      {"open", 1, 9, "open FILE... [fails]", &ScriptRunner::open},
+      {"save", 1, 1, "save FILE", &ScriptRunner::save},
+      {"close", 0, 0, "close", &ScriptRunner::close},
+      {"wait", 1, 1, "wait SECONDS", &ScriptRunner::wait},
+      {"screenshot", 1, 1, "screenshot FILE.png", &ScriptRunner::picture},
+      {"expect", 2, 3, "expect FACT VALUE | expect FACT below|above NUMBER", &ScriptRunner::expect},
+  });
   return kCommands;
 }
 

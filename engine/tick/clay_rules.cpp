@@ -115,7 +115,6 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
           return relieve_touched(plan, work.shoulders, stack, aside, work.bands[k], squeeze,
                                  removals, k, press.trim);
         });
-    if (sinks) limit_to_rim(stack, squeeze, removals[0], work.pressed);
     work.finger = {};
     if (!two && !press.trim) work.finger = finger_of(plan, press.tool, stack, removals[0].contact);
   }
@@ -289,6 +288,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
     for (const ToolRemoval& removal : removals)
       removed += cut_ledge(plan, removal.contact, stack, writer, flow);
   if (press.trim && plan.clay.rim_sinks) removed += cut_crown(stack, top_before, writer);
+  limit_to_rim(stack, work.pressed);
   writer.put_on_crown(-work.pressed.down);
   if (press.trim)
     ledger.trimmed += removed + work.pressed.down;

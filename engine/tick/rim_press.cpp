@@ -62,15 +62,12 @@ RimPress press_rim(const Tool& tool, const Motion& motion, const ClayStack& stac
   return {1.0 - part, static_cast<WideQuanta>(part * mm2 * kQuantaPerMm2)};
 }
 
-void limit_to_rim(const ClayStack& stack, const Squeeze& squeeze, const ToolRemoval& removal,
-                  RimPress& press) noexcept {
+void limit_to_rim(const ClayStack& stack, RimPress& press) noexcept {
   const auto rings = stack.rings();
-  const TouchedRings& touched = removal.contact.rings;
-  WideQuanta found = stack.crown() + (squeeze.shift != nullptr ? squeeze.shift->raised() : 0);
+  WideQuanta found = stack.crown();
   std::size_t i = rings.size();
   for (std::size_t k = 0; k < kMostSunk && found < press.down && --i > 0; ++k)
-    found += squeeze.ring(i, rings).volume() -
-             (touched.has(i) ? removal.removed[i - touched.from()] : 0);
+    found += rings[i].volume();
   press.down = std::clamp<WideQuanta>(press.down, 0, std::max<WideQuanta>(found, 0));
 }
 

@@ -1,10 +1,9 @@
 #pragma once
-// A tool that comes down on the rim of a wall presses it down, and not aside.
+// A tool that comes down on a rim or a lump presses it down, and not aside; a cutter lowers it.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/tool.hpp"
 #include "engine/tick/contact.hpp"
-#include "engine/tick/removal.hpp"
 
 namespace clay {
 
@@ -19,9 +18,8 @@ struct RimPress {
 /// the part that goes aside.
 [[nodiscard]] RimPress press_rim(const Tool& tool, const Motion& motion, const ClayStack& stack,
                                  double hip_y, Contact& contact) noexcept;
-/// The clay that goes down is at most that of 64 rings at the rim, after the shift and the removal.
-/// The lowest ring stays.
-void limit_to_rim(const ClayStack& stack, const Squeeze& squeeze, const ToolRemoval& removal,
-                  RimPress& press) noexcept;
+/// Call when the clay that goes aside has left the rings. The clay that goes down is at most the
+/// crown and 64 rings at the rim; the lowest ring stays.
+void limit_to_rim(const ClayStack& stack, RimPress& press) noexcept;
 
 }  // namespace clay

@@ -1,5 +1,6 @@
 // A tool that comes down on the rim (`ClaySpec::rim_sinks`).
 
+#include "app/bench/hands/dice.hpp"
 #include "claystack/engine/wheel.hpp"
 #include "tests/engine/wheel/rule_hand.hpp"
 #include "tests/engine/wheel/rule_samples.hpp"
@@ -158,20 +159,29 @@ TEST(RimPress, IsTheSameInRingsOfAnyHeight) {
   EXPECT_NEAR(high(0.2), fine, 0.3);
 }
 
-/// A leap into pots of few rings: the lowest ring stays, and every quantum is counted.
+/// Tools and cutters that leap about on pots of one to four rings: the lowest ring stays, no clay
+/// is owed, and every quantum is counted.
 TEST(RimPress, KeepsTheLowestRing) {
-  for (const double high_mm : {0.2, 0.4, 2.0, 12.0})
-    for (const double to_mm : {9.0, 3.0, 0.0, -5.0}) {
-      Wheel wheel = wheel_with(
-          rim_scene(true), high_mm, [](double) { return kOuterMm; }, [](double) { return 42.0; });
-      Hand hand(wheel);
-      hand.place_at(46.0, high_mm + 11.0);
-      hand.move_to(46.0, high_mm + to_mm, 1000.0);
-      hand.move_to(46.0, high_mm + to_mm + 0.1, 1.0);
-      EXPECT_GE(wheel.stack().crown(), 0);
-      EXPECT_GE(wheel.stack().size(), 1u);
+  bench::Dice dice(3);
+  for (int pot = 0; pot < 1000; ++pot) {
+    SceneSpec scene = rim_scene(true);
+    scene.tool.mode = pot % 4 == 0 ? ToolMode::press : ToolMode::trim;
+    scene.removal = {pot % 3 == 0 ? 2000.0 : 20.0, 0.5, pot % 5 == 0 ? 3.0 : 1.0, {}};
+    const double ring_mm = pot % 7 == 0 ? 5.0 : 1.0, high_mm = ring_mm * (1 + pot % 4);
+    Wheel wheel = wheel_with(
+        scene, high_mm, [](double) { return kOuterMm; },
+        [&](double) { return pot % 3 == 0 ? 0.0 : 42.0; }, ring_mm);
+    double x = dice.between(30.0, 62.0), y = high_mm + dice.between(2.0, 12.0);
+    const int tick_us = pot % 2 == 0 ? 20'000 : 1000;
+    for (int k = 1; k < 200; ++k) {
+      x += dice.between(-1.0, 1.0);
+      y += dice.between(-2.0, 1.5);
+      wheel.step({tick_us * k, {x, y, 0.0}, false, 0.0});
+      ASSERT_GE(wheel.stack().crown(), 0) << pot << ' ' << k;
+      ASSERT_GE(wheel.stack().size(), 1u);
       expect_balanced(wheel);
     }
+  }
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ struct RulesPlan {
   double surface_per_s = 0.0;     ///< speed of a surface of radius 1 under a tool
   double finger_mm = 0.0;         ///< above a tool in a bore; 0: none
   bool thin_wall_yields = false;  ///< as ClaySpec's
-  bool rim_sinks = false;         ///< as ClaySpec's, for a tool that presses
+  bool rim_sinks = false;         ///< as ClaySpec's, for a tool that presses or trims
 };
 
 /// One line of `claystack plan`.
