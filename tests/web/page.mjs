@@ -191,10 +191,13 @@ async function offlineBeside(browser) {
 
 /// A file that the server lacks when the page starts: a message with its name.
 async function incomplete(browser) {
-  for (const name of ['storage.js', 'claystack-page.data', 'claystack-page.wasm']) {
+  for (const [name, fault] of [
+    ['page.js', ' could not be loaded'], ['storage.js', ': the server answers 404'],
+    ['claystack-page.data', ': the server answers 404'], ['claystack-page.wasm', ': the server answers 404'],
+  ]) {
     const own = await serve(site, new Set(['/' + name]));
     const page = await openPageIn(browser, folder, own.address, kDesktop, () => {});
-    await page.shows('message', new RegExp(`^Claystack could not start: ${name}: the server answers 404$`));
+    await page.shows('message', new RegExp(`^Claystack could not start: ${name}${fault}$`));
     await page.close();
     own.close();
   }
