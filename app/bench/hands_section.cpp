@@ -93,9 +93,8 @@ Table empty_table() {
       {},
       "All: the six clay rules; a new work: with all options too. Printable: no closed cavity, "
       "wall of at least 2 mm, no ledge of 2 mm. Thinnest, ledge and width are the worst values of "
-      "all pots of a row, so a row of more "
-      "pots looks worse; roughness is the median, the rest are means. Tick: CPU time of a tick in "
-      "contact, median of the first three pots."};
+      "all pots of a row, so a row of more pots looks worse; roughness is the median, the rest are "
+      "means. Tick: CPU time of a tick in contact, median of the first three pots."};
 }
 
 std::vector<Cell> row_of(Task task, const RuleSet& rules, const Outcome& outcome) {

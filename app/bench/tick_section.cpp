@@ -151,8 +151,8 @@ void measure_rules(Section& section, const Effort& effort) {
               {{"rules", ""}, {"engine_ns", "ns"}, {"iqr_ns", "ns"}, {"over_none", ""}},
               {},
               "200 rings, one tool, so lift does not act. Shift includes hoop, which is a part of "
-              "it. The last row has the settings of a new work: all six rules, a finger, a "
-              "thin wall that yields, and a rim that sinks."};
+              "it. The last row has the settings of a new work: all six rules, a minimum floor, "
+              "a finger, a thin wall that yields, and a rim that sinks."};
   const std::vector<Contender> contenders{
       engine_at("none", "", press_scene(200)), alone("rim", &ClaySpec::rim),
       alone("shift", &ClaySpec::shift),        alone("heave", &ClaySpec::heave),
