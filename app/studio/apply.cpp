@@ -50,7 +50,10 @@ void apply(AppState& state, const Action& action) {
       if (const auto* open = std::get_if<OpenFile>(&action))
         if (const auto read = Document::read(open->path); !read)
           return report_unopened(state, open->path, read.error());
-      state.ui.dialog = UnsavedDialog{action};
+      UnsavedDialog question{action};
+      if (auto* import = std::get_if<ImportDialog>(&state.ui.dialog))
+        question.import = std::move(*import);
+      state.ui.dialog = std::move(question);
       state.log(std::string("prompt: ").append(reason));
       return;
     }

@@ -73,6 +73,10 @@ void Performer::operator()(const CloseDialog&) const {
     state.ui.dialog = GalleryDialog{};
     return;
   }
+  if (auto* unsaved = std::get_if<UnsavedDialog>(&state.ui.dialog); unsaved && unsaved->import) {
+    state.ui.dialog = ImportDialog(std::move(*unsaved->import));
+    return;
+  }
   close_dialog(state);
 }
 

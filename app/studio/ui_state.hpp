@@ -84,7 +84,8 @@ struct SettingsDialog {};
 /// Asks whether to save before `next` replaces the work.
 struct UnsavedDialog {
   Action next;
-  bool saving = false;  ///< the user chose to save; `next` follows
+  bool saving = false;                 ///< the user chose to save; `next` follows
+  std::optional<ImportCard> import{};  ///< the dialog that `next` came from, for Cancel
 };
 struct OpenDialog {
   std::string path;

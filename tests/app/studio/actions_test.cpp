@@ -339,6 +339,10 @@ TEST_F(ActionsTest, ADrawingOpensItsDialogAndAsksBeforeImport) {
   EXPECT_NEAR(import.made->pot.stack.height_mm(), 100.0, 0.5);
   apply(state, TakeImport{});
   ASSERT_TRUE(state.ui.shows<UnsavedDialog>());
+  apply(state, CloseDialog{});
+  ASSERT_TRUE(state.ui.shows<ImportDialog>()) << "Cancel keeps the settings of the import";
+  EXPECT_NEAR(std::get<ImportDialog>(state.ui.dialog).made->pot.stack.height_mm(), 100.0, 0.5);
+  apply(state, TakeImport{});
   apply(state, DiscardAndContinue{});
   EXPECT_EQ(state.document.scene().name, "jug");
   EXPECT_NEAR(state.document.pot().stack.height_mm(), 100.0, 0.5);
