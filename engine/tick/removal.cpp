@@ -1,12 +1,9 @@
 #include "engine/tick/removal.hpp"
 
 #include "engine/clay/packs.hpp"
-#include "engine/clay/portable_math.hpp"
 #include "engine/tick/yielding.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <span>
 #include <utility>
 
@@ -18,64 +15,6 @@ Quanta spare_outside(const Ring& ring) noexcept {
   return ring.outer2 - std::max(ring.inner2 + 1, kSmallestOuter2);
 }
 Quanta spare_inside(const Ring& ring) noexcept { return ring.volume() - 1; }
-
-/// How far the surfaces of a pinched wall move in a tick: both for some of it, then one alone.
-struct Pinched {
-  double together_mm = 0.0;  ///< each
-  double alone_mm = 0.0;     ///< the one whose tool is deeper in the clay
-};
-
-/// While both move the wall T shrinks at 2 kappa T, then at kappa T. When the shallower tool's
-/// surface is reached T has fallen to T', which leaves e^-kappa(dt - t') = e^-(kappa dt)
-/// sqrt(T / T') for the other: no logarithm is needed.
-template <Model model>
-Pinched pinched(double wall, double least_wall, double fraction, double shallow,
-                double deep) noexcept {
-  const double spare = wall - least_wall;
-  if (!(spare > 0.0)) return {};
-  if constexpr (model == Model::paper)
-    return shallow > 0.0 ? Pinched{std::min(wall * fraction, 0.5 * spare), 0.0}
-                         : Pinched{0.0, std::min(wall * fraction, spare)};
-  Pinched moved;
-  moved.together_mm = std::min({0.5 * wall * fraction * (2.0 - fraction), shallow, 0.5 * spare});
-  if (moved.together_mm == shallow && deep > shallow) {
-    const double left = wall - 2.0 * shallow;
-    const double rest = 1.0 - (1.0 - fraction) * std::sqrt(wall / left);
-    moved.alone_mm = std::max(0.0, std::min({left * rest, deep - shallow, spare - 2.0 * shallow}));
-  }
-  return moved;
-}
-
-/// How far each surface of a pinched wall moves: outer, inner.
-template <Model model>
-std::array<double, 2> pinch_ring(const RemovalPlan& plan, double wall, double least_wall,
-                                 double fraction, double dt_s,
-                                 const std::array<RingContact, 2>& touches) noexcept {
-  const double from_out = touches[0].depth_mm, from_in = touches[1].depth_mm;
-  const Pinched moved = pinched<model>(wall, least_wall, fraction, std::min(from_out, from_in),
-                                       std::max(from_out, from_in));
-  std::array<double, 2> eps{moved.together_mm + (from_out > from_in ? moved.alone_mm : 0.0),
-                            moved.together_mm + (from_in > from_out ? moved.alone_mm : 0.0)};
-  if constexpr (model == Model::paper) return eps;
-  Yielding both;
-  std::size_t count = 0;
-  for (const RingContact& touch : touches) {
-    if (!(touch.depth_mm > 0.0)) continue;
-    both.wall[count] = wall;
-    both.depth[count] = touch.depth_mm;
-    both.advance[count] = touch.advance_mm;
-    both.since[count] = touch.since;
-    both.target[count++] = std::max(wall - from_out - from_in, least_wall);
-  }
-  yield(plan, dt_s, both, count);
-  std::size_t k = 0;
-  for (std::size_t side = 0; side < 2; ++side)
-    if (touches[side].depth_mm > 0.0) {
-      eps[side] = std::min(eps[side], both.depth[k] - both.left[k]);
-      ++k;
-    }
-  return eps;
-}
 
 /// Of a slice of what one tool touches: the rings as the tool finds them, and the depths that their
 /// yielding leaves.
@@ -262,47 +201,9 @@ void squeeze_out(const Squeeze& rules, const ClayStack& stack, Contact& contact,
   });
 }
 
-template <Model model>
-void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, double gap_mm,
-                           double dt_s, ToolRemoval& outer, ToolRemoval& inner,
-                           const Squeeze* rules) noexcept {
-  constexpr bool paper = model == Model::paper;
-  const double least_wall = paper ? gap_mm : std::max(gap_mm, plan.min_wall_mm);
-  const double fraction = paper ? plan.paper_fraction : one_minus_exp_neg(plan.rate_per_s * dt_s);
-  TouchedRings &out = outer.contact.rings, &in = inner.contact.rings;
-  outer.removed.assign(out.size(), 0);
-  inner.removed.assign(in.size(), 0);
-  const std::size_t first = out.empty()  ? in.from()
-                            : in.empty() ? out.from()
-                                         : std::min(out.from(), in.from());
-  const std::size_t end = std::max(out.to(), in.to());
-  for (std::size_t i = first; i < end; ++i) {
-    Ring ring = rules != nullptr ? rules->ring(i, stack.rings()) : stack.rings()[i];
-    auto eps =
-        pinch_ring<model>(plan, wall_mm(ring), least_wall, fraction, dt_s, {out.get(i), in.get(i)});
-    if (rules != nullptr && ring.inner2 == 0 && rules->of_floor(i, stack.rings())) eps[1] = 0.0;
-    if (out.has(i)) {
-      Quanta& removed = outer.removed[i - out.from()];
-      removed = take_outside(ring, ring.outer_mm(), eps[0]);
-      ring.outer2 -= removed;
-      if constexpr (!paper) out.depth(i) -= eps[0];
-    }
-    if (in.has(i)) {
-      inner.removed[i - in.from()] = take_inside(ring, ring.inner_mm(), eps[1]);
-      if constexpr (!paper) in.depth(i) -= eps[1];
-    }
-  }
-}
-
 template void compute_removal<Model::paper>(const RemovalPlan&, const ClayStack&, double, Contact&,
                                             std::vector<Quanta>&) noexcept;
 template void compute_removal<Model::conserving>(const RemovalPlan&, const ClayStack&, double,
                                                  Contact&, std::vector<Quanta>&) noexcept;
-template void compute_pinch_removal<Model::paper>(const RemovalPlan&, const ClayStack&, double,
-                                                  double, ToolRemoval&, ToolRemoval&,
-                                                  const Squeeze*) noexcept;
-template void compute_pinch_removal<Model::conserving>(const RemovalPlan&, const ClayStack&, double,
-                                                       double, ToolRemoval&, ToolRemoval&,
-                                                       const Squeeze*) noexcept;
 
 }  // namespace clay

@@ -111,9 +111,9 @@ bool find_others(double knee, const Yielding& rings, std::size_t count,
   return found;
 }
 
-}  // namespace
-
-void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept {
+/// `each`: every row is computed as if it were alone.
+template <bool each>
+void yield_rows(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept {
   const Pace all{plan.yield_depth_mm, plan.rate_per_s * dt_s};
   rings.fill_up(count);
   alignas(kPackBytes) std::array<std::int64_t, Yielding::kMost> other;
@@ -123,13 +123,22 @@ void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t co
   std::size_t few = 0;
   for (std::size_t k = 0; k < count; ++k)
     if (other[k] != 0) others[few++] = k;
-  if (2 * few > count) return yield_all<false>(plan, all, rings, count);
+  if (few == count || (!each && 2 * few > count)) return yield_all<false>(plan, all, rings, count);
   yield_all<true>(plan, all, rings, count);
   Yielding block;
   for (std::size_t k = 0; k < few; ++k) block.copy(k, rings, others[k]);
   block.fill_up(few);
   yield_all<false>(plan, all, block, few);
   for (std::size_t k = 0; k < few; ++k) rings.left[others[k]] = block.left[k];
+}
+
+}  // namespace
+
+void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept {
+  yield_rows<false>(plan, dt_s, rings, count);
+}
+void yield_each(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept {
+  yield_rows<true>(plan, dt_s, rings, count);
 }
 
 }  // namespace clay

@@ -47,5 +47,8 @@ struct Yielding {
 /// but for the series that gives the time between the two parts. For a moving tool the wall during
 /// the step is replaced by its mean.
 void yield(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept;
+/// The same where the result of a row must not depend on the other rows. In `yield` its last bits
+/// do.
+void yield_each(const RemovalPlan& plan, double dt_s, Yielding& rings, std::size_t count) noexcept;
 
 }  // namespace clay

@@ -148,5 +148,27 @@ TEST(Yielding, NeverPassesTheToolOrPushesClayIntoIt) {
       }
 }
 
+/// Rows of both kinds: some tools were in their rings before the tick, some were not.
+RC_GTEST_PROP(Yielding, EachRowYieldsAsIfItWereAlone, ()) {
+  auto random = *samples::random_engine();
+  const auto count = *rc::gen::inRange<std::size_t>(1, Yielding::kMost + 1);
+  Yielding all{};
+  for (std::size_t k = 0; k < count; ++k) {
+    all.wall[k] = 1.0 + 9.0 * samples::uniform(random);
+    all.depth[k] = 0.4 * samples::uniform(random);
+    all.advance[k] = 0.4 * samples::uniform(random) - 0.1;
+    all.since[k] = samples::uniform(random) < 0.5 ? 1.0 : samples::uniform(random);
+    all.target[k] = all.wall[k] - all.depth[k];
+  }
+  Yielding together = all;
+  yield_each(kYieldingPlan, 0.001, together, count);
+  for (std::size_t k = 0; k < count; ++k) {
+    Yielding alone{};
+    alone.copy(0, all, k);
+    yield(kYieldingPlan, 0.001, alone, 1);
+    RC_ASSERT(together.left[k] == alone.left[0]);
+  }
+}
+
 }  // namespace
 }  // namespace clay
