@@ -55,7 +55,7 @@ ByteSource source_of(std::string_view bytes) {
           {}};
 }
 
-Result<void> check_facet_count(std::size_t facets, std::string_view name) {
+Result<void> check_facet_count(std::uint64_t facets, std::string_view name) {
   if (facets > 0 && facets <= kMaxTriangles) return {};
   return bad_file(name, "expected 1 to " + std::to_string(kMaxTriangles) + " triangles, found " +
                             std::to_string(facets));

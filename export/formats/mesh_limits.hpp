@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <glm/vec3.hpp>
 #include <new>
@@ -42,7 +43,7 @@ inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 m
 [[nodiscard]] Result<void> check_file_size(std::string_view bytes, std::string_view name);
 
 /// Also refuses zero facets.
-[[nodiscard]] Result<void> check_facet_count(std::size_t facets, std::string_view name);
+[[nodiscard]] Result<void> check_facet_count(std::uint64_t facets, std::string_view name);
 
 /// Refuses a text file that is too large, with an estimate of its triangles: its size divided by
 /// `usual_bytes`, the usual size per triangle [bytes].
