@@ -21,7 +21,7 @@ MeshEstimate estimate_mesh(std::string_view bytes, MeshFormat format) {
     case MeshFormat::glb:
       return {glb_triangles(bytes), kDracoBytes};
     case MeshFormat::three_mf:
-      return {usual_triangles(bytes_of_model_in_3mf(bytes), MeshFormat::three_mf_model),
+      return {usual_triangles(bytes_of_models_in_3mf(bytes), MeshFormat::three_mf_model),
               kModelBytes};
     case MeshFormat::three_mf_model:
       return {usual_triangles(bytes.size(), format), kModelBytes};

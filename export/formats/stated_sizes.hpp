@@ -8,7 +8,7 @@ namespace clay::solid::inline formats {
 
 /// Of all copies of meshes that the scene places.
 [[nodiscard]] std::uint64_t glb_triangles(std::string_view bytes);
-/// Of the model part of a 3MF after unpacking [bytes].
-[[nodiscard]] std::uint64_t bytes_of_model_in_3mf(std::string_view bytes);
+/// Of the model parts of a 3MF after unpacking [bytes].
+[[nodiscard]] std::uint64_t bytes_of_models_in_3mf(std::string_view bytes);
 
 }  // namespace clay::solid::inline formats

@@ -108,13 +108,13 @@ Result<ModelReader::Counts> ModelReader::counted_build(std::string_view name) co
 }
 
 Result<TriangleMesh> ModelReader::build(std::string_view name) const {
-  if (!has_build_) return bad_file(name, "expected a 3MF model with resources and build");
+  if (!part_.has_build) return bad_file(name, "expected a 3MF model with resources and build");
   const auto counts = counted_build(name);
   if (!counts) return tl::make_unexpected(counts.error());
   TriangleMesh mesh;
   mesh.points.reserve(counts->points);
   mesh.triangles.reserve(counts->triangles);
-  Builder builder(objects_, unit_mm_, mesh);
+  Builder builder(objects_, part_.unit_mm, mesh);
   for (const Placed& item : items_)
     if (objects_[item.object].type != "support" && !builder.add(item, kStill))
       return bad_file(name, std::string("expected ").append(kCoordinateRule) +

@@ -6,11 +6,13 @@
 #include "export/formats/text_scanner.hpp"
 #include "export/formats/three_mf.hpp"
 #include "export/formats/three_mf_grammar.hpp"
+#include "export/formats/zip_package.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace clay::solid::inline formats::three_mf {
 namespace {
@@ -20,7 +22,7 @@ constexpr std::size_t kMaxPlaced = 1'000'000;
 constexpr std::size_t kMaxMetadata = 1000, kMaxPotText = std::size_t{8} << 20;
 constexpr std::uint32_t kMaxId = 0x7FFFFFFF;
 
-// Its ids need no support; its paths to other model parts are refused.
+// Its ids need no support; its paths name other model parts.
 constexpr std::string_view kProduction =
     "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
 
@@ -78,12 +80,14 @@ void ModelReader::enter(XmlReader& reader, Place place, const XmlElement& elemen
     case Place::metadata:
       return begin_metadata(reader, element);
     case Place::resources:
-      if (has_resources_ || has_build_) reader.fail("expected resources once, before build");
-      has_resources_ = true;
+      if (part_.has_resources || part_.has_build)
+        reader.fail("expected resources once, before build");
+      part_.has_resources = true;
       return;
     case Place::build:
-      if (has_build_ || !has_resources_) reader.fail("expected build once, after resources");
-      has_build_ = true;
+      if (part_.has_build || !part_.has_resources)
+        reader.fail("expected build once, after resources");
+      part_.has_build = true;
       return;
     case Place::materials:
       return add_resource(reader, element);
@@ -118,6 +122,12 @@ void ModelReader::end(XmlReader& reader) {
   places_.pop_back();
 }
 
+void ModelReader::begin_other(std::string_view path) { other_ = part_key(path); }
+
+void ModelReader::end_other() {
+  others_.insert_or_assign(std::exchange(other_, {}), std::exchange(part_, {}));
+}
+
 void ModelReader::text(XmlReader& reader, std::string_view piece) {
   if (!reads_pot_ || foreign_depth_ > 0) return;
   if (pot_text_.size() + piece.size() > kMaxPotText)
@@ -138,7 +148,7 @@ void ModelReader::begin_model(XmlReader& reader, const XmlElement& element) {
     return reader.fail(
         "unit: expected micron, millimeter, centimeter, inch, foot or meter, found " +
         quoted(unit));
-  unit_mm_ = known->second;
+  part_.unit_mm = known->second;
   std::string_view required = element.value_of("requiredextensions").value_or("");
   while (!required.empty()) {
     const std::string_view prefix = required.substr(0, required.find(' '));
@@ -156,28 +166,28 @@ void ModelReader::begin_metadata(XmlReader& reader, const XmlElement& element) {
   const auto name = element.value_of("name");
   if (!name || name->empty()) return reader.fail("metadata: expected a name, found none");
   if (places_[places_.size() - 2] != Place::model) return;
-  if (!metadata_.emplace(*name).second)
+  if (!part_.metadata.emplace(*name).second)
     return reader.fail("metadata: expected the name " + quoted(*name) + " once, found it twice");
-  if (metadata_.size() > kMaxMetadata)
+  if (part_.metadata.size() > kMaxMetadata)
     return reader.fail("expected at most " + std::to_string(kMaxMetadata) +
                        " metadata, found more");
-  reads_pot_ = *name == kPotMetadata;
+  reads_pot_ = other_.empty() && *name == kPotMetadata;
 }
 
 void ModelReader::add_resource(XmlReader& reader, const XmlElement& element) {
   const auto id = whole<std::uint32_t>(element.value_of("id"), 1, kMaxId);
   if (!id)
     return reader.fail("expected an id from 1 to 2147483647" + found(element.value_of("id")));
-  if (!resources_.insert(*id).second)
+  if (!part_.resources.insert(*id).second)
     return reader.fail("expected id " + std::to_string(*id) + " once, found it twice");
-  if (places_.back() != Place::object) properties_.insert(*id);
+  if (places_.back() != Place::object) part_.properties.insert(*id);
 }
 
 void ModelReader::check_property(XmlReader& reader, const XmlElement& element) {
   const auto text = element.value_of("pid");
   if (!text) return;
   const auto pid = whole<std::uint32_t>(text, 1, kMaxId);
-  if (!pid || !properties_.contains(*pid))
+  if (!pid || !part_.properties.contains(*pid))
     reader.fail("pid: expected the id of a property group before it" + found(text));
 }
 
@@ -210,7 +220,7 @@ void ModelReader::end_object(XmlReader& reader) {
   if (object.depth > kMaxDepth)
     return reader.fail("expected components nested at most " + std::to_string(kMaxDepth) +
                        " deep, found deeper ones");
-  object_of_[id_] = static_cast<std::uint32_t>(objects_.size() - 1);
+  part_.object_of[id_] = static_cast<std::uint32_t>(objects_.size() - 1);
 }
 
 void ModelReader::add_vertex(XmlReader& reader, const XmlElement& element) {
@@ -255,16 +265,37 @@ void ModelReader::add_triangle(XmlReader& reader, const XmlElement& element) {
   object.triangles.push_back(corners);
 }
 
-void ModelReader::add_placed(XmlReader& reader, const XmlElement& element,
-                             std::vector<Placed>& list) {
-  const bool elsewhere = std::ranges::any_of(element.attributes, [](const XmlAttribute& a) {
+const ModelReader::Part* ModelReader::part_of(XmlReader& reader, const XmlElement& element) const {
+  const auto path = std::ranges::find_if(element.attributes, [](const XmlAttribute& a) {
     return a.space == kProduction && a.name == "path";
   });
-  if (elsewhere) return reader.fail("expected an object of this model part, found one of another");
+  if (path == element.attributes.end()) return &part_;
+  if (!other_.empty()) {
+    reader.fail("path: expected it in the start part only, found " + quoted(path->value));
+    return nullptr;
+  }
+  const auto other = others_.find(part_key(path->value));
+  if (other == others_.end()) {
+    reader.fail("path: expected a model part to which this one has a relationship, found " +
+                quoted(path->value));
+    return nullptr;
+  }
+  if (other->second.unit_mm == part_.unit_mm) return &other->second;
+  reader.fail("path: expected a model part in the unit of this one, found " + quoted(path->value) +
+              " in another");
+  return nullptr;
+}
+
+void ModelReader::add_placed(XmlReader& reader, const XmlElement& element,
+                             std::vector<Placed>& list) {
+  // By the specification, the build and the metadata of another part count for nothing.
+  if (places_.back() == Place::item && !other_.empty()) return;
+  const Part* const part = part_of(reader, element);
+  if (part == nullptr) return;
   const auto text = element.value_of("objectid");
   const auto id = whole<std::uint32_t>(text, 1, kMaxId);
-  const auto known = id ? object_of_.find(*id) : object_of_.end();
-  if (known == object_of_.end())
+  const auto known = id ? part->object_of.find(*id) : part->object_of.end();
+  if (known == part->object_of.end())
     return reader.fail("objectid: expected an object defined before it" + found(text));
   Placed placed{known->second, kStill};
   if (const auto matrix = element.value_of("transform")) {

@@ -39,15 +39,20 @@ struct Object {
 /// Below 0 where the matrix mirrors.
 [[nodiscard]] double determinant(const Transform& matrix);
 
+/// Reads the start part of a package, after the other parts whose objects it names by their path.
 class ModelReader final : public XmlReader::Events {
  public:
   explicit ModelReader(const ReadOptions& options) : options_(options) {}
+
+  /// Before and after a part that is not the start part.
+  void begin_other(std::string_view path);
+  void end_other();
 
   void begin(XmlReader& reader, const XmlElement& element) override;
   void end(XmlReader& reader) override;
   void text(XmlReader& reader, std::string_view piece) override;
 
-  /// After the end of the XML: all items in one mesh, in mm.
+  /// After the end of the start part: all its items in one mesh, in mm.
   [[nodiscard]] Result<TriangleMesh> build(std::string_view name) const;
   /// The text of the metadata `claystack:pot`; empty: there is none.
   [[nodiscard]] const std::string& pot_text() const noexcept { return pot_text_; }
@@ -64,6 +69,18 @@ class ModelReader final : public XmlReader::Events {
   void add_resource(XmlReader& reader, const XmlElement& element);
   void check_property(XmlReader& reader, const XmlElement& element);
 
+  /// What ids and units of one part mean.
+  struct Part {
+    double unit_mm = 1.0;
+    std::set<std::uint32_t> resources;  ///< ids of all kinds
+    std::set<std::uint32_t> properties;
+    std::map<std::uint32_t, std::uint32_t> object_of;  ///< index by id
+    std::set<std::string, std::less<>> metadata;
+    bool has_resources = false, has_build = false;
+  };
+  /// The part of the object that a component or an item names; null after a fault.
+  [[nodiscard]] const Part* part_of(XmlReader& reader, const XmlElement& element) const;
+
   struct Counts {
     std::uint64_t points = 0, triangles = 0;
   };
@@ -73,22 +90,19 @@ class ModelReader final : public XmlReader::Events {
 
   ReadOptions options_;
   std::vector<Place> places_{Place::outside};
-  std::size_t foreign_depth_ = 0;  ///< within an element of another namespace
-  double unit_mm_ = 1.0;
-  std::set<std::uint32_t> resources_;  ///< ids of all kinds
-  std::set<std::uint32_t> properties_;
-  std::map<std::uint32_t, std::uint32_t> object_of_;  ///< index by id
-  std::vector<Object> objects_;
-  std::uint32_t id_ = 0;  ///< of the object that is read
+  std::size_t foreign_depth_ = 0;       ///< within an element of another namespace
+  Part part_;                           ///< the one that is read
+  std::string other_;                   ///< the key of its path; empty: it is the start part
+  std::map<std::string, Part> others_;  ///< those that were read before, by the keys of their paths
+  std::vector<Object> objects_;         ///< of all parts
+  std::uint32_t id_ = 0;                ///< of the object that is read
   bool has_mesh_ = false, has_components_ = false;
   std::vector<Placed> items_;
   std::size_t not_printed_ = 0;  ///< items with printable="0"
   std::size_t twice_ = 0;        ///< triangles that use a vertex twice, left out for repairs
-  std::set<std::string, std::less<>> metadata_;
   bool reads_pot_ = false;
   std::string pot_text_;
   std::uint64_t stored_points_ = 0, stored_triangles_ = 0;
-  bool has_resources_ = false, has_build_ = false;
 };
 
 }  // namespace clay::solid::inline formats::three_mf

@@ -13,6 +13,7 @@
 #include <functional>
 #include <string>
 #include <unordered_set>
+#include <vector>
 
 namespace clay::solid::inline formats {
 namespace {
@@ -102,12 +103,49 @@ auto with_model(std::string_view bytes, std::string_view name, Use use)
   });
 }
 
-Result<void> read_model(const ZipPackage& package, const std::string& path, std::string_view name,
-                        ModelReader& model) {
+Result<void> read_part(const ZipPackage& package, const std::string& path, std::string_view name,
+                       ModelReader& model) {
   const std::string place = std::string(name) + ": " + path;
   XmlReader reader(model, place);
   return package.read(path, [&](std::string_view piece) { return reader.read(piece); })
       .and_then([&] { return reader.finish(); });
+}
+
+/// The model parts to which the start part has a relationship. Slicers such as Bambu Studio keep
+/// each object in a part of its own.
+Result<std::vector<std::string>> other_parts(const ZipPackage& package, const std::string& path,
+                                             std::string_view name) {
+  const std::size_t file = path.rfind('/') + 1;
+  const std::string folder = path.substr(0, file);
+  const std::string relations = folder + "_rels/" + path.substr(file) + ".rels";
+  std::vector<std::string> paths;
+  if (!package.has(relations)) return paths;
+  std::unordered_set<std::string> known{part_key(path)};
+  return each_element(package, relations, name,
+                      [&](XmlReader&, const XmlElement& element) {
+                        if (element.value_of("Type") != kModelRelation) return;
+                        std::string target(element.value_of("Target").value_or(""));
+                        if (!target.starts_with('/')) target.insert(0, folder);
+                        if (known.insert(part_key(target)).second) paths.push_back(target);
+                      })
+      .map([&] { return std::move(paths); });
+}
+
+/// The other parts first: the start part uses their objects.
+Result<void> read_model(const ZipPackage& package, const std::string& path, std::string_view name,
+                        ModelReader& model) {
+  return other_parts(package, path, name)
+      .and_then([&](const std::vector<std::string>& others) {
+        Result<void> read;
+        for (const std::string& other : others) {
+          if (!read) break;
+          model.begin_other(other);
+          read = read_part(package, other, name, model);
+          model.end_other();
+        }
+        return read;
+      })
+      .and_then([&] { return read_part(package, path, name, model); });
 }
 
 /// The text of the first note that holds a pot; empty: there is none.
@@ -152,10 +190,14 @@ Result<TriangleMesh> decode_3mf_model(std::string_view xml, std::string_view nam
   });
 }
 
-std::uint64_t bytes_of_model_in_3mf(std::string_view bytes) {
+std::uint64_t bytes_of_models_in_3mf(std::string_view bytes) {
   return with_model(bytes, {},
                     [](const ZipPackage& package, const std::string& path) {
-                      return Result<std::uint64_t>(package.bytes_of(path));
+                      return other_parts(package, path, {}).map([&](const auto& others) {
+                        std::uint64_t sum = package.bytes_of(path);
+                        for (const std::string& other : others) sum += package.bytes_of(other);
+                        return sum;
+                      });
                     })
       .value_or(0);
 }

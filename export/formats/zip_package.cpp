@@ -69,13 +69,12 @@ Result<std::string> contents_of(zip_source_t* source) {
 
 constexpr std::size_t kMostShown = 80;  // of a path in a message
 
-/// Lower case without a leading slash: part names of packages ignore case.
-std::string key_of(std::string_view path) {
+}  // namespace
+
+std::string part_key(std::string_view path) {
   if (path.starts_with('/')) path.remove_prefix(1);
   return lower_case(path);
 }
-
-}  // namespace
 
 Result<std::string> zipped(const std::vector<ZipEntry>& entries) {
   zip_error_t error;
@@ -121,7 +120,7 @@ struct ZipPackage::State {
                                   std::to_string(kMaxZipRatio) + " times its " +
                                   std::to_string(stat.comp_size) + " bytes, found " +
                                   std::to_string(stat.size));
-      if (!entries.emplace(key_of(stat.name), Entry{i, stat.size}).second)
+      if (!entries.emplace(part_key(stat.name), Entry{i, stat.size}).second)
         return bad_file(name, path + ": expected once in the archive, found twice");
     }
     return {};
@@ -175,16 +174,18 @@ Result<ZipPackage> ZipPackage::open(std::string_view bytes, std::string_view nam
   return ZipPackage(std::move(state));
 }
 
-bool ZipPackage::has(std::string_view path) const { return state_->entries.contains(key_of(path)); }
+bool ZipPackage::has(std::string_view path) const {
+  return state_->entries.contains(part_key(path));
+}
 
 std::uint64_t ZipPackage::bytes_of(std::string_view path) const {
-  const auto found = state_->entries.find(key_of(path));
+  const auto found = state_->entries.find(part_key(path));
   return found == state_->entries.end() ? 0 : found->second.bytes;
 }
 
 Result<void> ZipPackage::read(std::string_view path,
                               const std::function<Result<void>(std::string_view)>& take) const {
-  const auto found = state_->entries.find(key_of(path));
+  const auto found = state_->entries.find(part_key(path));
   if (found == state_->entries.end())
     return bad_file(state_->name, "expected the part " + shown(path, kMostShown) + ", found none");
   return state_->read(found->second, path, take);

@@ -21,6 +21,9 @@ struct ZipEntry {
 /// Equal entries give equal bytes: all dates are 1980-01-01. An error of kind `io`: no memory.
 [[nodiscard]] Result<std::string> zipped(const std::vector<ZipEntry>& entries);
 
+/// Lower case without a leading slash: part names of packages ignore case.
+[[nodiscard]] std::string part_key(std::string_view path);
+
 /// Reads an archive. Refuses more than kMaxZipEntries entries, two names that differ only in case,
 /// and entries of more than kFreeZipBytes that unpack to more than kMaxZipRatio times their size.
 class ZipPackage {

@@ -201,6 +201,72 @@ TEST(ThreeMf, ReadsUnitsComponentsAndTransforms) {
   EXPECT_EQ(read.points[5], glm::dvec3(-25.0, 0.0, 7.0));
 }
 
+/// A start part whose component is in another part, as Bambu Studio and OrcaSlicer save it.
+struct ProductionParts {
+  std::string start =
+      R"(<model unit="millimeter" requiredextensions="p" )"
+      R"(xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" )"
+      R"(xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06">)"
+      R"(<resources><object id="1" p:UUID="a"><components>)"
+      R"(<component p:path="/3D/Objects/O_1.model" objectid="1" )"
+      R"(transform="1 0 0 0 1 0 0 0 1 5 0 0"/></components></object></resources>)"
+      R"(<build><item objectid="1" transform="-1 0 0 0 1 0 0 0 1 0 0 0"/>)"
+      R"(<item objectid="1" p:path="/3d/objects/o_1.model"/></build></model>)";
+  // Its own build counts for nothing.
+  std::string other = changed(kModel, R"(objectid="1")", R"(objectid="7")");
+  std::string relations = changed(kRelationsPart, "/3D/3dmodel.model", "/3D/Objects/O_1.model");
+
+  [[nodiscard]] Result<TriangleMesh> read(std::vector<std::string>* notes = nullptr) const {
+    const std::string package = zipped({{"[Content_Types].xml", kTypesPart},
+                                        {"_rels/.rels", kRelationsPart},
+                                        {"3D/3dmodel.model", start},
+                                        {"3D/_rels/3dmodel.model.rels", relations},
+                                        {"3D/Objects/O_1.model", other}})
+                                    .value();
+    EXPECT_EQ(
+        parts_in_3mf(package, "x").map([](const PackedParts& p) { return p.pot; }).value_or(""),
+        "");
+    return decode_3mf(package, "x", {.notes = notes});
+  }
+};
+
+TEST(ThreeMf, ReadsObjectsOfOtherModelParts) {
+  const auto mesh = ProductionParts{}.read();
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh->triangles.size(), 8u);
+  EXPECT_NEAR(signed_volume(*mesh), 2.0 * 1000.0 / 6.0, 1e-9);
+  EXPECT_EQ(mesh->points[1], glm::dvec3(-15.0, 0.0, 0.0));  // moved by 5 mm, then mirrored
+  ProductionParts relative;
+  relative.relations = changed(relative.relations, "/3D/Objects", "Objects");
+  EXPECT_EQ(relative.read().value(), *mesh);
+}
+
+TEST(ThreeMf, RefusesPathsThatProductionForbids) {
+  const auto expect = [](const ProductionParts& parts, const std::string& because) {
+    EXPECT_TRUE(refused(parts.read(), ErrorKind::bad_input, because));
+  };
+  ProductionParts parts;
+  parts.relations = changed(parts.relations, "2013/01/3dmodel", "2013/01/4dmodel");
+  expect(parts,
+         "path: expected a model part to which this one has a relationship, found "
+         "'/3D/Objects/O_1.model'");
+  parts = {};
+  parts.relations = changed(parts.relations, "O_1", "O_2");
+  expect(parts, "expected the part /3D/Objects/O_2.model, found none");
+  parts = {};
+  parts.start =
+      changed(parts.start, R"(objectid="1" transform="1)", R"(objectid="2" transform="1)");
+  expect(parts, "objectid: expected an object defined before it, found '2'");
+  parts = {};
+  parts.other = changed(parts.other, "millimeter", "inch");
+  expect(parts, "path: expected a model part in the unit of this one");
+  parts = {};
+  parts.other = parts.start;
+  expect(parts, "path: expected it in the start part only");
+  EXPECT_TRUE(refused(decode_3mf_model(parts.start, "m"), ErrorKind::bad_input,
+                      "path: expected a model part to which this one has a relationship"));
+}
+
 TEST(ThreeMf, PassesOverOtherNamespaces) {
   const std::string file =
       changed(changed(kModel, "<object",

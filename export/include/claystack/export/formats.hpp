@@ -242,15 +242,16 @@ Result<TriangleMesh> decode_off(std::string_view bytes, std::string_view name,
 
 /// The build of a 3MF package (core specification 1.3), with all items, components and transforms,
 /// in mm. Strict: refuses what the specification forbids, other start parts than one model, DTDs,
-/// required extensions other than materials and production (with all objects in the one part),
-/// references to objects that are not defined before, triangles that use a vertex twice. An archive
+/// required extensions other than materials and production, references to objects that are not
+/// defined before, triangles that use a vertex twice. Objects may be in other model parts, to which
+/// the start part has a relationship, in the unit of the start part (production). An archive
 /// that unpacks to more than 100 times its size (above 32 MiB), has more than 10 000 entries,
 /// components nested more than 32 deep, or a build of more than 64 times the triangles in the file
 /// (above a million) is refused. Other namespaces are passed over. Objects of type `support` and
 /// items with `printable="0"` are not part of the mesh; a note says so.
 Result<TriangleMesh> decode_3mf(std::string_view bytes, std::string_view name,
                                 const ReadOptions& options = {});
-/// The same of the model part alone.
+/// The same of the start part alone.
 Result<TriangleMesh> decode_3mf_model(std::string_view xml, std::string_view name,
                                       const ReadOptions& options = {});
 

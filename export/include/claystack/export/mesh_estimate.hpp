@@ -15,9 +15,9 @@ struct MeshEstimate {
 };
 
 /// Of a .drc and a .glb, the triangles that the file states, with each copy that a scene places;
-/// of another format, those that a file of this size usually has, and of a .3mf, those of its model
-/// after unpacking, without the copies that it places. Decodes nothing. 0 triangles for a file that
-/// is damaged: the error is that of `decode_mesh`.
+/// of another format, those that a file of this size usually has, and of a .3mf, those of its
+/// models after unpacking, without the copies that it places. Decodes nothing. 0 triangles for a
+/// file that is damaged: the error is that of `decode_mesh`.
 [[nodiscard]] MeshEstimate estimate_mesh(std::string_view bytes, MeshFormat format);
 
 }  // namespace clay::solid::inline formats
