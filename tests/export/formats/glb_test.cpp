@@ -306,6 +306,25 @@ TEST(Glb, CompressesTheWallMapBesideThePoints) {
 }
 #endif
 
+TEST(Glb, ReadsFilesThatRequireExtensionsOfAppearance) {
+  const auto requiring = [](const char* extension) {
+    Plain plain;
+    plain.json["extensionsRequired"] = {extension};
+    return decode_glb(plain.file(), "p.glb");
+  };
+  const TriangleMesh plain = decode_glb(Plain().file(), "p.glb").value();
+  for (const char* extension :
+       {"EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds", "KHR_texture_basisu",
+        "KHR_materials_unlit", "EXT_lights_image_based", "KHR_lights_punctual"}) {
+    const auto mesh = requiring(extension);
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_EQ(*mesh, plain) << extension;
+  }
+  for (const char* extension : {"EXT_mesh_gpu_instancing", "KHR_node_lights_x", "lights"})
+    EXPECT_TRUE(refused(requiring(extension), ErrorKind::bad_input,
+                        std::string("materials, textures and lights, found '") + extension + "'"));
+}
+
 TEST(Glb, RefusesBadFiles) {
   const auto expect = [](const std::string& file, const std::string& because) {
     EXPECT_TRUE(refused(decode_glb(file, "p.glb"), ErrorKind::bad_input, because));

@@ -258,12 +258,13 @@ Result<TriangleMesh> decode_3mf_model(std::string_view xml, std::string_view nam
 /// glTF 2.0 in one binary file: the triangles (lists, strips, fans) of all nodes of its scene, in
 /// mm and z up; equal corners are welded. Points are float32 or (KHR_mesh_quantization) whole
 /// numbers of 8 or 16 bits, indices of any type; both may be compressed by Draco or meshoptimizer.
-/// Refused: other required extensions except those of materials and textures, sparse points, other
-/// buffers than the file's own, views that unpack to more than 1 GiB together, nodes in a cycle or
-/// nested more than 32 deep, JSON of more than 16 MiB or 32 levels, and a scene of more than 64
-/// times the triangles in the file (above a million) or its points (above three million). Not
-/// applied, with a note: morph weights, skeletons, and the instances of EXT_mesh_gpu_instancing.
-/// Passed over with a note: points and lines. A file without scenes: all its root nodes.
+/// Refused: other required extensions except those of materials, textures and lights, sparse
+/// points, other buffers than the file's own, views that unpack to more than 1 GiB together, nodes
+/// in a cycle or nested more than 32 deep, JSON of more than 16 MiB or 32 levels, and a scene of
+/// more than 64 times the triangles in the file (above a million) or its points (above three
+/// million). Not applied, with a note: morph weights, skeletons, and the instances of
+/// EXT_mesh_gpu_instancing. Passed over with a note: points and lines. A file without scenes: all
+/// its root nodes.
 Result<TriangleMesh> decode_glb(std::string_view bytes, std::string_view name,
                                 const ReadOptions& options = {});
 
