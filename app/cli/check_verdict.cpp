@@ -44,7 +44,9 @@ std::string volume_text(const solid::MeshReport& mesh) {
   const bool counted_twice = several_shells && !mesh.bounds_volume;
   if (mesh.has_volume)
     return in_cm3(mesh.volume_mm3) + (counted_twice ? " (counted twice where shells overlap)" : "");
-  return mesh.closed ? "no volume: neighbours face opposite ways" : "no volume: the mesh is open";
+  if (!mesh.closed) return "no volume: the mesh is open";
+  return mesh.oriented ? "no volume: faces at a non-manifold edge have no opposite face"
+                       : "no volume: neighbours face opposite ways";
 }
 
 void add_repair(Json& json, const RepairSummary& summary, const Verdict& verdict) {
@@ -137,9 +139,8 @@ void print_repair(const Console& console, const RepairSummary& summary, const Ve
     console.print(
         fmt::format("  read: points rounded to float32, by up to {:.3g} mm", summary.reading_mm));
   const std::string before =
-      summary.volume_before_mm3
-          ? fmt::format("{:.6g} cm3 before", *summary.volume_before_mm3 / 1e3)
-          : std::string("none before, because the mesh was not closed and oriented");
+      summary.volume_before_mm3 ? fmt::format("{:.6g} cm3 before", *summary.volume_before_mm3 / 1e3)
+                                : std::string("none before, because the mesh enclosed none");
   console.print(
       fmt::format("  volume: {}, {:.6g} cm3 after", before, verdict.mesh.volume_mm3 / 1e3));
   const std::string_view state = name_of(verdict.state);

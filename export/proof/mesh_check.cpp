@@ -141,14 +141,14 @@ class Inspection {
   void check_geometry(const MeshTopology& topology, const SoupIntersections& intersections) {
     const SignedVolume volume = bounded_volume(mesh_);
     report_.volume_mm3 = volume.mm3;
-    report_.has_volume = topology.closed() && topology.oriented();
+    report_.has_volume = topology.balanced;
     measure();
     const Fault crossings = intersections.found();
     report_.degenerate = intersections.degenerate().count;
     report_.self_intersections = crossings.count;
     problem("degenerate triangle", intersections.degenerate());
     if (crossings.found()) problem_at_crossing(crossings);
-    if (!topology.closed() || !topology.oriented()) return;
+    if (!topology.balanced) return;
     if (topology.manifold() && !intersections.degenerate().found() && !crossings.found())
       return check_outward(check_shells(topology, volume), volume);
     if (volume.sign_is_certain()) return check_outward(volume.mm3 > 0.0, volume);

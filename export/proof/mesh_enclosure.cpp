@@ -19,7 +19,7 @@ MeshEnclosure enclosure_of(const TriangleMesh& mesh) {
                        middle_of(mesh, topology.open_edges),
                        middle_of(mesh, topology.flipped_edges),
                        {}};
-  if (topology.closed() && topology.oriented()) result.volume_mm3 = signed_volume(mesh);
+  if (topology.balanced) result.volume_mm3 = signed_volume(mesh);
   return result;
 }
 

@@ -105,6 +105,9 @@ class TopologyCount {
     if (sides.size() > 2) note(found_.crowded_edges, {owner(0), owner(1), owner(2)}, {low, high});
     if (sides.size() == 2 && vertex(sides[0].number) == vertex(sides[1].number))
       note(found_.flipped_edges, {owner(0), owner(1)}, {low, high});
+    const auto forward =
+        std::ranges::count_if(sides, [&](const Side& side) { return vertex(side.number) == low; });
+    if (2 * static_cast<std::size_t>(forward) != sides.size()) found_.balanced = false;
     if (sides.size() > 1) count_duplicates(sides);
   }
 

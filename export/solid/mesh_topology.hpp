@@ -37,12 +37,15 @@ void note(Fault& fault, std::initializer_list<std::uint32_t> triangles,
 /// otherwise ignored, as if their two equal corners had been merged.
 struct MeshTopology {
   Fault collapsed;
-  Fault duplicates;            ///< triangles on the same three vertices as an earlier one
-  Fault open_edges;            ///< of one triangle only
-  Fault crowded_edges;         ///< of three or more triangles
-  Fault flipped_edges;         ///< whose two triangles have the same direction along it
-  Fault split_vertices;        ///< whose triangles form more than one fan
-  std::size_t components = 0;  ///< sets of triangles joined by edges
+  Fault duplicates;     ///< triangles on the same three vertices as an earlier one
+  Fault open_edges;     ///< of one triangle only
+  Fault crowded_edges;  ///< of three or more triangles
+  Fault flipped_edges;  ///< whose two triangles have the same direction along it
+  /// Along each edge as many triangles run one way as the other: otherwise the signed volume
+  /// depends on the origin of the coordinates.
+  bool balanced = true;
+  Fault split_vertices;                     ///< whose triangles form more than one fan
+  std::size_t components = 0;               ///< sets of triangles joined by edges
   std::vector<std::uint32_t> component_of;  ///< by triangle, where there are several
 
   [[nodiscard]] bool closed() const noexcept { return !open_edges.found(); }

@@ -161,7 +161,7 @@ class Check:
     cavities: int
     self_intersections: int
     triangles: int
-    volume_mm3: Optional[float]  #: None: the mesh is open, or neighbours face opposite ways
+    volume_mm3: Optional[float]  #: None: it has none, because it is not closed or oriented
     area_mm2: float
     size_mm: tuple[float, float, float]  #: width, depth and height, as x, y and z
     problems: tuple[Problem, ...]

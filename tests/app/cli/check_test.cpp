@@ -432,10 +432,23 @@ TEST(Check, StatesNoVolumeOfAnOpenMesh) {
   EXPECT_NEAR(repaired.json().at("volume_mm3"), 1000.0, 1e-3);
   EXPECT_EQ(violation(load_schema("check"), Json::parse(repaired.out)), "") << repaired.out;
   const Ran repair_text = claystack("check --repair --dry-run " + file);
-  EXPECT_NE(repair_text.out.find(
-                "volume: none before, because the mesh was not closed and oriented, 1 cm3 after"),
-            std::string::npos)
+  EXPECT_NE(
+      repair_text.out.find("volume: none before, because the mesh enclosed none, 1 cm3 after"),
+      std::string::npos)
       << repair_text.out;
+}
+
+TEST(Check, StatesNoVolumeIfAFaceIsThereTwice) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("twice.obj");
+  solid::TriangleMesh mesh = block({10, 10, 10});
+  mesh.triangles.push_back(mesh.triangles.front());
+  write_text(file, solid::encode_obj(mesh, "twice"));
+  const Ran json = claystack("check --json " + file), text = claystack("check " + file);
+  EXPECT_TRUE(json.json().at("volume_mm3").is_null()) << json.out;
+  EXPECT_NE(text.out.find("no volume: faces at a non-manifold edge have no opposite face"),
+            std::string::npos)
+      << text.out;
 }
 
 TEST(Check, WarnsOfAMeshOfMoreThanTenMetres) {

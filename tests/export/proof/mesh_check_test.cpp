@@ -87,6 +87,31 @@ TEST(CheckMesh, ReportsADuplicateFace) {
   EXPECT_NE(find(report, "duplicate triangle")->where.find("4, 12"), std::string::npos);
 }
 
+/// The sum over the triangles then depends on the origin: it was negative here, and the cube was
+/// reported as inside out.
+TEST(CheckMesh, StatesNoVolumeWhereAPartOfTheFacesIsThereTwice) {
+  TriangleMesh mesh = together(cube(8.0), inverted(moved(cube(4.0), {2.0, 2.0, 2.0})));
+  ASSERT_TRUE(check_mesh(mesh).sound());
+  const std::vector<std::array<std::uint32_t, 3>> cavity(mesh.triangles.begin() + 12,
+                                                         mesh.triangles.end() - 2);
+  for (int copy = 0; copy < 20; ++copy)
+    mesh.triangles.insert(mesh.triangles.end(), cavity.begin(), cavity.end());
+  const MeshReport report = check_mesh(mesh);
+  EXPECT_FALSE(report.has_volume);
+  EXPECT_TRUE(find(report, "duplicate triangle")) << names(report);
+  EXPECT_FALSE(find(report, "inside out")) << names(report);
+  EXPECT_TRUE(report.oriented);
+  EXPECT_FALSE(enclosure_of(mesh).volume_mm3);
+  EXPECT_FALSE(enclosure_of(mesh).inward());
+  // If all faces are there twice, the volume is twice that of one copy, wherever the mesh is.
+  const TriangleMesh all = moved(together(cube(2.0), cube(2.0)), {40.0, 0.0, 0.0});
+  TriangleMesh twice{{all.points.begin(), all.points.begin() + 8}, all.triangles};
+  for (auto& triangle : twice.triangles)
+    for (std::uint32_t& v : triangle) v %= 8;
+  EXPECT_TRUE(check_mesh(twice).has_volume);
+  EXPECT_DOUBLE_EQ(check_mesh(twice).volume_mm3, 16.0);
+}
+
 TEST(CheckMesh, ReportsATwoSidedTriangle) {
   const MeshReport report = check_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}});
   EXPECT_FALSE(report.sound());

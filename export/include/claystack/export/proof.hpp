@@ -112,7 +112,7 @@ struct MeshProblem {
 struct MeshReport {
   bool closed = false;    ///< no edge has only one face
   bool manifold = false;  ///< no edge of more than two faces, no vertex with two fans
-  bool oriented = false;  ///< neighbours agree, and (if closed) normals point out of the clay
+  bool oriented = false;  ///< neighbours agree, and (with a volume) normals point out of the clay
   /// Pairs of triangles that intersect outside shared edges and vertices; counting stops at
   /// 100,000.
   std::size_t self_intersections = 0;
@@ -125,8 +125,10 @@ struct MeshReport {
   double trapped_mm3 = 0.0;
   std::size_t degenerate = 0;  ///< triangles of zero area
   std::size_t triangles = 0;
-  bool has_volume = false;  ///< closed, and neighbours agree; any other volume is undefined
-  double volume_mm3 = 0.0;  ///< the sum over the triangles; meaningless for an open mesh
+  /// Closed, neighbours agree, and the faces at each edge of more than two are half of either
+  /// direction; any other volume is undefined.
+  bool has_volume = false;
+  double volume_mm3 = 0.0;  ///< the sum over the triangles; meaningless without a volume
   double area_mm2 = 0.0;    ///< of all triangles
   glm::dvec3 size_mm{0.0};  ///< width, depth and height, without points that no triangle uses
   bool out_of_memory =
