@@ -6,6 +6,7 @@
 #include "app/render/pot_view.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
+#include "claystack/export/formats.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>
@@ -28,9 +29,7 @@ Result<SceneSpec> scene_in(const std::string& text, const std::string& name) {
   constexpr const char* kOpened =
       "a scene (.scene.json), a pot (.pot.json, .pot.cbor), a work (.work), a 3MF with its pot, or "
       "a drawing (.svg, .dxf, .csv)";
-  constexpr std::array kMeshes = {".stl", ".obj", ".drc", ".ply", ".off", ".glb"};
-  if (std::ranges::any_of(kMeshes,
-                          [&](const char* ending) { return ends_ignoring_case(name, ending); }))
+  if (solid::mesh_format_of(name))
     return failure(ErrorKind::bad_input,
                    fmt::format("{}: expected {}, found a mesh. The window does not open meshes; "
                                "`claystack import` in a terminal makes a pot from a mesh",

@@ -26,6 +26,9 @@ double over_s(const std::vector<std::string>& words, std::size_t from) {
   return words.size() > from ? *number_of(words[from + 1]) : 0.0;
 }
 
+/// Frames of a movement: one at least.
+int steps_in(double seconds) { return std::max(1, static_cast<int>(std::ceil(seconds / kFrameS))); }
+
 }  // namespace
 
 std::span<const ScriptCommand> ScriptRunner::commands() noexcept {
@@ -89,22 +92,20 @@ Result<glm::vec2> ScriptRunner::place_of(const Words& words) const {
   return *pixel;
 }
 
-/// One step per frame, like a hand.
-Result<void> ScriptRunner::move(glm::vec2 to_px, double seconds) {
+void ScriptRunner::move(glm::vec2 to_px, double seconds) {
   const glm::vec2 from = pointer_px_;
-  const int steps = std::max(1, static_cast<int>(std::ceil(seconds / kFrameS)));
+  const int steps = steps_in(seconds);
   for (int i = 1; i <= steps; ++i) {
     pointer_px_ = glm::mix(from, to_px, static_cast<float>(i) / static_cast<float>(steps));
     studio_.take(PointerMoved{pointer_px_, pressure_});
     frames(1);
   }
-  return {};
 }
 
 void ScriptRunner::drive(const GamepadState& to, double seconds) {
   const GamepadState from = pad_;
   pad_ = to;
-  const int steps = std::max(1, static_cast<int>(std::ceil(seconds / kFrameS)));
+  const int steps = steps_in(seconds);
   for (int i = 1; i <= steps; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(steps);
     studio_.take(
@@ -125,7 +126,7 @@ Result<void> ScriptRunner::screenshot(const std::string& path) {
 }
 
 Result<void> ScriptRunner::point(const Words& words) {
-  return place_of(words).and_then([&](glm::vec2 to) { return move(to, over_s(words, 3)); });
+  return place_of(words).map([&](glm::vec2 to) { move(to, over_s(words, 3)); });
 }
 
 /// A pen reports its pressure with its place.
@@ -133,13 +134,14 @@ Result<void> ScriptRunner::pressure(const Words& words) {
   const double from = pressure_.value_or(0.0);
   if (words[1] == "none") {
     pressure_.reset();
-    return move(pointer_px_, 0.0);
+    move(pointer_px_, 0.0);
+    return {};
   }
   const double to = *number_of(words[1]);
-  const int steps = std::max(1, static_cast<int>(std::ceil(over_s(words, 2) / kFrameS)));
+  const int steps = steps_in(over_s(words, 2));
   for (int i = 1; i <= steps; ++i) {
     pressure_ = glm::mix(from, to, static_cast<double>(i) / static_cast<double>(steps));
-    if (auto moved = move(pointer_px_, 0.0); !moved) return moved;
+    move(pointer_px_, 0.0);
   }
   return {};
 }

@@ -48,7 +48,8 @@ class ScriptRunner {
   Result<void> expect(const Words& words);
   void frames(int count);
   [[nodiscard]] Result<glm::vec2> place_of(const Words& words) const;
-  Result<void> move(glm::vec2 to_px, double seconds);
+  /// One step per frame, like a hand.
+  void move(glm::vec2 to_px, double seconds);
   /// Sends a gamepad that goes to this state.
   void drive(const GamepadState& to, double seconds);
 

@@ -19,6 +19,7 @@ namespace {
 
 constexpr const char* kSchema = "claystack-studio-1";
 constexpr std::size_t kMostBytes = 1 << 20, kMostValues = 1000;
+constexpr const char* kNotSaved = "; settings will not be saved";
 
 constexpr std::array<std::string_view, 2> kThemes = {"dark", "light"};
 constexpr std::array kThemeValues = {Theme::dark, Theme::light};
@@ -142,8 +143,6 @@ std::string write_settings(const Settings& settings) {
   return write_fields(kSchema, [&](PlainFields& io) { describe(io, copy); });
 }
 
-constexpr const char* kNotSaved = "; settings will not be saved";
-
 LoadedSettings load_settings(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return {};
@@ -185,10 +184,6 @@ std::optional<std::string> saved_by_others(const std::filesystem::path& path) {
 }
 
 }  // namespace
-
-Result<void> save_settings(const Settings& settings, const std::filesystem::path& path) {
-  return write_to(path, write_settings(settings));
-}
 
 SettingsFile::SettingsFile(std::filesystem::path path, const Settings& stored)
     : SettingsFile(std::move(path), stored, stored) {}

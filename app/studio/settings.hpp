@@ -44,7 +44,8 @@ struct Settings {
   std::string folder;                  ///< of exports and saved files; empty: none yet
   std::vector<std::string> recent;     ///< files, newest first, at most kMostRecent
   double bite_mm = kUsualBiteMm;       ///< strength of the hand, kSoftestBiteMm to kFirmestBiteMm
-  double pressing_mm_s = 80.0;  ///< maximum tool speed in the clay, kSlowestHand to kFastestHand
+  /// Maximum tool speed in the clay, kSlowestHandMmPerS to kFastestHandMmPerS.
+  double pressing_mm_s = 80.0;
 };
 
 /// Puts a file that was opened or saved first in the recent ones.
@@ -68,7 +69,6 @@ struct LoadedSettings {
 };
 /// A broken file is renamed, never overwritten. Without a file all settings have their defaults.
 [[nodiscard]] LoadedSettings load_settings(const std::filesystem::path& path);
-Result<void> save_settings(const Settings& settings, const std::filesystem::path& path);
 
 inline constexpr double kSettingsDelayS = 1.0;
 

@@ -16,7 +16,7 @@
 namespace clay::studio {
 namespace {
 
-/// Six boxes in columns, the same for every row: in one line, or in lines of equal length.
+/// Boxes in columns, the same for every row: in one line, or in lines of equal length.
 class BoxRow {
  public:
   explicit BoxRow(const char* label) {
@@ -26,9 +26,9 @@ class BoxRow {
     const float room = ImGui::GetContentRegionAvail().x;
     const float least = ImGui::GetFrameHeight() + ImGui::CalcTextSize("Report").x +
                         style.ItemInnerSpacing.x + 0.5f * style.ItemSpacing.x;
-    const int fitting = std::clamp(static_cast<int>(room / least), 1, 6);
-    const int lines = (6 + fitting - 1) / fitting;
-    columns_ = (6 + lines - 1) / lines;
+    const int fitting = std::clamp(static_cast<int>(room / least), 1, kBoxes);
+    const int lines = (kBoxes + fitting - 1) / fitting;
+    columns_ = (kBoxes + lines - 1) / lines;
     pitch_ = room / static_cast<float>(columns_);
   }
   bool box(const char* title, bool& wanted) {
@@ -42,6 +42,7 @@ class BoxRow {
   }
 
  private:
+  static constexpr int kBoxes = 6;  // at most, of a row
   float left_ = 0.0f, pitch_ = 0.0f;
   int columns_ = 1, count_ = 0;
 };

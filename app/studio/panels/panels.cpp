@@ -41,9 +41,13 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFla
                                     ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+bool is_open(const Settings& settings, const char* id, bool usual = false) {
+  const auto remembered = settings.open.find(id);
+  return remembered == settings.open.end() ? usual : remembered->second;
+}
+
 bool is_open(const Settings& settings, const Panel& panel) {
-  const auto remembered = settings.open.find(panel.id);
-  return remembered == settings.open.end() ? panel.open : remembered->second;
+  return is_open(settings, panel.id, panel.open);
 }
 
 /// The header of the tool's panel has the name of the tool.
@@ -186,15 +190,9 @@ ImVec4 colour_of(Grade grade, const Palette& colours) {
 
 }  // namespace
 
-bool diagnostics_open(const Settings& settings) {
-  const auto remembered = settings.open.find(kDiagnostics);
-  return remembered != settings.open.end() && remembered->second;
-}
+bool diagnostics_open(const Settings& settings) { return is_open(settings, kDiagnostics); }
 
-bool below_open(const Settings& settings) {
-  const auto remembered = settings.open.find(kBelow);
-  return remembered != settings.open.end() && remembered->second;
-}
+bool below_open(const Settings& settings) { return is_open(settings, kBelow); }
 
 bool in_diagnostics(std::string_view id) {
   const auto* panel = std::ranges::find(kPanels, id, &Panel::id);

@@ -152,7 +152,7 @@ TEST(Settings, RefusesAPipe) {
   const std::string path = folder.file("studio.json");
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
   EXPECT_NE(load_settings(path).note.find("expected a regular file"), std::string::npos);
-  const auto saved = save_settings(Settings(), path);
+  const auto saved = SettingsFile(path, Settings()).save(changed());
   ASSERT_FALSE(saved);
   EXPECT_EQ(saved.error().kind, ErrorKind::io);
 }
@@ -190,16 +190,16 @@ TEST(Settings, KeepsAFileThatItCanNeitherReadNorRename) {
   EXPECT_NE(broken.note.find("will not be saved"), std::string::npos) << broken.note;
   test::write_text(path, std::string(20'000'000, ' '));
   EXPECT_FALSE(load_settings(path).may_save) << "too large";
-  ASSERT_TRUE(save_settings(Settings(), path));
+  ASSERT_TRUE(SettingsFile(path, Settings()).save(changed()));
   EXPECT_TRUE(load_settings(path).may_save);
 }
 
 TEST(Settings, AMissingFileIsNotAnError) {
   const test::ScratchFolder folder;
-  EXPECT_EQ(load_settings(folder.file("none.json")).note, "");
-  ASSERT_TRUE(save_settings(changed(), folder.file("deep/er/studio.json")));
-  EXPECT_EQ(write_settings(load_settings(folder.file("deep/er/studio.json")).settings),
-            write_settings(changed()));
+  const std::string path = folder.file("deep/er/studio.json");
+  EXPECT_EQ(load_settings(path).note, "");
+  ASSERT_TRUE(SettingsFile(path, Settings()).save(changed()));
+  EXPECT_EQ(write_settings(load_settings(path).settings), write_settings(changed()));
 }
 
 TEST(SettingsFile, SavesChangesAtMostOnceASecond) {
