@@ -29,6 +29,14 @@ Error full() {
                       kMaxPoses)};
 }
 
+/// Of a work without strokes.
+WorkRecord record_of(const SceneSpec& scene) {
+  WorkRecord record;
+  record.scenes = {scene};
+  record.nodes.resize(1);
+  return record;
+}
+
 /// A collapsed pot cannot be thrown on, but it can be viewed and exported.
 Result<Pot> root_of(const SceneSpec& scene, const std::optional<Pot>& start) {
   if (start && start->collapse)
@@ -95,18 +103,11 @@ Work::Work(Work&&) noexcept = default;
 Work& Work::operator=(Work&&) noexcept = default;
 Work::~Work() = default;
 
-Result<Work> Work::begin(const SceneSpec& scene) {
-  WorkRecord record;
-  record.scenes = {scene};
-  record.nodes.resize(1);
-  return open(std::move(record));
-}
+Result<Work> Work::begin(const SceneSpec& scene) { return open(record_of(scene)); }
 
 Result<Work> Work::begin(const SceneSpec& scene, const Pot& start) {
-  WorkRecord record;
-  record.scenes = {scene};
+  WorkRecord record = record_of(scene);
   record.start = start;
-  record.nodes.resize(1);
   return open(std::move(record));
 }
 
