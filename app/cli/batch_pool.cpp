@@ -139,45 +139,67 @@ void wait_for_any(const std::list<Running>& all) {
   (void)::poll(ends.data(), ends.size(), kPollMs);
 }
 
+/// The jobs of a batch: those that run, and the next one to start.
+class Batch {
+ public:
+  Batch(const std::vector<BatchJob>& jobs, const BatchPool& pool,
+        const std::function<bool(const BatchOutcome&)>& done)
+      : jobs_(jobs), pool_(pool), done_(done) {}
+
+  Result<void> run() {
+    while (!running_.empty() || next_ < jobs_.size()) {
+      start_jobs();
+      wait_for_any(running_);
+      running_.remove_if([&](Running& running) { return has_ended(running); });
+    }
+    return result_;
+  }
+
+ private:
+  void start_jobs() {
+    while (next_ < jobs_.size() && running_.size() < pool_.processes && !full_) {
+      auto started = start(jobs_, next_);
+      if (started) {
+        running_.push_back(std::move(*started));
+        ++next_;
+      } else if (!running_.empty()) {
+        full_ = true;
+      } else {
+        result_ = tl::make_unexpected(started.error());
+        next_ = jobs_.size();
+      }
+    }
+  }
+
+  /// Passes on the outcome of a job that has ended; kills one whose time is over.
+  bool has_ended(Running& running) {
+    if (const auto outcome = outcome_of(running)) {
+      if (!done_(*outcome)) next_ = jobs_.size();
+      full_ = false;
+      return true;
+    }
+    const double limit_s = pool_.time_limit.count();
+    if (limit_s > 0.0 && !running.timed_out && seconds_since(running.begin) > limit_s) {
+      running.timed_out = true;
+      if (::kill(-running.process, SIGKILL) != 0) (void)::kill(running.process, SIGKILL);
+    }
+    return false;
+  }
+
+  const std::vector<BatchJob>& jobs_;
+  const BatchPool& pool_;
+  const std::function<bool(const BatchOutcome&)>& done_;
+  std::list<Running> running_;
+  std::size_t next_ = 0;
+  bool full_ = false;  // the system starts no more until one ends
+  Result<void> result_;
+};
+
 }  // namespace
 
 Result<void> run_batch(const std::vector<BatchJob>& jobs, const BatchPool& pool,
                        const std::function<bool(const BatchOutcome&)>& done) {
-  std::list<Running> all;
-  std::size_t next = 0;
-  bool full = false;  // the system starts no more until one ends
-  Result<void> result;
-  while (!all.empty() || next < jobs.size()) {
-    while (next < jobs.size() && all.size() < pool.processes && !full) {
-      auto started = start(jobs, next);
-      if (started) {
-        all.push_back(std::move(*started));
-        ++next;
-      } else if (!all.empty()) {
-        full = true;
-      } else {
-        result = tl::make_unexpected(started.error());
-        next = jobs.size();
-      }
-    }
-    wait_for_any(all);
-    for (auto running = all.begin(); running != all.end();) {
-      const auto outcome = outcome_of(*running);
-      if (outcome) {
-        if (!done(*outcome)) next = jobs.size();
-        running = all.erase(running);
-        full = false;
-        continue;
-      }
-      if (pool.time_limit.count() > 0.0 && !running->timed_out &&
-          seconds_since(running->begin) > pool.time_limit.count()) {
-        running->timed_out = true;
-        if (::kill(-running->process, SIGKILL) != 0) (void)::kill(running->process, SIGKILL);
-      }
-      ++running;
-    }
-  }
-  return result;
+  return Batch(jobs, pool, done).run();
 }
 
 }  // namespace clay::cli

@@ -13,7 +13,7 @@ using solid::ExportReport;
 using solid::FileKind;
 using solid::FileReport;
 
-/// The clay that finishing moved: "trimmed 12 g".
+/// The clay that finishing moved: "12 g (6.67 cm3)".
 std::string clay_text(const ExportReport& report, double mm3) {
   return fmt::format("{:.0f} g ({:.2f} cm3)", 1e-3 * mm3 * report.maker->clay.density_g_cm3,
                      1e-3 * mm3);

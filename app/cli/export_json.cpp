@@ -115,13 +115,12 @@ Json collapsed_json(const solid::CollapsedSolid& collapsed) {
 Json finish_json(const ExportReport& report) {
   const solid::FinishLedger& ledger = report.section.finish;
   const double g_per_mm3 = 1e-3 * report.maker->clay.density_g_cm3;
-  Json json = {{"trimmed_mm3", ledger.trimmed_mm3()},
-               {"trimmed_g", g_per_mm3 * ledger.trimmed_mm3()},
-               {"added_mm3", ledger.floor_added_mm3},
-               {"added_g", g_per_mm3 * ledger.floor_added_mm3},
-               {"foot_trimmed_mm3", ledger.foot_trimmed_mm3},
-               {"glaze_trimmed_mm3", ledger.glaze_trimmed_mm3}};
-  return json;
+  return {{"trimmed_mm3", ledger.trimmed_mm3()},
+          {"trimmed_g", g_per_mm3 * ledger.trimmed_mm3()},
+          {"added_mm3", ledger.floor_added_mm3},
+          {"added_g", g_per_mm3 * ledger.floor_added_mm3},
+          {"foot_trimmed_mm3", ledger.foot_trimmed_mm3},
+          {"glaze_trimmed_mm3", ledger.glaze_trimmed_mm3}};
 }
 
 Json shrinkage_json(const ExportReport& report) {

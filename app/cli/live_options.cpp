@@ -16,6 +16,28 @@ std::string check_flip(const std::string& axes) {
   return "expected axes out of x, y and z, as in xz, found " + axes;
 }
 
+/// Settings of the servo, of the force and of the device's return.
+void add_servo_options(CLI::App& command, LiveOptions& options) {
+  servo::LiveSettings& settings = options.settings;
+  command.add_option("--rate", settings.rate_hz, "Servo rate [Hz]")->capture_default_str();
+  command
+      .add_option("--clay-rate", settings.clay_rate_hz,
+                  "Update rate of the clay [Hz] (default: the servo rate)")
+      ->check(above_zero());
+  command.add_option("--force-limit", settings.guard.force_limit_n, "Force limit [N]")
+      ->check(in_range(0.5, falcon::kMostForceN))
+      ->capture_default_str();
+  add_length(command, "--gap", settings.gap_mm, "Gap of a pinch [mm] (default: that of the scene)");
+  command.add_option("--damping", settings.arm.damping_ns_per_mm, "Damping of the arm [N s/mm]")
+      ->capture_default_str();
+  // A flag "!--no-soften" is shown as --no-soften{false} in the help.
+  command.add_flag_callback(
+      "--no-soften", [&options] { options.soften = false; },
+      "Refuse a scene that is stiffer than the arm can render (default: lower its "
+      "force.stiffness_n_per_mm2, with a warning)");
+  command.add_flag("--wait", options.wait, "Wait for a disconnected device to return");
+}
+
 }  // namespace
 
 void add_place_options(CLI::App& command, servo::MappingSettings& mapping) {
@@ -72,23 +94,7 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
           "--patience", settings.patience_s,
           "With --seconds: maximum time to wait for homing [s]; --seconds, if that is longer")
       ->capture_default_str();
-  command.add_option("--rate", settings.rate_hz, "Servo rate [Hz]")->capture_default_str();
-  command
-      .add_option("--clay-rate", settings.clay_rate_hz,
-                  "Update rate of the clay [Hz] (default: the servo rate)")
-      ->check(above_zero());
-  command.add_option("--force-limit", settings.guard.force_limit_n, "Force limit [N]")
-      ->check(in_range(0.5, falcon::kMostForceN))
-      ->capture_default_str();
-  add_length(command, "--gap", settings.gap_mm, "Gap of a pinch [mm] (default: that of the scene)");
-  command.add_option("--damping", settings.arm.damping_ns_per_mm, "Damping of the arm [N s/mm]")
-      ->capture_default_str();
-  // A flag "!--no-soften" is shown as --no-soften{false} in the help.
-  command.add_flag_callback(
-      "--no-soften", [&options] { options.soften = false; },
-      "Refuse a scene that is stiffer than the arm can render (default: lower its "
-      "force.stiffness_n_per_mm2, with a warning)");
-  command.add_flag("--wait", options.wait, "Wait for a disconnected device to return");
+  add_servo_options(command, options);
   begin_group(command, "Device and workspace");
   add_falcon_options(command, options.falcon);
   add_place_options(command, settings.mapping);
