@@ -33,6 +33,14 @@ Result<std::string> read_back(const FileStore& store, const std::string& written
   return read_whole(store, written.size());
 }
 
+Result<void> expect_stored(const FileStore& store, const std::string& written, MeshFormat format) {
+  return read_back(store, written).and_then([&](const std::string& again) -> Result<void> {
+    if (again == written) return {};
+    return failure(ErrorKind::io,
+                   as_written(format) + ": the bytes read back differ from those written");
+  });
+}
+
 Result<std::string> read_whole(const FileStore& store, std::uint64_t bytes) {
   std::string file(bytes, '\0');
   return in_parts(

@@ -30,6 +30,9 @@ Result<void> write_in_parts(FileStore& store, const std::string& bytes);
 /// The bytes in the store; if that cannot be read back, the bytes passed to it.
 Result<std::string> read_back(const FileStore& store, const std::string& written);
 
+/// An error if the bytes read back are not those written.
+Result<void> expect_stored(const FileStore& store, const std::string& written, MeshFormat format);
+
 /// The first `bytes` bytes of the store, read back.
 Result<std::string> read_whole(const FileStore& store, std::uint64_t bytes);
 

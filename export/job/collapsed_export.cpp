@@ -241,13 +241,10 @@ class CollapsedExport {
 
   Result<FileReport> written(const std::string& bytes, MeshFormat format, double moved,
                              FileStore& store) {
-    const auto again =
+    const auto stored =
         stages_.run(stage_name("store", format), [&] { return write_in_parts(store, bytes); })
-            .and_then([&] { return read_back(store, bytes); });
-    if (!again) return tl::make_unexpected(again.error());
-    if (*again != bytes)
-      return failure(ErrorKind::io,
-                     as_written(format) + ": the bytes read back differ from those written");
+            .and_then([&] { return expect_stored(store, bytes, format); });
+    if (!stored) return tl::make_unexpected(stored.error());
     FileReport report;
     report.format = format;
     report.bytes = bytes.size();

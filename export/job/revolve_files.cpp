@@ -6,10 +6,8 @@
 #include "core/parallel_parts.hpp"
 #include "core/size_text.hpp"
 #include "export/formats/draco_bits.hpp"
-#include "export/formats/file_sizes.hpp"
 #include "export/formats/glb.hpp"
 #include "export/formats/shaded_obj.hpp"
-#include "export/formats/stl_layout.hpp"
 #include "export/formats/stl_stream.hpp"
 #include "export/formats/stored_file.hpp"
 #include "export/formats/three_mf_check.hpp"
@@ -50,45 +48,7 @@ std::string lost_part(const Profile& profile, double rounding_mm) {
                      part, rounding_mm);
 }
 
-/// Mesh, encoder and text at their peak, for each triangle; measured on a vase of 2.3 and 4.6
-/// million triangles.
-std::uint64_t bytes_per_triangle(MeshFormat format, const ExportOptions& options) {
-  switch (format) {
-    case MeshFormat::stl_binary:
-      return 0;
-    case MeshFormat::stl_ascii:
-      return 460;
-    case MeshFormat::obj:
-      return options.normals ? 230 : 145;
-    case MeshFormat::ply:
-      return 100;
-    case MeshFormat::drc:
-      return 125;
-    case MeshFormat::glb:
-      return 150;
-    default:
-      return 210;
-  }
-}
-
 }  // namespace
-
-std::uint64_t usual_file_bytes(MeshFormat format, const ExportOptions& options,
-                               std::size_t triangles) {
-  if (format == MeshFormat::stl_binary) return stl::file_bytes(triangles);
-  double bytes = usual_bytes_per_triangle(format, options.glb);
-  if (format == MeshFormat::obj && options.normals) bytes += 38.0;
-  if (format == MeshFormat::ply) bytes += 2.0;  // the walls, of half as many points
-  return static_cast<std::uint64_t>(bytes * static_cast<double>(triangles));
-}
-
-std::uint64_t mesh_memory(MeshFormat format, const ExportOptions& options, std::size_t triangles) {
-  const std::uint64_t whole = bytes_per_triangle(format, options) * triangles;
-  if (!options.full_verification) return whole;
-  constexpr std::uint64_t kMeshReadBack = 72;  // of a binary STL, which is not held otherwise
-  const bool streamed = format == MeshFormat::stl_binary;
-  return whole + check_memory(triangles) + (streamed ? kMeshReadBack * triangles : 0);
-}
 
 Result<FileReport> RevolveFiles::write(MeshFormat format, FileStore& store) {
   switch (format) {
@@ -182,9 +142,7 @@ Result<FileReport> RevolveFiles::write_whole(MeshFormat format, FileStore& store
   });
 }
 
-/// Encodes on the coarsest grid that tolerance and wall limit permit and the margins cover. If no
-/// grid is fine enough for the margins, tries finer grids until the decoded mesh passes the exact
-/// test, or returns the last problem.
+/// Encodes on the coarsest grid that tolerance and wall limit permit and the margins cover.
 Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& store) {
   const double allowed = std::max(options_.tolerance_mm, float_rounding_mm(rule_));
   const double safe = std::min(allowed, claims_.margins.safe_rounding_mm());
@@ -195,8 +153,14 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
     if (const auto covered = encode_on_grid(format, settings))
       return certify_bytes(format, error_mm, Proof::margins, *covered, store);
   }
-
   settings.max_error_mm = allowed;
+  return write_on_finer_grids(format, settings, store);
+}
+
+/// If no grid is fine enough for the margins: tries finer grids until the decoded mesh passes the
+/// exact test, or returns the last problem.
+Result<FileReport> RevolveFiles::write_on_finer_grids(MeshFormat format, DracoSettings settings,
+                                                      FileStore& store) {
   double farthest_mm = 0.0;
   const auto judge = [&](const std::string& bytes) {
     return stages_.run("exact_test", [&] {
@@ -204,7 +168,8 @@ Result<FileReport> RevolveFiles::write_on_grid(MeshFormat format, FileStore& sto
           .and_then([&](const TriangleMesh& decoded) {
             // A coarse grid may be sound and yet exchange close vertices.
             return check_sound(decoded, as_written(format)).and_then([&] {
-              return match_revolve(decoded, rule_, allowed, format, as_written(format))
+              return match_revolve(decoded, rule_, settings.max_error_mm, format,
+                                   as_written(format))
                   .map([&](double found_mm) { farthest_mm = found_mm; });
             });
           });
@@ -296,13 +261,8 @@ Result<void> RevolveFiles::store_judged(MeshFormat format, const std::string& by
                                         FileStore& store) {
   return stages_.run(stage_name("store", format), [&] { return write_in_parts(store, bytes); })
       .and_then([&] {
-        return stages_.run(stage_name("verify", format), [&] {
-          return read_back(store, bytes).and_then([&](const std::string& again) -> Result<void> {
-            if (again == bytes) return {};
-            return failure(ErrorKind::io,
-                           as_written(format) + ": the bytes read back differ from those written");
-          });
-        });
+        return stages_.run(stage_name("verify", format),
+                           [&] { return expect_stored(store, bytes, format); });
       });
 }
 

@@ -8,21 +8,10 @@
 #include "export/job/stages.hpp"
 #include "export/solid/revolve_layout.hpp"
 
-#include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 
 namespace clay::solid::inline job {
-
-/// The size of one file: exact for a binary STL, else an estimate.
-[[nodiscard]] std::uint64_t usual_file_bytes(MeshFormat format, const ExportOptions& options,
-                                             std::size_t triangles);
-
-/// Estimated peak of the memory [bytes] for writing one file; 0 if it is streamed. The exact test
-/// of thin margins is not counted.
-[[nodiscard]] std::uint64_t mesh_memory(MeshFormat format, const ExportOptions& options,
-                                        std::size_t triangles);
 
 class RevolveFiles {
  public:
@@ -44,6 +33,8 @@ class RevolveFiles {
   Result<FileReport> write_whole(MeshFormat format, FileStore& store);
   /// DRC and GLB.
   Result<FileReport> write_on_grid(MeshFormat format, FileStore& store);
+  Result<FileReport> write_on_finer_grids(MeshFormat format, DracoSettings settings,
+                                          FileStore& store);
   Result<std::string> encode_on_grid(MeshFormat format, const DracoSettings& settings);
   Result<FileReport> write_3mf(FileStore& store);
   Result<std::string> proved_package(const ModelPart& model, FileContents contents,

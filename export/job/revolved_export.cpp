@@ -4,6 +4,7 @@
 #include "claystack/engine/tool.hpp"
 #include "claystack/export/option_ranges.hpp"
 #include "claystack/export/solid.hpp"
+#include "export/job/file_estimates.hpp"
 #include "export/job/left_out.hpp"
 #include "export/job/resolution.hpp"
 #include "export/job/revolve_files.hpp"
