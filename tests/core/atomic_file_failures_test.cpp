@@ -35,6 +35,16 @@ TEST_F(AtomicFileFailures, KilledWriterLeavesNoTemporaryFile) {
   EXPECT_EQ(names(), std::set<std::string>{"pot"});
 }
 
+/// File systems with names in Unicode refuse half a character.
+TEST_F(AtomicFileFailures, CutsALongNameBetweenTwoCharacters) {
+  std::string name = "p";
+  for (int k = 0; k < 40; ++k) name += "\u00F6";  // 2 bytes: those before byte 64 end at 63
+  const auto [descriptor, temporary] = open_temporary(folder_ / name);
+  ASSERT_NE(descriptor, -1);
+  ::close(descriptor);
+  EXPECT_EQ(temporary.path().filename().string(), "." + name.substr(0, 63) + ".claystack-1");
+}
+
 TEST_F(AtomicFileFailures, FullDiskKeepsTheOldFile) {
   const fs::path path = folder_ / "pot";
   put(path, "old");

@@ -2,6 +2,7 @@
 #include "core/text.hpp"
 
 #include "core/file_reader.hpp"
+#include "core/nearest_word.hpp"
 #include "core/number_parsing.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,9 @@ TEST(Shown, BoundsTextAndReplacesUnprintableCharacters) {
   EXPECT_EQ(shown("abcd", 3), "abc...");
   EXPECT_EQ(shown("a\x1b[2J\n~ "), "a?[2J?~ ");
   EXPECT_EQ(shown("H\u00F6he \u20AC \U0001F3FA"), "H\u00F6he \u20AC \U0001F3FA");
-  EXPECT_EQ(shown("H\xF6he \xE2\x82"), "H?he ??");        // Latin-1, and half a character
+  EXPECT_EQ(shown("H\xF6he \xE2\x82"), "H?he ??");  // Latin-1, and half a character
+  // The first and the last half of a pair of UTF-16, which UTF-8 cannot hold.
+  EXPECT_EQ(shown("\xED\x9F\xBF|\xED\xA0\x80|\xED\xBF\xBF"), "\xED\x9F\xBF|???|???");
   EXPECT_EQ(shown("a\u0085b\u202Ec\u200Bd"), "a?b?c?d");  // control, reversal, no width
   EXPECT_EQ(shown("\u00F6\u00F6\u00F6", 2), "\u00F6\u00F6...");
   std::string cut(40, 'x');
@@ -37,6 +40,23 @@ TEST(KindOfFile, NamesDrawingsOfOtherPrograms) {
   EXPECT_EQ(kind_of_file("AC1032"), "a DWG drawing");
   EXPECT_EQ(kind_of_file("\x1F\x8B\x08"), "a gzip archive");
   EXPECT_EQ(kind_of_file("0\nSECTION"), "text that begins with '0'");
+}
+
+/// A binary STL has a header of 80 bytes, the number of its triangles, and 50 bytes for each.
+TEST(KindOfFile, CountsTheTrianglesOfABinaryStl) {
+  std::string stl(84 + 50, '\0');
+  stl[80] = 1;
+  EXPECT_EQ(kind_of_file(stl), "an STL mesh");
+  EXPECT_EQ(kind_of_file(stl + '\0'), "binary data");
+  EXPECT_EQ(kind_of_file(std::string(84, '\0')), "binary data") << "no triangle";
+}
+
+/// Distances by hand: a swap of neighbours counts as one.
+TEST(NearestWord, IsTheFirstOfTheNearestWithinAThirdOfItsLength) {
+  EXPECT_EQ(nearest_word("exprot", {"import", "export"}), "export");
+  EXPECT_EQ(nearest_word("tool_x", {"tool_a", "tool_b"}), "tool_a") << "both differ in one letter";
+  EXPECT_EQ(nearest_word("abx", {"abc"}), "abc");
+  EXPECT_EQ(nearest_word("ax", {"ab"}), "") << "half of it differs";
 }
 
 TEST(NumberIn, ReadsTheWholeTextOrNothing) {
