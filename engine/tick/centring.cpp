@@ -132,7 +132,7 @@ void centre(const StepPlan& plan, const ClayStack& stack, const ToolState& tool,
   if (!(shell.share > 0.0)) return;
   const bool hoop = (plan.clay.rules & kHoop) != 0;
   shift.lay(
-      stack, walls, band, shell, {outward, hoop, min_wall},
+      stack, walls, band, shell, {outward, hoop, min_wall, plan.clay.thin_wall_yields},
       [&](std::size_t first, std::span<float> by) {
         const std::size_t end = std::min(first + by.size(), over.to());
         for (std::size_t i = std::max(first, over.from()); i < end; ++i)

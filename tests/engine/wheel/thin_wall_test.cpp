@@ -105,6 +105,32 @@ TEST(ThinWall, NeedsShiftToBend) {
   EXPECT_LT(ring_at(bellied(scene), 60.0).inner_mm(), 40.01);
 }
 
+/// Two tools go out by 8 mm with a wall that they cannot thin, in its middle and at its rim.
+Wheel carried_out(const SceneSpec& scene, double up_mm) {
+  Wheel wheel = Wheel::build(scene).value();
+  Hand hand(wheel);
+  hand.place_at(42.5, up_mm, kWallMm);
+  hand.move_to(50.5, up_mm, 20.0, kWallMm);
+  return wheel;
+}
+
+/// The wall comes along, also the rings where the tools are widest, and the rim sinks.
+TEST(ThinWall, ComesAlongWithTwoToolsThatGoOut) {
+  for (const double up : {60.0, 115.0}) {
+    EXPECT_LT(ring_at(carried_out(thin_scene(false), up), up).inner_mm(), 40.01) << up;
+    const Wheel wheel = carried_out(thin_scene(true), up);
+    EXPECT_NEAR(middle_of(ring_at(wheel, up)), 50.5, 0.5) << up;
+    double below = middle_of(wheel.stack().rings().front());
+    for (const Ring& ring : wheel.stack().rings()) {
+      EXPECT_LT(std::abs(middle_of(ring) - below), 2.0 * kH) << up;
+      EXPECT_NEAR(wall_of(ring), kWallMm, 3e-3) << up;
+      below = middle_of(ring);
+    }
+    EXPECT_LT(wheel.stack().height_mm(), 120.0) << up;
+    expect_balanced(wheel);
+  }
+}
+
 /// A wall of 7 mm whose rim is rounded on one side, down to 3 mm at the top.
 Wheel half_rounded(const SceneSpec& scene, bool outside) {
   const auto off = [](double up) {

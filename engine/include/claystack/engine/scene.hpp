@@ -127,9 +127,10 @@ struct ClaySpec {
   double floor_mm = 0.0;     ///< no tool opens the solid bottom below this height; 0: no stop
   /// Length of the finger in a bore; no thick wall closes behind it. Absent: the tool alone.
   std::optional<double> finger_mm = std::nullopt;
-  /// At the minimum wall. False: a tool from inside goes through the wall. True: the press bends it
-  /// (needs `shift`), and the rim sinks to supply the clay; a cut removes a tip of the rim that
-  /// would project as a ledge. A press from outside always bends the wall.
+  /// At the minimum wall. False: a tool from inside goes through the wall, and two tools that go
+  /// out leave it behind. True: they bend it (needs `shift`), and the rim sinks to supply the clay;
+  /// a cut removes a tip of the rim that would project as a ledge. A press from outside always
+  /// bends the wall.
   bool thin_wall_yields = false;
   /// A tool that comes down on the rim. False: it goes aside. True: it presses the rim down (needs
   /// `heave`), and the wall below becomes thicker; a cutter lowers the rim.
