@@ -70,6 +70,30 @@ double free_height(const render::PotView& pot, const Tool& tool, double rho, dou
   return std::min(y_mm, top);
 }
 
+/// Radius over height: the slope of the wall's middle line beside the tool, by least squares, up to
+/// 60 degrees. Bumps of the wall's thickness, which a pinch is to thin, do not count.
+double lean_at(const render::PotView& pot, const Tool& tool, double y_mm) {
+  constexpr double kMostLean = 1.732;
+  const Reach reach(pot, tool, y_mm);
+  double count = 0.0, sum_row = 0.0, sum_middle = 0.0, sum_rows = 0.0, sum_both = 0.0;
+  for (std::size_t row = reach.first(); row < reach.last(); ++row) {
+    if (!(pot.rows[row].inner_mm > 0.0f)) continue;
+    const auto up = static_cast<double>(row - reach.first());
+    const double middle =
+        0.5 * static_cast<double>(pot.rows[row].outer_mm + pot.rows[row].inner_mm);
+    count += 1.0;
+    sum_row += up;
+    sum_middle += middle;
+    sum_rows += up * up;
+    sum_both += up * middle;
+  }
+  if (count < 3.0) return 0.0;
+  const double per_row =
+      (count * sum_both - sum_row * sum_middle) / (count * sum_rows - sum_row * sum_row);
+  const double rows_per_mm = static_cast<double>(pot.rows.size()) / pot.height_mm;
+  return std::clamp(per_row * rows_per_mm, -kMostLean, kMostLean);
+}
+
 }  // namespace
 
 glm::dvec2 free_place(const render::PotView& pot, const Tool& tool, glm::dvec2 place_mm,
@@ -105,6 +129,18 @@ std::optional<WallPlace> wall_above(const render::PotView& pot, const Tool& tool
   for (double y = std::max(0.0, y_mm); y < pot.height_mm && !wall; y += kStepMm)
     wall = wall_at(pot, tool, y);
   return wall;
+}
+
+double stand_off_mm(const render::PotView& pot, const Tool& tool, double y_mm) {
+  constexpr int kSamples = 64;
+  const double lean = lean_at(pot, tool, y_mm), step = (tool.high() - tool.low()) / kSamples;
+  double outer = tool.widest(), inner = tool.widest();
+  for (int k = 0; k <= kSamples; ++k) {
+    const double t = tool.low() + k * step, f = tool.radius(t);
+    outer = std::max(outer, f + lean * t);
+    inner = std::max(inner, f - lean * t);
+  }
+  return outer + inner - 2.0 * tool.widest();
 }
 
 bool inside(const render::PotView& pot, const glm::dvec3& place_mm) {

@@ -39,6 +39,10 @@ struct WallPlace {
 [[nodiscard]] std::optional<WallPlace> wall_above(const render::PotView& pot, const Tool& tool,
                                                   double y_mm);
 
+/// How much farther apart two tools stand at a wall that leans than at an upright one: so far that
+/// they touch it along its way, and do not fold it [mm]. 0 without a wall at this height.
+[[nodiscard]] double stand_off_mm(const render::PotView& pot, const Tool& tool, double y_mm);
+
 /// True if a place on the wheel is nearer to the bore than to the outside.
 [[nodiscard]] bool inside(const render::PotView& pot, const glm::dvec3& place_mm);
 

@@ -2,6 +2,7 @@
 
 #include "app/history/split.hpp"
 #include "app/servo/servo_check.hpp"
+#include "app/studio/free_place.hpp"
 
 #include <fmt/format.h>
 
@@ -204,15 +205,22 @@ void StrokeController::begin_with_device() {
     news_.error = begun.error();
 }
 
+/// Where the fingers of a pinch go: of the mouse, they stand farther apart where the wall leans.
+double StrokeController::aimed_gap_mm() const {
+  if (device_ || wheel_->plan().mode != ToolMode::pinch || status_.ticks == 0)
+    return closed_gap_mm_;
+  return closed_gap_mm_ + stand_off_mm(view_, wheel_->plan().tool, status_.tool_mm.y);
+}
+
 void StrokeController::advance(std::int64_t now_ns) {
   if (!live_ && device_waits_ && document_.has_work() && !document_.pot().collapse)
     begin_with_device();
   if (!live_) return;
-  if (gap_mm_ != closed_gap_mm_) {
+  if (const double aimed_mm = aimed_gap_mm(); gap_mm_ != aimed_mm) {
     // A stroke may have begun after the frame.
     const auto passed_ns = static_cast<double>(std::max<std::int64_t>(0, now_ns - last_ns_));
     const double step_mm = kClosingMmPerS * 1e-9 * passed_ns;
-    gap_mm_ = std::clamp(closed_gap_mm_, gap_mm_ - step_mm, gap_mm_ + step_mm);
+    gap_mm_ = std::clamp(aimed_mm, gap_mm_ - step_mm, gap_mm_ + step_mm);
     command({servo::CommandKind::gap, gap_mm_});
   }
   last_ns_ = now_ns;

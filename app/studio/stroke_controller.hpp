@@ -58,7 +58,7 @@ class StrokeController {
   /// Begins a stroke of the mouse, unless a device is in use.
   Result<void> press(const MousePress& press);
   void aim(const MouseAim& aim) noexcept { mouse_.aim(aim); }
-  /// The fingers of a pinch move to this gap, at their speed.
+  /// The fingers of a pinch move to this gap, at their speed; it is that at an upright wall.
   void close_to(double gap_mm) noexcept { closed_gap_mm_ = gap_mm; }
   void command(const servo::Command& command) noexcept;
   /// A pause separates tool and clay, in this stroke and in those that follow.
@@ -124,6 +124,7 @@ class StrokeController {
   void lose_device();
   void read_servo();
   void measure_rate(std::int64_t now_ns);
+  [[nodiscard]] double aimed_gap_mm() const;
   [[nodiscard]] std::string why_nothing_cut() const;
 
   Document& document_;

@@ -76,6 +76,36 @@ TEST(WallAt, IsTheGapOfTwoToolsOnTheWall) {
   EXPECT_FALSE(wall_at(tube(40.0f, 4.0f, 60.0, 120), sphere(5.0), 30.0));  // no room in the bore
 }
 
+/// A wall of 8 mm that leans by this radius over height; a bulge of 4 mm on both sides of it.
+render::PotView leaning(double lean, bool bulges = false) {
+  render::PotView pot = tube(0.0f, 0.0f, 60.0, 120);
+  for (std::size_t row = 0; row < pot.rows.size(); ++row) {
+    const double up = 0.5 * (static_cast<double>(row) + 0.5) - 30.0, middle = 60.0 + lean * up;
+    const double half = bulges && std::abs(up) < 2.0 ? 8.0 : 4.0;
+    pot.rows[row] = {static_cast<float>(middle + half), static_cast<float>(middle - half)};
+  }
+  return pot;
+}
+
+/// Two balls of radius f beside a line that leans by s touch it if their middles are 2 f sqrt(1 +
+/// s^2) apart; two ribs touch it with their edges.
+TEST(StandOff, IsSoFarThatTwoToolsTouchALeaningWallAlongItsWay) {
+  const Tool ball = sphere(10.0), rib = Tool::build(RibSpec{20.0, 6.0}).value();
+  for (const double lean : {-1.5, -0.5, 0.1, 0.5, 1.0, 1.5}) {
+    const double apart = 20.0 * (std::sqrt(1.0 + lean * lean) - 1.0);
+    EXPECT_NEAR(stand_off_mm(leaning(lean), ball, 30.0), apart, 0.02) << lean;
+    EXPECT_NEAR(stand_off_mm(leaning(lean), rib, 30.0), 20.0 * std::abs(lean), 1e-3) << lean;
+  }
+  EXPECT_EQ(stand_off_mm(tube(40.0f, 30.0f, 60.0, 120), ball, 30.0), 0.0);
+}
+
+/// A pinch is to thin a bulge.
+TEST(StandOff, DoesNotSeeBulgesNorSolidClay) {
+  EXPECT_NEAR(stand_off_mm(leaning(0.0, true), sphere(10.0), 30.0), 0.0, 1e-6);
+  EXPECT_EQ(stand_off_mm(tube(40.0f, 0.0f, 60.0, 120), sphere(10.0), 30.0), 0.0);
+  EXPECT_EQ(stand_off_mm(leaning(1.0), sphere(10.0), 200.0), 0.0) << "above the rim";
+}
+
 /// Upside down, the bore of a tube is below its foot: no tool gets there.
 TEST(FreePlace, IsNeverInACoveredBore) {
   const render::PotView pot = tube(40.0f, 30.0f, 60.0, 120);

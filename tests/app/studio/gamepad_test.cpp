@@ -108,22 +108,22 @@ TEST_F(Window, AGamepadThatIsUnpluggedEndsItsStroke) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
-/// The wall of the sample bowl, without the rules that would move it back.
+/// The upright wall of the sample cylinder, without the rules that would move it back.
 TEST_F(Window, TheLeftTriggerPinchesAndClosesTheFingers) {
   const Ran thrown =
-      test::claystack("throw -q " + test::sample("bowl.scene.json") + " -s " +
-                      test::sample("bowl.session") + " -o " + folder.file("bowl.pot.json"));
+      test::claystack("throw -q " + test::sample("cylinder.scene.json") + " -s " +
+                      test::sample("cylinder.session") + " -o " + folder.file("cylinder.pot.json"));
   ASSERT_EQ(thrown.status, 0) << thrown.err;
   const std::string pinched =
       std::string(kPad) +
-      "open FOLDER/bowl.pot.json\ndo tool.press\npoint 80 30\ntrigger left 0.05\n" +
+      "open FOLDER/cylinder.pot.json\ndo tool.press\npoint 80 30\ntrigger left 0.05\n" +
       "trigger left 0.2\ntrigger right 0.5\nexpect throwing yes\nwait 1\n"
       "expect gap_mm above 0\n";
   const Ran open = run(pinched + "save FOLDER/a.work\n");
   ASSERT_EQ(open.status, 0) << open.err;
   // Further on, the left trigger closes the gap of 5 mm, which the pot remembers; it opens again
   // when it is let go.
-  const Ran closed = run(pinched + "trigger left 1\nwait 1\n" + near("gap_mm", 5.0, 1e-6) +
+  const Ran closed = run(pinched + "trigger left 1\nwait 1\n" + near("gap_mm", 5.0, 0.02) +
                          "trigger left 0.5\nwait 1\nexpect gap_mm above 5.05\n"
                          "trigger right 0\nexpect throwing no\n");
   EXPECT_EQ(closed.status, 0) << closed.err;
