@@ -95,8 +95,8 @@ enum class WireStatus : std::uint8_t {
 
 struct Received {
   std::size_t size = 0;  ///< bytes; 0 if none came in time
-  /// CLOCK_MONOTONIC when the last byte was received. Bytes that arrived while nobody read count
-  /// from the reading: a servo that is late takes their age from there.
+  /// CLOCK_MONOTONIC when the last byte was received. Bytes that arrived before the call of `read`
+  /// have the time of the call: a late servo counts their age from then on.
   std::int64_t time_us = 0;
   WireStatus status = WireStatus::ok;
 };
