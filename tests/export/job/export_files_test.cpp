@@ -38,6 +38,37 @@ class FullStore final : public FileStore {
   std::size_t written_ = 0;
 };
 
+/// A disk that returns one bit changed: in the last byte of each part that is read again.
+class FaultyStore final : public FileStore {
+ public:
+  Result<void> write(std::span<const std::byte> bytes) override { return held_.write(bytes); }
+  [[nodiscard]] bool rereadable() const noexcept override { return true; }
+  Result<void> read_at(std::uint64_t offset, std::span<std::byte> bytes) const override {
+    return held_.read_at(offset, bytes).map([&] { bytes.back() ^= std::byte{1}; });
+  }
+
+ private:
+  MemoryStore held_;
+};
+
+/// Also where the bytes were decoded and proved before they were written.
+TEST(ExportErrors, ReportBytesThatADiskHasChanged) {
+  Pot fallen = pot_of(shapes::vase(50));
+  fallen.collapse = Collapse{20, {50, 40, 0}, {0, 0, 1}, 1.0, 12.0};
+  const auto expect_found = [](const Pot& pot, MeshFormat format) {
+    FaultyStore store;
+    const auto done = run_export(pot, {{format, &store, "out"}}, {});
+    ASSERT_FALSE(done) << name_of(format);
+    EXPECT_EQ(done.error().kind, ErrorKind::io);
+    EXPECT_EQ(done.error().message,
+              "out: " + std::string(name_of(format)) +
+                  " as written: the bytes read back differ from those written");
+  };
+  expect_found(pot_of(shapes::vase(50)), MeshFormat::three_mf);
+  for (const MeshFormat format : {MeshFormat::stl_binary, MeshFormat::obj})
+    expect_found(fallen, format);
+}
+
 /// The ending selects the kind of drawing: standard output has none.
 TEST(ExportErrors, ADrawingWithoutItsEndingIsRefused) {
   for (const FileKind kind : {FileKind::section, FileKind::wall_table, FileKind::step})
