@@ -83,11 +83,11 @@ Result<Wheel> Wheel::assemble(StepPlan plan, ClayStack stack, const Ledger& ledg
                               const std::string& clay) {
   if (plan.stages & kStability) {
     if (const auto weak = StabilityWatch::check_all(plan.stability, stack))
-      return failure(ErrorKind::bad_input, "stability.max_stress_kpa: expected more than the " +
-                                               clay + "'s own weight, found " +
-                                               number_text(plan.stability.max_stress_kpa) +
-                                               " against " + number_text(weak->stress_kpa) +
-                                               " kPa at ring " + std::to_string(weak->ring));
+      return failure(ErrorKind::bad_input,
+                     "stability.max_stress_kpa: expected more than " +
+                         short_number_text(weak->stress_kpa) + ", the stress under the " + clay +
+                         "'s own weight at ring " + std::to_string(weak->ring) + ", found " +
+                         number_text(plan.stability.max_stress_kpa));
   }
 
   auto state = std::make_unique<State>();
