@@ -219,7 +219,7 @@ std::vector<PlanLine> describe(const SceneSpec& s, unsigned stages) {
       {"contact", true, "equations (1), (2), then the rings touched"},
       {"removal", true,
        s.model == Model::paper ? "k (R - r) per tick"
-                               : "at rate (R - r), less above the yield depth"},
+                               : "at rate (R - r), slower at less than the yield depth"},
       {"outer surface", true, press ? "equations (5), (7)" : "cut"},
       {"inner surface", hollow,
        hollow ? "equations (6), (8)" : "the lump is solid: nothing to fill until a tool opens it"},
