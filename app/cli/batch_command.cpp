@@ -126,7 +126,8 @@ void print_summary(const Json& summary, const Console& console) {
   std::string line = fmt::format("{}: {} done, {} failed", counted(count("jobs"), "job"),
                                  count("done"), count("failed"));
   if (count("skipped") > 0)
-    line += fmt::format("; {} skipped, because {} has their results", count("skipped"), results);
+    line += fmt::format("; {} of them skipped, because {} has their results", count("skipped"),
+                        results);
   console.print(line);
 }
 

@@ -109,7 +109,7 @@ const char* axis_source(const ImportOptions& options, const HalfSection& section
     case AxisRule::line:
       return "its vertical line";
     default:
-      return options.axis.empty() ? "zero in the file" : "--axis";
+      return options.axis.empty() ? "radius 0 of the table" : "--axis";
   }
 }
 

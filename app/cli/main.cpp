@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -96,7 +97,8 @@ void explain_samples(CLI::App& command) {
   if (help.find("samples/") == std::string::npos) return;
   const std::size_t end = help.find("\n\n", help.find("samples/"));
   help.insert(std::min(end, help.size()),
-              fmt::format("\n\nTo copy the installed samples: cp -r {} .",
+              fmt::format("\n\nThe examples need a folder samples, as in a clone. To copy the "
+                          "installed one: cp -r {} .",
                           installed(CLAYSTACK_INSTALLED_SAMPLES).string()));
   command.footer(help);
 }
@@ -163,6 +165,23 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
+/// The examples of the commands that this build has.
+std::string examples_of(const CLI::App& app) {
+  const auto names = command_names(app);
+  std::istringstream lines(kExamples);
+  std::string examples;
+  for (std::string line; std::getline(lines, line);) {
+    constexpr std::string_view kBegin = "  claystack ";
+    const std::string name =
+        line.starts_with(kBegin)
+            ? line.substr(kBegin.size(), line.find(' ', kBegin.size()) - kBegin.size())
+            : "help";
+    if (name == "help" || std::ranges::find(names, name) != names.end()) examples += line + '\n';
+  }
+  examples.pop_back();
+  return examples;
+}
+
 /// The parser would name an option that is missing instead of the unknown command.
 clay::Result<void> check_command_name(const CLI::App& app, std::string_view name) {
   const auto names = command_names(app);
@@ -193,13 +212,13 @@ int run(int argc, char** argv) {
   CLI::App app("Throw pots on a virtual wheel and export files for 3D printing", "claystack");
   app.formatter(help_format());  // of the commands, too
   app.set_version_flag("--version", version_text());
-  app.footer(kExamples);
-  explain_samples(app);
   app.require_subcommand(1);
 
   Console console;
   int exit = kDone;
   add_commands(app, console, exit);
+  app.footer(examples_of(app));
+  explain_samples(app);
   std::vector<std::string> words = arguments_of(argc, argv);
   if (std::ranges::find(words, "--json") != words.end()) print_errors_as_json();
   if (!words.empty())

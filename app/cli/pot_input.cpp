@@ -1,6 +1,7 @@
 #include "app/cli/pot_input.hpp"
 
 #include "app/cli/memory_room.hpp"
+#include "app/cli/next_command.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "core/size_text.hpp"
 #include "core/text.hpp"
@@ -14,6 +15,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace clay::cli {
@@ -42,13 +44,18 @@ Result<void> expect_room_for_pot(std::string_view bytes, std::string_view name) 
   return expect_room(std::string(name) + ": reading the pot", kBytesPerValue * count_values(bytes));
 }
 
-/// The command that makes a pot from a mesh or a drawing.
-Error with_import(Error error, std::string_view name) {
+/// Names the command that makes a pot from a file of another kind.
+Error with_maker(Error error, std::string_view bytes, std::string_view name) {
+  static constexpr std::array kMakers = {
+      NextCommand{"a scene", "claystack throw makes a pot from a scene and its session"},
+      NextCommand{"a session", "claystack throw makes a pot from a session and its scene"},
+      NextCommand{"a stroke script", "claystack strokes SCENE SCRIPT makes a session from it"},
+      NextCommand{"a work", "claystack throw makes a pot from a work"}};
   constexpr std::string_view kImported[] = {".stl", ".obj", ".off", ".ply", ".glb",
                                             ".drc", ".svg", ".dxf", ".csv"};
   if (std::ranges::any_of(kImported, [&](auto ending) { return ends_ignoring_case(name, ending); }))
     error.message += "; claystack import makes a pot from a mesh or a drawing";
-  return error;
+  return with_command(std::move(error), bytes, kMakers);
 }
 
 }  // namespace
@@ -59,7 +66,7 @@ Result<Pot> pot_from(std::string_view bytes, std::string_view name) {
   if (!bytes.starts_with("PK"))
     return expect_room_for_pot(bytes, name)
         .and_then([&] { return parse_pot(bytes, name); })
-        .map_error([&](Error error) { return with_import(std::move(error), name); });
+        .map_error([&](Error error) { return with_maker(std::move(error), bytes, name); });
 #ifdef CLAYSTACK_EXPORT
   return solid::parts_in_3mf(bytes, name).and_then([&](const solid::PackedParts& parts) {
     if (!parts.pot.empty())

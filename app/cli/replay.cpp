@@ -1,5 +1,6 @@
 #include "app/cli/replay.hpp"
 #include "app/cli/memory_room.hpp"
+#include "app/cli/next_command.hpp"
 #include "app/cli/pot_input.hpp"
 #include "app/history/pot_scene.hpp"
 
@@ -11,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -86,7 +88,16 @@ ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOption
 }
 
 Result<SceneSpec> load_scene(const std::string& path) {
-  return read_file(path).and_then([&](const std::string& text) { return parse_scene(text, path); });
+  static constexpr std::array kUsers = {
+      NextCommand{"a pot", "claystack throw --from POT continues it"},
+      NextCommand{"a session", "claystack throw SCENE --session SESSION plays it"},
+      NextCommand{"a stroke script", "claystack strokes SCENE SCRIPT makes a session from it"},
+      NextCommand{"a work", "claystack throw plays it"}};
+  return read_file(path).and_then([&](const std::string& text) {
+    return parse_scene(text, path).map_error([&](Error error) {
+      return with_command(std::move(error), text, kUsers);
+    });
+  });
 }
 
 Result<Start> load_start(const std::string& scene_path, const std::string& pot_path,

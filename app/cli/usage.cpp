@@ -42,21 +42,22 @@ std::string unknown_word(const CLI::App& command) {
   return words.empty() ? std::string() : words.front();
 }
 
-/// A check, an import or a picture of several files is a likely mistake.
-bool takes_one_file(const CLI::App& command) {
+/// A check, an import or a picture of several files is a likely mistake. The window is a program of
+/// its own, which batch does not run.
+std::string_view hint_for_files(const CLI::App& command) {
   const auto files = command.get_options([](const CLI::Option* option) {
     return option->get_positional() && option->get_type_name() == kFileName;
   });
-  return files.size() == 1 && command.get_name() != "batch";
+  if (files.size() != 1 || command.get_name() == "batch") return {};
+  return command.get_name() == "claystack studio"
+             ? "; the window opens one file"
+             : "; the command takes one file, and claystack batch runs it on many";
 }
 
 std::string unknown_argument(const CLI::App& command, std::string_view word) {
   if (word.empty()) return "expected the options after the command, found one before it";
   if (!word.starts_with('-'))
-    return fmt::format("unexpected argument {}{}", word,
-                       takes_one_file(command) ? "; the command takes one file, and claystack "
-                                                 "batch runs it on many"
-                                               : "");
+    return fmt::format("unexpected argument {}{}", word, hint_for_files(command));
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);

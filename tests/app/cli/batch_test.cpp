@@ -82,8 +82,8 @@ TEST_F(Batch, ResumesAfterTheJobsThatHaveAVerdict) {
       0);
   const Ran again = run("-o " + results);
   EXPECT_EQ(again.status, 0) << again.err;
-  EXPECT_EQ(again.out,
-            "2 jobs: 2 done, 0 failed; 1 skipped, because " + results + " has their results\n");
+  EXPECT_EQ(again.out, "2 jobs: 2 done, 0 failed; 1 of them skipped, because " + results +
+                           " has their results\n");
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json"))) << "it was not thrown again";
   EXPECT_EQ(results_in(read_text(results)).at("absent").at("status"), 0);
   const nlohmann::json summary = nlohmann::json::parse(run("--json -o " + results).out);
@@ -133,8 +133,8 @@ TEST_F(Batch, ResumesFromResultsThatDoNotFitInMemory) {
   write_text(results, many + one);
   const Ran resumed = run("--memory 64MiB -o " + results);
   EXPECT_EQ(resumed.status, 0) << resumed.err;
-  EXPECT_EQ(resumed.out,
-            "1 job: 1 done, 0 failed; 1 skipped, because " + results + " has their results\n");
+  EXPECT_EQ(resumed.out, "1 job: 1 done, 0 failed; 1 of them skipped, because " + results +
+                             " has their results\n");
 }
 
 TEST_F(Batch, LeavesWholeLinesWhenAResultCannotBeWritten) {
@@ -157,8 +157,8 @@ TEST_F(Batch, LeavesWholeLinesWhenAResultCannotBeWritten) {
   EXPECT_EQ(results_in(kept).size(), 1u) << kept;
   EXPECT_TRUE(kept.ends_with('\n')) << kept;
   const Ran again = run("-o " + results);
-  EXPECT_EQ(again.out,
-            "6 jobs: 6 done, 0 failed; 1 skipped, because " + results + " has their results\n");
+  EXPECT_EQ(again.out, "6 jobs: 6 done, 0 failed; 1 of them skipped, because " + results +
+                           " has their results\n");
 }
 
 /// The report on a repair lists every hole: here that of each of many bodies.

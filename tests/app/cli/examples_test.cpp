@@ -47,6 +47,19 @@ std::string harmless(std::string example) {
   return example;
 }
 
+/// A build without the benchmarks has no `bench`.
+TEST(ExamplesOfTheProgram, NameCommandsThatItHas) {
+  const std::vector<std::string> names = commands();
+  const auto examples = examples_in(claystack("--help").out);
+  EXPECT_FALSE(examples.empty());
+  for (const std::string& example : examples) {
+    std::istringstream words(example);
+    std::string program, name;
+    words >> program >> name;
+    EXPECT_TRUE(name == "help" || std::ranges::find(names, name) != names.end()) << example;
+  }
+}
+
 class Examples : public testing::Test {
  protected:
   void SetUp() override {

@@ -20,20 +20,28 @@ TEST(WrongKind, IsNamedInTheMessage) {
   struct Case {
     std::string arguments, message;
   };
+  const std::string script = sample("strokes/cylinder.strokes.json");
   const std::string wants_pot = ": expected a pot (.pot.json, .pot.cbor), found ";
+  const std::string wants_scene = ": expected a scene (.scene.json), found ";
   const std::vector<Case> cases = {
       {"export " + stl + " " + folder.file("x.obj"),
        stl + wants_pot + "an STL mesh; claystack import makes a pot from a mesh"},
-      {"export " + scene + " " + folder.file("x.obj"), scene + wants_pot + "a scene"},
-      {"render " + session + " -o " + folder.file("x.png"), session + wants_pot + "a session"},
+      {"export " + scene + " " + folder.file("x.obj"),
+       scene + wants_pot + "a scene; claystack throw makes a pot from a scene and its session"},
+      {"render " + session + " -o " + folder.file("x.png"),
+       session + wants_pot + "a session; claystack throw makes a pot from a session and its scene"},
+      {"check " + script,
+       script + wants_pot + "a stroke script; claystack strokes SCENE SCRIPT makes"},
+      {"plan " + session, session + wants_scene + "a session; claystack throw SCENE --session"},
+      {"plan " + sample("mouse.work"), wants_scene + "a work; claystack throw plays it"},
       {"throw " + pot + " -o " + folder.file("y.pot.json"),
-       pot + ": expected a scene (.scene.json), found a pot"},
+       pot + wants_scene + "a pot; claystack throw --from POT continues it"},
       {"throw " + scene + " -s " + stl + " -o " + folder.file("y.pot.json"),
        stl + ": expected a session (.session), found an STL mesh"},
       {"strokes " + scene + " " + session + " -o " + folder.file("y.session"),
        session + ": expected a stroke script (.strokes.json), found a session"},
-      {"plan " + sample("strokes/cylinder.strokes.json"),
-       ": expected a scene (.scene.json), found a stroke script"},
+      {"plan " + script,
+       script + wants_scene + "a stroke script; claystack strokes SCENE SCRIPT makes"},
       {"import " + pot + " -o " + folder.file("y.pot.json"),
        pot + ": expected a drawing (.svg, .dxf, .csv) or a mesh, found a pot"},
       {"check " + stl + " --process " + scene,
