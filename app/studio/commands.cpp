@@ -246,7 +246,7 @@ const std::array kCommands = {
     C{"view.top", "Top", key(GLFW_KEY_7), key(GLFW_KEY_KP_7), LookFrom{ViewFrom::top}, can_look, nullptr, why_no_look},
     C{"view.nearer", "Nearer", key(GLFW_KEY_PAGE_UP), kNone, Zoom{1.0}, can_look, nullptr, why_no_look},
     C{"view.farther", "Farther", key(GLFW_KEY_PAGE_DOWN), kNone, Zoom{-1.0}, can_look, nullptr, why_no_look},
-    C{"view.cut_half", "Cut away a half", key(GLFW_KEY_C), kNone, ToggleCut{render::Cut::half}, has_work, is_cut<render::Cut::half>, why_no_work},
+    C{"view.cut_half", "Cut away half", key(GLFW_KEY_C), kNone, ToggleCut{render::Cut::half}, has_work, is_cut<render::Cut::half>, why_no_work},
     C{"view.cut_quarter", "Cut away a quarter", key(GLFW_KEY_C, kShift), kNone, ToggleCut{render::Cut::quarter}, has_work, is_cut<render::Cut::quarter>},
     C{"view.wall_map", "Wall thickness map", key(GLFW_KEY_W), kNone, ToggleWallMap{}, always, has_wall_map},
     C{"view.throwing_lines", "Throwing lines", kNone, kNone, ToggleThrowingLines{}, always, has_throwing_lines},
@@ -267,7 +267,7 @@ const std::array kCommands = {
 
     C{"help.show_step", "Show this step", key(GLFW_KEY_G), kNone, ShowStep{}, can_show_step, nullptr, why_no_show},
     C{"help.next_step", "Next step", key(GLFW_KEY_N), kNone, NextStep{}, in_step},
-    C{"help.end_lesson", "End the guide", kNone, kNone, EndLesson{}, in_lesson},
+    C{"help.end_lesson", "End the lesson", kNone, kNone, EndLesson{}, in_lesson},
     C{"help.panels", "Go to the panels", key(GLFW_KEY_F6), kNone, NextColumn{}, can_go_to_panels, has_keys_in_panels, why_view_is_held},
     C{"help.menu", "Open the menu", key(GLFW_KEY_F10), kNone, OpenMenu{}, always},
     C{"help.hint", "First steps", kNone, kNone, ToggleHints{}, always, has_hints},

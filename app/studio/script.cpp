@@ -3,6 +3,7 @@
 #include "app/studio/commands.hpp"
 #include "app/studio/script_facts.hpp"
 #include "app/studio/script_runner.hpp"
+#include "core/nearest_word.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -86,6 +87,21 @@ std::string fault_of_hand(const std::vector<std::string>& words) {
 
 bool is_ascii(char c) { return static_cast<unsigned char>(c) < 128; }
 
+std::vector<std::string_view> action_names() {
+  std::vector<std::string_view> names;
+  for (const Command& command : commands()) names.emplace_back(command.id);
+  return names;
+}
+
+/// The fault of a name that is not one of these; empty: none.
+std::string fault_of_name(std::string_view what, std::string_view word,
+                          const std::vector<std::string_view>& names) {
+  if (std::ranges::find(names, word) != names.end()) return {};
+  const std::string_view nearest = nearest_word(word, names);
+  return fmt::format("expected {}, found {}", what, word)
+      .append(nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest));
+}
+
 /// The fault of the arguments of a command; empty: none. Their number is right.
 std::string fault_of(const std::vector<std::string>& words) {
   const std::string_view command = words[0];
@@ -106,13 +122,14 @@ std::string fault_of(const std::vector<std::string>& words) {
     return expected("a number of steps");
   if (command == "wait" && !is_number(words[1], 0.0)) return expected("0 to 3600 seconds");
   if (command == "key" && !chord_of(words[1])) return expected("a key such as Ctrl+Z, F10 or Esc");
-  if (command == "do" && find_command(words[1]) == nullptr) return expected("an action");
+  if (command == "do") return fault_of_name("an action", words[1], action_names());
   if (command == "type" && !std::ranges::all_of(words[1], is_ascii)) return expected("ASCII text");
   if (command != "expect") return fault_of_hand(words);
-  if (!is_fact(words[1])) return expected("a fact");
+  if (std::string fault = fault_of_name("a fact", words[1], fact_names()); !fault.empty())
+    return fault;
   const bool limit = words.size() == 4;
   if (limit && ((words[2] != "below" && words[2] != "above") || !number_of(words[3])))
-    return "expected below NUMBER or above NUMBER";
+    return fmt::format("expected below NUMBER or above NUMBER, found {} {}", words[2], words[3]);
   return {};
 }
 

@@ -181,8 +181,10 @@ std::optional<std::string> fact(const AppState& state, std::string_view name) {
   return found->read(state);
 }
 
-bool is_fact(std::string_view name) {
-  return std::ranges::find(kFacts, name, &Fact::name) != kFacts.end();
+std::vector<std::string_view> fact_names() {
+  std::vector<std::string_view> names;
+  for (const Fact& one : kFacts) names.push_back(one.name);
+  return names;
 }
 
 }  // namespace clay::studio

@@ -6,12 +6,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace clay::studio {
 
 /// A fact about the window as text; numbers in the shortest form that reads back. Empty for a name
 /// that is not in docs/studio.md.
 [[nodiscard]] std::optional<std::string> fact(const AppState& state, std::string_view name);
-[[nodiscard]] bool is_fact(std::string_view name);
+[[nodiscard]] std::vector<std::string_view> fact_names();
 
 }  // namespace clay::studio

@@ -252,9 +252,8 @@ Result<void> ScriptRunner::save(const Words& words) {
   AppState& state = studio_.state();
   if (!state.document.has_work())
     return failure(ErrorKind::bad_input, "expected a pot to save, found none");
-  const bool saved = save_document(state, words[1]);
-  if (saved) apply(state, CloseDialog{});
-  if (!saved) return failure(ErrorKind::io, fmt::format("{}: could not be saved", words[1]));
+  if (!save_document(state, words[1])) return tl::make_unexpected(*state.last_error);
+  apply(state, CloseDialog{});
   return {};
 }
 

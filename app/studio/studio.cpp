@@ -245,7 +245,8 @@ void draw_overlays(const ViewModel& model, Actions& actions, const Layout& parts
   draw_marks(model, view, verdict);
   draw_export_marks(model, view, verdict);
   draw_path(model, view);
-  draw_at_tool(model, view);
+  const float card_px = card && model.guide.active() ? guide_height() : 0.0f;
+  draw_at_tool(model, view, free.corner_px.y + free.size_px.y - card_px);
   draw_pause(model, view);
   draw_hint(model, actions, free);
   if (card) draw_guide(model, actions, free);

@@ -26,7 +26,7 @@ void add_pot(Report& report, const studio::AppState& state) {
   report.row("Strokes", fmt::format("{}", state.document.work().size() - 1));
   report.row("Height", length_text(state.stroke.view().height_mm, unit));
   report.row("Largest diameter", length_text(state.readings.diameter_mm(), unit));
-  report.row("Clay mass", studio::mass_text(state.readings.account().in_stack_g));
+  report.row("Weight", studio::mass_text(state.readings.account().in_stack_g));
   if (!state.readings.fallen())
     report.row("Capacity to the brim",
                studio::capacity_text(state.readings.account().capacity_mm3));

@@ -104,9 +104,10 @@ Span span_of_pot(const ViewModel& model, double y_mm, float height_px) {
   return {axis - reach, axis + reach};
 }
 
-/// Beside the tool, and beside the pot if there is room.
+/// Beside the tool, and beside the pot if there is room; above `bottom_px`.
 void draw_lines(const ViewModel& model, ImDrawList* draw, const std::vector<std::string>& lines,
-                const render::ToolView& tool, glm::vec2 tool_px, const ViewRect& rect) {
+                const render::ToolView& tool, glm::vec2 tool_px, const ViewRect& rect,
+                float bottom_px) {
   const float em = ImGui::GetFontSize();
   float width = 0.0f;
   for (const std::string& line : lines)
@@ -115,7 +116,7 @@ void draw_lines(const ViewModel& model, ImDrawList* draw, const std::vector<std:
   const Span view{rect.corner_px.x, rect.corner_px.x + rect.size_px.x};
   ImVec2 at(place_beside(span_of(model, tool, tool_px.x),
                          span_of_pot(model, tool.place_mm.y, height), view, width, em),
-            tool_px.y - 2.0f * em);
+            place_within(tool_px.y - 2.0f * em, {rect.corner_px.y, bottom_px}, height, 0.5f * em));
   draw->AddRectFilled({at.x - 0.5f * em, at.y - 0.3f * em},
                       {at.x + width + 0.5f * em, at.y + height + 0.1f * em},
                       ImGui::GetColorU32(ImGuiCol_PopupBg, kOverView), 0.4f * em);
@@ -182,7 +183,7 @@ std::vector<std::string> figures_at(const ViewModel& model, const render::ToolVi
   return model.upside_down() ? figures_at_foot(model, tool) : figures_upright(model, tool);
 }
 
-void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
+void draw_at_tool(const ViewModel& model, const ViewRect& rect, float bottom_px) {
   if (!model.document.has_work() || !model.ui.shows<NoDialog>()) return;
   if (model.readings.fallen()) return;
   const auto tool = model.scene.tool_view(model);
@@ -204,7 +205,7 @@ void draw_at_tool(const ViewModel& model, const ViewRect& rect) {
     draw_floor(model, draw, rect.corner_px.x);
   if (cuts_level(model.tool_in_use().mode)) draw_cut_level(model, draw, tool->place_mm.y, widest);
   draw_pull(model, draw, at);
-  if (near) draw_lines(model, draw, figures_at(model, *tool), *tool, at, rect);
+  if (near) draw_lines(model, draw, figures_at(model, *tool), *tool, at, rect, bottom_px);
   draw->PopClipRect();
 }
 

@@ -14,7 +14,7 @@ namespace clay::studio {
 [[nodiscard]] std::vector<std::string> figures_at(const ViewModel& model,
                                                   const render::ToolView& tool);
 
-/// From left to right [px].
+/// From left to right, or from top to bottom [px].
 struct Span {
   float low = 0.0f, high = 0.0f;
 };
@@ -33,6 +33,11 @@ struct Span {
   if (fits(right_of_both)) return right_of_both;
   if (tool.low <= pot.high && fits(left_of_both)) return left_of_both;
   return fits(right_of_tool) ? right_of_tool : left_of_tool;
+}
+
+/// The upper edge of a box of this height: as wanted, but within the view as far as it fits.
+[[nodiscard]] inline float place_within(float wanted, const Span& view, float height, float gap) {
+  return std::max(view.low + gap, std::min(wanted, view.high - gap - height));
 }
 
 }  // namespace clay::studio

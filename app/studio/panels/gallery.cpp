@@ -60,7 +60,7 @@ void draw_sample(std::size_t index, float width, const ViewModel& model, Actions
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Watch the pot being thrown");
   ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
   if (ImGui::Button("Throw it", {half, 0.0f})) actions.emplace_back(BeginSample{index});
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Begin with the lump, without a guide");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Begin with the lump, without a lesson");
   ImGui::PopID();
   ImGui::EndGroup();
 }
@@ -73,7 +73,7 @@ void draw_lump(const ViewModel& model, Actions& actions) {
   double radius_mm = static_cast<double>(kept.GetFloat(radius_id, 50.0f));
   const bool wide = ImGui::GetContentRegionAvail().x >= kLeastLumpEm * ImGui::GetFontSize();
   ImGui::Columns(wide ? 3 : 1, "lump", false);
-  slider_label("Clay mass", fmt::format("{:.2f} kg", kg));
+  slider_label("Clay weight", fmt::format("{:.2f} kg", kg));
   if (ImGui::SliderFloat("##clay", &kg, static_cast<float>(kLeastClayKg),
                          static_cast<float>(kMostClayKg), "",
                          kSlider | ImGuiSliderFlags_Logarithmic))

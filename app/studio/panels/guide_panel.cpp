@@ -59,7 +59,8 @@ std::string left_out_text(const Guide& guide) {
   std::string names;
   for (std::size_t i = guide.step(); i > 0 && guide.left_out(i - 1); --i)
     names = guide.stroke(i - 1).name + (names.empty() ? "" : ", ") + names;
-  return names.empty() ? names : fmt::format("Left out, the pot needs no change: {}", names);
+  return names.empty() ? names
+                       : fmt::format("Left out, because the pot needs no change: {}", names);
 }
 
 void draw_present_step(const ViewModel& model, Actions& actions) {
@@ -89,8 +90,8 @@ void draw_present_step(const ViewModel& model, Actions& actions) {
     ImGui::SetTooltip("%s", tip_of(show, model).c_str());
   same_line_if_room("Next step");
   if (ImGui::Button("Next step")) actions.emplace_back(NextStep{});
-  same_line_if_room("End the guide");
-  if (ImGui::Button("End the guide")) actions.emplace_back(EndLesson{});
+  same_line_if_room("End the lesson");
+  if (ImGui::Button("End the lesson")) actions.emplace_back(EndLesson{});
   if (plan == nullptr) return;
   const std::string tool = text_of_tool(plan->mode);
   same_line_if_room(tool.c_str());
@@ -104,8 +105,8 @@ void draw_fallen(const ViewModel& model, Actions& actions) {
   const Command& undo = *find_command("edit.undo");
   if (main_button(undo.title, model.colours(), undo.enabled(model)))
     actions.emplace_back(RunCommand{undo.id});
-  same_line_if_room("End the guide");
-  if (ImGui::Button("End the guide")) actions.emplace_back(EndLesson{});
+  same_line_if_room("End the lesson");
+  if (ImGui::Button("End the lesson")) actions.emplace_back(EndLesson{});
 }
 
 void draw_finish(const ViewModel& model, Actions& actions) {
@@ -121,8 +122,8 @@ void draw_finish(const ViewModel& model, Actions& actions) {
   const char* again = guide.shown() ? "Throw it yourself" : "Throw it again";
   same_line_if_room(again);
   if (ImGui::Button(again)) actions.emplace_back(YourTurn{});
-  same_line_if_room("End the guide");
-  if (ImGui::Button("End the guide")) actions.emplace_back(EndLesson{});
+  same_line_if_room("End the lesson");
+  if (ImGui::Button("End the lesson")) actions.emplace_back(EndLesson{});
 }
 
 void draw_arrow(ImDrawList* draw, ImVec2 from, ImVec2 to, ImU32 colour, float size) {

@@ -40,8 +40,9 @@ float draw_menu(const ViewModel& model, Actions& actions);
 void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size_px);
 void draw_banners(const ViewModel& model, Actions& actions, const ViewRect& rect, float top_px);
 void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect);
-/// Draws over the view: figures at the tool, how hard the hand pulls, and the floor to keep.
-void draw_at_tool(const ViewModel& model, const ViewRect& rect);
+/// Draws over the view: figures at the tool, above `bottom_px`, how hard the hand pulls, and the
+/// floor to keep.
+void draw_at_tool(const ViewModel& model, const ViewRect& rect, float bottom_px);
 /// A veil over the view while the wheel is paused.
 void draw_pause(const ViewModel& model, const ViewRect& rect);
 /// The step of the lesson, and what to do in it.

@@ -20,7 +20,7 @@ void draw_pot(const ViewModel& model, Actions& actions) {
   if (readings.fallen()) faint_text(colours, "As it stood before the fall:");
   value_row(colours, "Height", length_text(model.stroke.view().height_mm, unit));
   value_row(colours, "Largest diameter", length_text(readings.diameter_mm(), unit));
-  value_row(colours, "Clay mass", short_mass_text(readings.account().in_stack_g));
+  value_row(colours, "Weight", short_mass_text(readings.account().in_stack_g));
   ImGui::SetNextItemWidth(kToEdge);
   if (const Material* chosen = choose_material(model.settings.material))
     actions.emplace_back(SetMaterial{*chosen});

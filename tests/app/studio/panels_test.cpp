@@ -562,6 +562,14 @@ TEST(PlaceBeside, CoversNeitherToolNorPotWhereThereIsRoom) {
     }
 }
 
+TEST(PlaceWithin, LeavesABoxAsWantedOrMovesItIntoTheView) {
+  const Span view{50.0f, 350.0f};
+  EXPECT_EQ(place_within(100.0f, view, 120.0f, 10.0f), 100.0f);
+  EXPECT_EQ(place_within(20.0f, view, 120.0f, 10.0f), 60.0f);
+  EXPECT_EQ(place_within(300.0f, view, 120.0f, 10.0f), 220.0f) << "ends above the lower edge";
+  EXPECT_EQ(place_within(300.0f, view, 400.0f, 10.0f), 60.0f) << "begins at the top";
+}
+
 TEST_F(Panels, LinesEndBetweenWordsButNotBeforeAUnit) {
   std::string lines;
   (void)frame([&](const ViewModel&, Actions&) {

@@ -29,9 +29,14 @@ TEST(Script, ErrorsNameTheLine) {
   EXPECT_EQ(error_of("wait 1\nkey Hyper+X"),
             "s:2: expected a key such as Ctrl+Z, F10 or Esc, found Hyper+X");
   EXPECT_EQ(error_of("expect colour red"), "s:1: expected a fact, found colour");
+  EXPECT_EQ(error_of("expect heigth_mm 3"),
+            "s:1: expected a fact, found heigth_mm; did you mean height_mm?");
   EXPECT_EQ(error_of("type \xc3\xbc"), "s:1: expected ASCII text, found \xc3\xbc");
   EXPECT_EQ(error_of("do edit.fly"), "s:1: expected an action, found edit.fly");
-  EXPECT_EQ(error_of("expect node over 3"), "s:1: expected below NUMBER or above NUMBER");
+  EXPECT_EQ(error_of("do edit.undoo"),
+            "s:1: expected an action, found edit.undoo; did you mean edit.undo?");
+  EXPECT_EQ(error_of("expect node over 3"),
+            "s:1: expected below NUMBER or above NUMBER, found over 3");
   EXPECT_EQ(error_of("press both"), "s:1: expected left, right or middle, found both");
   EXPECT_EQ(error_of("move 1 2 over soon"),
             "s:1: expected over 0 to 3600 seconds, found over soon");

@@ -239,7 +239,12 @@ TEST_F(Window, ScriptErrorsNameTheLine) {
   ran = run("fly away\n");
   EXPECT_EQ(ran.status, 2) << ran.err;
   ran = run("save FOLDER/pot.txt\n");
+  EXPECT_EQ(ran.status, 2) << ran.err;
+  EXPECT_NE(ran.err.find("pot.txt: expected a name that ends in .work"), std::string::npos)
+      << ran.err;
+  ran = run("save FOLDER/none/pot.work\n");
   EXPECT_EQ(ran.status, 3) << ran.err;
+  EXPECT_NE(ran.err.find("No such file or directory"), std::string::npos) << ran.err;
   EXPECT_EQ(claystack("studio --script /nonexistent").status, 3);
   EXPECT_EQ(claystack("studio nothing.scene.json --screenshot x.png").status, 3);
   ran = run("open nothing.pot.json\n");
@@ -252,6 +257,9 @@ TEST_F(Window, ScriptErrorsNameTheLine) {
   ran = run("move 9999 10\npress left\n");
   EXPECT_EQ(ran.status, 1) << "outside the window";
   EXPECT_EQ(claystack("studio --size 3x3 --screenshot x.png").status, 2);
+  ran = claystack("studio a.pot.json b.pot.json");
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_NE(ran.err.find("b.pot.json; the window opens one file\n"), std::string::npos) << ran.err;
   EXPECT_EQ(claystack("studio " + test::sample("vase.scene.json") + " --screenshot x.stl").status,
             2);
   EXPECT_EQ(run("screenshot FOLDER/pot.json\n").status, 2);
