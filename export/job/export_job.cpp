@@ -121,7 +121,8 @@ class FilesExport {
     if (known == nullptr || known->kind != asked.kind)
       return wrong(asked.path, "expected a name that ends in " + section_endings());
     if (!pot_.collapse || known->name == "svg") return {};
-    return wrong(asked.path, std::string(kStanding) + ", of which a drawing is possible as .svg");
+    return wrong(asked.path,
+                 std::string(kStanding) + "; of a collapsed pot only an .svg drawing is possible");
   }
 
   static Result<void> wrong(const std::string& place, const std::string& text) {

@@ -165,9 +165,11 @@ class GoalSearch {
     for (const double factor : {scale_.radius, scale_.height})
       if (!(factor < kFarthest && factor > 1.0 / kFarthest))
         return failure(ErrorKind::bad_input,
-                       first.name + ": expected a goal for which lengths change by at most " +
-                           nine_digit_text(kFarthest) + " times, found " +
-                           nine_digit_text(first.target));
+                       first.name + ": expected a goal that scales the pot by a factor from " +
+                           short_number_text(1.0 / kFarthest) + " to " +
+                           short_number_text(kFarthest) + ", found " +
+                           nine_digit_text(first.target) + ", a factor of " +
+                           short_number_text(factor));
     return {};
   }
 

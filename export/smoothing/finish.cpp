@@ -73,14 +73,15 @@ class FootCut {
                                     ", the radius of the ring, found " + mm(ring_.width_mm));
     const double narrowest = narrowest_mm();
     if (ring_.diameter_mm && outside_ > narrowest)
-      return wrong("foot ring", "expected a diameter of at most " + at_most_mm(2.0 * narrowest) +
-                                    ", that of the pot over the depth of the ring, found " +
-                                    mm(2.0 * outside_));
+      return wrong("foot ring",
+                   "expected a diameter of at most " + at_most_mm(2.0 * narrowest) +
+                       ", the narrowest of the pot within the depth of the ring, found " +
+                       mm(2.0 * outside_));
     // A ring as wide as the foot, of a pot that narrows above it.
     if (outside_ - ring_.width_mm >= narrowest)
       return wrong("foot ring", "expected a width above " + at_least_mm(outside_ - narrowest) +
-                                    ", because the pot narrows by as much over the depth of the "
-                                    "ring, found " +
+                                    ", because the pot narrows by that much within the depth of "
+                                    "the ring, found " +
                                     mm(ring_.width_mm));
     return {};
   }
