@@ -250,13 +250,14 @@ class VanishingFalcon final : public FalconGadget {
  public:
   VanishingFalcon(const FalconModelSettings& model, int looks)
       : FalconGadget(model, on_circle), looks_(looks) {}
-  bool unplugged() const override { return looks_ == 0 || --looks_ == 0; }
+  bool unplugged() const override { return gone() || --looks_ == 0; }
+  [[nodiscard]] bool gone() const { return looks_ == 0; }
 
  private:
   mutable int looks_;
 };
 
-// In each phase of the start, the firmware included, of operation and of the end.
+// In each phase of the start, the firmware included, and of operation.
 TEST_F(FalconRig, ReportsALossAtAnyTime) {
   FalconModelSettings running;
   running.loaded = running.homed = true;
@@ -269,18 +270,24 @@ TEST_F(FalconRig, ReportsALossAtAnyTime) {
     for (int looks = 1; lost; looks += stride) {
       VanishingFalcon gadget(model, looks);
       UsbPlug plug(testbed_.get(), gadget);
+      const auto is_gone = [&] {
+        const std::scoped_lock held(gadget.lock);
+        return gadget.gone();
+      };
       DeviceError error{DeviceFault::unplugged, ""};
       if (auto opened = open_device("falcon", settings_)) {
-        for (int i = 0; i < 50 && tick(**opened, {1, 0, 0}).state != DeviceState::fault; ++i) {
-        }
+        const auto run = [&] {
+          for (int i = 0; i < 50 && tick(**opened, {1, 0, 0}).state != DeviceState::fault; ++i) {
+          }
+        };
+        run();
+        lost = is_gone();
+        if (lost) run();  // it may have gone after the last tick
         error = (*opened)->problem();
         (*opened)->stop();
       } else {
         error = opened.error();
-      }
-      {
-        const std::scoped_lock held(gadget.lock);
-        lost = gadget.unplugged();
+        lost = is_gone();
       }
       if (lost) {
         EXPECT_EQ(error.fault, DeviceFault::unplugged) << looks << ": " << error.message;
