@@ -1,6 +1,6 @@
 #include "app/cli/check.hpp"
+#include "app/cli/pot_input.hpp"
 
-#include "claystack/engine/files.hpp"
 #include "claystack/export/job.hpp"
 #include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
@@ -101,7 +101,7 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command,
                      fmt::format("{}: expected a mesh for {}, found a pot", command.file, option));
   Progress progress(console, "check", 0);
   progress.stage("reading");
-  const auto pot = parse_pot(bytes, command.file);
+  const auto pot = pot_from(bytes, command.file);
   if (!pot) return tl::make_unexpected(pot.error());
   if (pot->collapse)
     return not_examined(MeshState::will_not_print, "collapsed",
