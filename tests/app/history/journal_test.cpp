@@ -109,6 +109,22 @@ TEST(Journal, ContinuesAfterARecovery) {
   EXPECT_TRUE(recoverable(folder.path).empty());
 }
 
+/// Otherwise the lines after the recovery would follow an open stroke, which no reader accepts.
+TEST(Journal, EndsTheStrokeThatWasInProgress) {
+  const Folder folder;
+  std::filesystem::path path;
+  {
+    Work work = kept_work(folder);
+    path = work.journal()->path();
+    test::record(press_stroke(1), *work.begin_stroke(small_scene()).value().sink);
+  }
+  (void)recover(path).value().add(small_scene(), press_stroke(2)).value();
+  const Work work = recover(path).value();
+  ASSERT_EQ(work.size(), 3u);
+  EXPECT_EQ(work.record().nodes[1].poses, press_stroke(1));
+  EXPECT_EQ(work.record().nodes[2].poses, press_stroke(2));
+}
+
 TEST(Journal, DoesNotOfferSavedOrEmptyWorks) {
   const Folder folder;
   { const Work nothing = kept_work(folder); }

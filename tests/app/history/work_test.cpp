@@ -338,6 +338,13 @@ TEST(PotCache, EvictsTheLeastRecentlyUsed) {
   EXPECT_EQ(cache.size(), 3u);
 }
 
+TEST(PotCache, CountsAPotThatIsPutAgainOnce) {
+  const auto pot = std::make_shared<const Pot>(Wheel::build(small_scene()).value().pot());
+  PotCache cache(3 * (sizeof(Pot) + 30 * sizeof(Ring)));
+  for (const std::size_t node : {1u, 2u, 3u, 3u, 3u}) cache.put(node, pot);
+  EXPECT_EQ(cache.size(), 3u);
+}
+
 TEST(PotCache, KeepsTheNewestPotWithoutAnyMemory) {
   const auto pot = std::make_shared<const Pot>(Wheel::build(small_scene()).value().pot());
   PotCache cache(0);

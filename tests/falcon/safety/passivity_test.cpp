@@ -261,33 +261,49 @@ TEST(Passivity, LittleEnergyIsOnlyDamped) {
   EXPECT_EQ(controller.state(), PassivityState::damping);
 }
 
+/// A hand that gets a little energy: in without force, then out with 0.9 N until a debt arises.
+struct SmallDebts {
+  PassivityLaw controller = controller_of(kLoop);
+  std::int64_t time_us = 0;
+  double x = 0.0;
+
+  void tick(double force) { (void)controller.tick(time_us += 1000, along(x), along(force)); }
+  void pay() {
+    for (int k = 0; k < 20; ++k, tick(1e-6)) x -= 0.05;
+    EXPECT_EQ(controller.state(), PassivityState::watching) << "motion pays the debt";
+  }
+  void give() {
+    tick(0.0);
+    pay();
+    for (int k = 0; k < 20 && controller.state() == PassivityState::watching; ++k, tick(0.9))
+      x += 0.05;
+  }
+};
+
 // A debt counts when it arises, and again when its contact ends with a gain. The third reduces the
 // force: here during the second contact, although each gives less than 0.1 mJ.
 TEST(Passivity, TheThirdSmallDebtReducesTheForce) {
-  PassivityLaw controller = controller_of(kLoop);
-  std::int64_t time_us = 0;
-  const auto tick = [&](double x, double force) {
-    (void)controller.tick(time_us += 1000, along(x), along(force));
-  };
-  // In without force, then out with 0.9 N until a debt arises; there the hand rests.
-  const auto give = [&](double from_mm) {
-    double x = from_mm;
-    tick(x, 0.0);
-    for (int k = 0; k < 20; ++k) tick(x -= 0.05, 1e-6);
-    EXPECT_EQ(controller.state(), PassivityState::watching) << "motion pays the debt";
-    for (int k = 0; k < 20 && controller.state() == PassivityState::watching; ++k)
-      tick(x += 0.05, 0.9);
-    return x;
-  };
-  const double x = give(0.0);
-  tick(x, 0.0);
-  EXPECT_FALSE(controller.observer().in_contact());
-  EXPECT_GT(controller.observer().last_contact_mj(), controller.observer().tolerance_mj());
-  EXPECT_LT(controller.observer().last_contact_mj(), 0.1);
-  EXPECT_EQ(controller.state(), PassivityState::damping);
-  give(x);
-  EXPECT_TRUE(controller.observer().in_contact());
-  EXPECT_EQ(controller.state(), PassivityState::yielding);
+  SmallDebts hand;
+  hand.give();
+  hand.tick(0.0);
+  const EnergyObserver& observer = hand.controller.observer();
+  EXPECT_FALSE(observer.in_contact());
+  EXPECT_GT(observer.last_contact_mj(), observer.tolerance_mj());
+  EXPECT_LT(observer.last_contact_mj(), 0.1);
+  EXPECT_EQ(hand.controller.state(), PassivityState::damping);
+  hand.give();
+  EXPECT_TRUE(observer.in_contact());
+  EXPECT_EQ(hand.controller.state(), PassivityState::yielding);
+}
+
+TEST(Passivity, AQuietIntervalForgetsSmallDebts) {
+  SmallDebts hand;
+  hand.give();
+  hand.tick(0.0);
+  hand.pay();
+  for (int k = 0; k < 2000; ++k) hand.tick(0.0);
+  hand.give();
+  EXPECT_EQ(hand.controller.state(), PassivityState::damping);
 }
 
 TEST(Passivity, OscillationReducesTheForce) {
