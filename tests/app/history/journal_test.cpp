@@ -282,6 +282,23 @@ TEST(Journal, RecoversEverythingBeforeADamagedLine) {
   EXPECT_EQ(test::read_text(path.string() + ".damaged"), text);
 }
 
+/// The lines that cannot be read may be strokes after the save.
+TEST(Journal, OffersASavedWorkIfItsJournalIsDamaged) {
+  const Folder folder;
+  std::filesystem::path path;
+  {
+    Work work = kept_work(folder);
+    path = work.journal()->path();
+    (void)work.add(small_scene(), press_stroke(1)).value();
+    ASSERT_TRUE(work.save(folder.scratch.file("saved.work")));
+  }
+  std::ofstream(path, std::ios::app) << "{ damaged\n";
+  const auto all = recoverable(folder.path);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_TRUE(all[0].damage);
+  EXPECT_TRUE(std::filesystem::exists(path));
+}
+
 TEST(Journal, KeepsTheCopyOfAnEarlierDamage) {
   const Folder folder;
   std::filesystem::path path;
