@@ -49,18 +49,23 @@ solid::TriangleMesh in_float32(solid::TriangleMesh mesh) {
   return mesh;
 }
 
-void check_solid(const solid::TriangleMesh& mesh, Verdict& verdict) {
-  verdict.mesh = solid::check_mesh(mesh);
-  verdict.state = state_of(mesh, verdict.mesh);
+/// Refused if the mesh does not fit into memory, which is no fault of the pot.
+Result<void> check_solid(const solid::TriangleMesh& mesh, Verdict& verdict) {
+  return report_on(mesh).map([&](solid::MeshReport report) {
+    verdict.mesh = std::move(report);
+    verdict.state = state_of(mesh, verdict.mesh);
+  });
 }
 
-Verdict verdict_on(const solid::ExportReport& report) {
+Result<Verdict> verdict_on(const solid::ExportReport& report) {
   const solid::Profile& profile = report.section.profile();
   Verdict verdict;
-  if (solid::triangle_count(profile, kFewestSegments) <= solid::kMaxTriangles)
-    check_solid(in_float32(solid::revolve(profile, check_segments(profile))), verdict);
-  else
-    verdict.examined = false;
+  verdict.examined = solid::triangle_count(profile, kFewestSegments) <= solid::kMaxTriangles;
+  if (verdict.examined) {
+    const auto checked =
+        check_solid(in_float32(solid::revolve(profile, check_segments(profile))), verdict);
+    if (!checked) return tl::make_unexpected(checked.error());
+  }
   // Facets are slightly wider.
   verdict.mesh.size_mm = report.size.extents_mm;
   verdict.wall_mm = report.walls.min_wall_mm;
@@ -115,13 +120,16 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command,
   options.wall_spacing_mm = solid::kWallTableSpacingMm;
   const auto report =
       solid::run_export(*pot, {}, options, [&](std::string_view stage) { progress.stage(stage); });
-  if (!report && report.error().kind == ErrorKind::io)
-    return failure(ErrorKind::io, command.file + ": " + report.error().message);
+  const auto refused = [&](const Error& error) {
+    return failure(error.kind, command.file + ": " + error.message);
+  };
+  if (!report && report.error().kind == ErrorKind::io) return refused(report.error());
   if (!report) return not_examined(MeshState::will_not_print, "no solid", report.error().message);
   progress.stage("checking");
-  Verdict verdict = verdict_on(*report);
+  auto verdict = verdict_on(*report);
+  if (!verdict) return refused(verdict.error());
   if (pot->rounding)
-    verdict.notes.push_back(fmt::format("radii rounded to {} mm", pot->rounding->to_mm));
+    verdict->notes.push_back(fmt::format("radii rounded to {} mm", pot->rounding->to_mm));
   return verdict;
 }
 

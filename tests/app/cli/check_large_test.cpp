@@ -137,6 +137,24 @@ TEST(MemoryLimit, RefusesAPotThatDoesNotFitInAdvance) {
   EXPECT_EQ(done.status, 0) << done.err;
 }
 
+TEST(MemoryLimit, GivesNoVerdictOnAPotWhoseMeshDoesNotFit) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("jug.pot.json"), tall = folder.file("tall.pot.json");
+  ASSERT_EQ(claystack("import -q " + sample("drawings/jug.svg") + " -o " + pot).status, 0);
+  ASSERT_EQ(claystack("check -q " + pot).status, 0);
+  const Ran small = claystack("check --memory 8MiB " + pot);
+  EXPECT_EQ(small.status, 3) << small.out;
+  EXPECT_NE(small.err.find("jug.pot.json: checking "), std::string::npos) << small.err;
+  EXPECT_NE(small.err.find("available within the limit --memory"), std::string::npos) << small.err;
+  EXPECT_EQ(small.out.find("will not print"), std::string::npos) << small.out;
+  write_text(tall, tall_pot(600'000));
+  const Ran large = claystack("check --memory 60MiB " + tall);
+  EXPECT_EQ(large.status, 3) << large.out;
+  EXPECT_NE(large.err.find("tall.pot.json: reading the pot needs about 0.058 GB"),
+            std::string::npos)
+      << large.err;
+}
+
 TEST(MemoryLimit, EndsWorkThatGrowsBeyondIt) {
   // The estimate does not cover what an export makes of the pot.
   const ScratchFolder folder;
