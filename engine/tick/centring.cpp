@@ -141,6 +141,7 @@ void centre(const StepPlan& plan, const ClayStack& stack, const ToolState& tool,
         hold_foot(shell, stack.ring_height_mm(), first, by);
       },
       [](std::size_t, std::span<float>) {});
+  if (outward && plan.clay.thin_wall_yields) shift.keep_thickness(stack, over.from(), over.to());
   for (std::size_t side = 0; side < 2; ++side) {
     TouchedRings& rings = removals[side].contact.rings;
     for (std::size_t i = rings.from(); i < rings.to(); ++i) {

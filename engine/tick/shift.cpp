@@ -193,6 +193,20 @@ void Shift::keep_quanta(std::span<const Ring> rings, std::size_t first,
   }
 }
 
+/// The stretch rounds up to single precision, which would push a wall between two tools into the
+/// outer one.
+void Shift::keep_thickness(const ClayStack& stack, std::size_t first, std::size_t end) noexcept {
+  for (std::size_t i = std::max(first, from_); i < std::min(end, to()); ++i) {
+    const Ring &was = stack.rings()[i], is = after(i, was);
+    const double wall = wall_mm(was);
+    if (!(wall_mm(is) > wall)) continue;
+    const Quanta less = is.outer2 - quanta_from_radius(is.inner_mm() + wall);
+    if (less <= 0) continue;
+    changes_[i - from_].outer2 -= less;
+    raised_total_ += less;
+  }
+}
+
 /// A wall that sinks needs its clay above it. Without that it does not sink: it thins, or, if it
 /// would have to stretch, stays in place.
 void Shift::settle(const ClayStack& stack, bool stretch) noexcept {

@@ -77,6 +77,9 @@ class Shift {
     }
     settle(stack, push.stretch);
   }
+  /// Of the rings first..end-1, those that have become thicker keep their thickness: their outer
+  /// surface moves by less, and the clay becomes height.
+  void keep_thickness(const ClayStack& stack, std::size_t first, std::size_t end) noexcept;
 
  private:
   static constexpr std::size_t kRows = 128;
