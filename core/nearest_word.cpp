@@ -39,4 +39,9 @@ std::string_view nearest_word(std::string_view word,
   return nearest;
 }
 
+std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates) {
+  const std::string_view nearest = nearest_word(word, candidates);
+  return nearest.empty() ? std::string() : "; did you mean " + std::string(nearest) + "?";
+}
+
 }  // namespace clay

@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -9,5 +10,8 @@ namespace clay {
 /// length. Empty: none is near.
 [[nodiscard]] std::string_view nearest_word(std::string_view word,
                                             const std::vector<std::string_view>& candidates);
+/// "; did you mean WORD?" for a mistyped word, or an empty text.
+[[nodiscard]] std::string suggestion(std::string_view word,
+                                     const std::vector<std::string_view>& candidates);
 
 }  // namespace clay

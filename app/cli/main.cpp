@@ -5,6 +5,7 @@
 #include "app/cli/quantity.hpp"
 #include "app/cli/usage.hpp"
 #include "claystack/core/atomic_file.hpp"
+#include "core/nearest_word.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -196,7 +197,7 @@ clay::Result<void> check_command_name(const CLI::App& app, std::string_view name
   return clay::failure(clay::ErrorKind::bad_input,
                        std::string("expected a command (claystack --help lists them), found ")
                            .append(name)
-                           .append(suggestion(name, names)));
+                           .append(clay::suggestion(name, {names.begin(), names.end()})));
 }
 
 /// `claystack help COMMAND` is `claystack COMMAND --help`.

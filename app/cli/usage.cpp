@@ -65,7 +65,7 @@ std::string unknown_argument(const CLI::App& command, std::string_view word) {
   if (std::filesystem::exists(word, ignored))
     return fmt::format("unknown option {}; write ./{} for the file of this name", word, word);
   const std::string_view option = word.substr(0, word.find_first_of("=,]"));
-  return fmt::format("unknown option {}{}", word, suggestion(option, names));
+  return fmt::format("unknown option {}{}", word, suggestion(option, {names.begin(), names.end()}));
 }
 
 /// "expected pot (NAME.pot.json or - for standard input), found none": of an argument without
@@ -173,16 +173,11 @@ void refuse_empty_values(CLI::App& command) {
     if (option->get_items_expected_max() > 0) option->check(check);
 }
 
-std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
-  const std::string_view nearest = nearest_word(word, {candidates.begin(), candidates.end()});
-  return nearest.empty() ? std::string() : fmt::format("; did you mean {}?", nearest);
-}
-
 CLI::Validator one_of(const std::vector<std::string>& words) {
   return {[words](const std::string& text) {
             if (std::ranges::find(words, text) != words.end()) return std::string();
             return fmt::format("expected {}, found {}{}", choice_of(words), text,
-                               suggestion(text, words));
+                               suggestion(text, {words.begin(), words.end()}));
           },
           fmt::format("{{{}}}", fmt::join(words, ","))};
 }

@@ -28,9 +28,6 @@ inline void begin_group(CLI::App& command, const char* heading) {
 [[nodiscard]] ValueCheck above_zero();
 /// Accepts a whole number within the range.
 [[nodiscard]] ValueCheck in_whole_range(std::uint64_t low, std::uint64_t high);
-/// "; did you mean WORD?" for a mistyped word, or an empty text.
-[[nodiscard]] std::string suggestion(std::string_view word,
-                                     const std::vector<std::string>& candidates);
 /// Accepts one of these words. Help and completions list them.
 [[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);
 

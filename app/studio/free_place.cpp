@@ -73,7 +73,7 @@ double free_height(const render::PotView& pot, const Tool& tool, double rho, dou
 /// Radius over height: the slope of the wall's middle line beside the tool, by least squares, up to
 /// 60 degrees. Bumps of the wall's thickness, which a pinch is to thin, do not count.
 double lean_at(const render::PotView& pot, const Tool& tool, double y_mm) {
-  constexpr double kMostLean = 1.732;
+  constexpr double kMostLean = 1.732;  // tan 60 degrees
   const Reach reach(pot, tool, y_mm);
   double count = 0.0, sum_row = 0.0, sum_middle = 0.0, sum_rows = 0.0, sum_both = 0.0;
   for (std::size_t row = reach.first(); row < reach.last(); ++row) {

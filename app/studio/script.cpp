@@ -97,9 +97,7 @@ std::vector<std::string_view> action_names() {
 std::string fault_of_name(std::string_view what, std::string_view word,
                           const std::vector<std::string_view>& names) {
   if (std::ranges::find(names, word) != names.end()) return {};
-  const std::string_view nearest = nearest_word(word, names);
-  return fmt::format("expected {}, found {}", what, word)
-      .append(nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest));
+  return fmt::format("expected {}, found {}{}", what, word, suggestion(word, names));
 }
 
 /// The fault of the arguments of a command; empty: none. Their number is right.

@@ -205,7 +205,8 @@ void StrokeController::begin_with_device() {
     news_.error = begun.error();
 }
 
-/// Where the fingers of a pinch go: of the mouse, they stand farther apart where the wall leans.
+/// The gap to which the fingers of a pinch move. Of the mouse and the gamepad, it is wider where
+/// the wall leans; an arm has its own gap.
 double StrokeController::aimed_gap_mm() const {
   if (device_ || wheel_->plan().mode != ToolMode::pinch || status_.ticks == 0)
     return closed_gap_mm_;

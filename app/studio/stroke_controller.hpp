@@ -58,7 +58,8 @@ class StrokeController {
   /// Begins a stroke of the mouse, unless a device is in use.
   Result<void> press(const MousePress& press);
   void aim(const MouseAim& aim) noexcept { mouse_.aim(aim); }
-  /// The fingers of a pinch move to this gap, at their speed; it is that at an upright wall.
+  /// The fingers of a pinch move at their speed to this gap, or to a wider one at a wall that
+  /// leans.
   void close_to(double gap_mm) noexcept { closed_gap_mm_ = gap_mm; }
   void command(const servo::Command& command) noexcept;
   /// A pause separates tool and clay, in this stroke and in those that follow.

@@ -43,7 +43,7 @@ struct PinchedRing {
   std::array<RingContact, 2> touches;
   std::array<double, 2> eps_mm;  ///< how far each surface moves
 };
-/// So many rings yield at once.
+/// Number of rings that yield in one call.
 constexpr std::size_t kBatch = Yielding::kMost / 2;
 
 template <Model model>
@@ -86,6 +86,18 @@ void note(ToolRemoval& removal, std::size_t i, Quanta removed, double eps_mm) no
   if constexpr (model == Model::conserving) rings.depth(i) -= eps_mm;
 }
 
+/// The inner tool finds what the outer one has left.
+template <Model model>
+void remove(PinchedRing& r, std::size_t i, ToolRemoval& outer, ToolRemoval& inner) noexcept {
+  if (outer.contact.rings.has(i)) {
+    const Quanta removed = take_outside(r.ring, r.ring.outer_mm(), r.eps_mm[0]);
+    r.ring.outer2 -= removed;
+    note<model>(outer, i, removed, r.eps_mm[0]);
+  }
+  if (inner.contact.rings.has(i))
+    note<model>(inner, i, take_inside(r.ring, r.ring.inner_mm(), r.eps_mm[1]), r.eps_mm[1]);
+}
+
 }  // namespace
 
 template <Model model>
@@ -114,14 +126,9 @@ void compute_pinch_removal(const RemovalPlan& plan, const ClayStack& stack, doub
     if constexpr (!paper) limit_to_yield(plan, dt_s, least_wall, rings);
     for (std::size_t k = 0; k < rings.size(); ++k) {
       const std::size_t i = begin + k;
-      auto& [ring, wall, touches, eps] = rings[k];
-      if (rules != nullptr && ring.inner2 == 0 && rules->of_floor(i, stack.rings())) eps[1] = 0.0;
-      if (out.has(i)) {
-        const Quanta removed = take_outside(ring, ring.outer_mm(), eps[0]);
-        ring.outer2 -= removed;
-        note<model>(outer, i, removed, eps[0]);
-      }
-      if (in.has(i)) note<model>(inner, i, take_inside(ring, ring.inner_mm(), eps[1]), eps[1]);
+      const bool closed = rules != nullptr && rings[k].ring.inner2 == 0;
+      if (closed && rules->of_floor(i, stack.rings())) rings[k].eps_mm[1] = 0.0;
+      remove<model>(rings[k], i, outer, inner);
     }
   }
 }

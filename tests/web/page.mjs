@@ -201,7 +201,7 @@ async function incomplete(browser) {
     await page.close();
     own.close();
   }
-  const own = await serve(site, new Set(['/worker.js']));
+  const own = await serve(site, new Set(['/worker.js', '/style.css']));  // it starts without them
   const page = await openPage(browser, kDesktop, '', own.address);
   await page.evaluate(() => checkMesh({name: 'some.stl', bytes: new Uint8Array(1)}));
   await page.shows('report-text', /^worker.js could not be loaded$/);

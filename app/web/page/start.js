@@ -4,9 +4,11 @@
 
 window.addEventListener('error', function (event) {
   var message = document.getElementById('message');
-  if (message.textContent !== 'Loading...') return;
-  var lost = event.target.src;
-  var name = (lost || event.filename || '').split('/').pop();
+  var lost = event.target.tagName === 'SCRIPT';
+  var file = lost ? event.target.src : event.filename || '';
+  // The page starts without its style sheet, and whatever a script of an extension does.
+  if (message.textContent !== 'Loading...' || file.indexOf(location.origin) !== 0) return;
+  var name = file.split('/').pop();
   message.textContent = lost ? 'Claystack could not start: ' + name + ' could not be loaded'
     : 'This browser cannot run ' + name + ' (' + event.message +
       '). Claystack needs a recent Chromium, Firefox or Safari.';

@@ -42,6 +42,15 @@ Work kept_work(const Folder& folder) {
   return work;
 }
 
+/// The journal of a work that `change` has changed and that is open no more.
+template <class Change>
+std::filesystem::path journal_left(const Folder& folder, Change change) {
+  Work work = kept_work(folder);
+  const std::filesystem::path path = work.journal()->path();
+  change(work);
+  return path;
+}
+
 TEST(Journal, RecordsEveryEvent) {
   const Folder folder;
   std::filesystem::path path;
@@ -112,12 +121,9 @@ TEST(Journal, ContinuesAfterARecovery) {
 /// Otherwise the lines after the recovery would follow an open stroke, which no reader accepts.
 TEST(Journal, EndsTheStrokeThatWasInProgress) {
   const Folder folder;
-  std::filesystem::path path;
-  {
-    Work work = kept_work(folder);
-    path = work.journal()->path();
+  const auto path = journal_left(folder, [](Work& work) {
     test::record(press_stroke(1), *work.begin_stroke(small_scene()).value().sink);
-  }
+  });
   (void)recover(path).value().add(small_scene(), press_stroke(2)).value();
   const Work work = recover(path).value();
   ASSERT_EQ(work.size(), 3u);
@@ -262,13 +268,10 @@ TEST(Journal, AFullDiskDoesNotStopTheWork) {
 
 TEST(Journal, RecoversEverythingBeforeADamagedLine) {
   const Folder folder;
-  std::filesystem::path path;
-  {
-    Work work = kept_work(folder);
-    path = work.journal()->path();
+  const auto path = journal_left(folder, [](Work& work) {
     (void)work.add(small_scene(), press_stroke(1)).value();
     (void)work.add(small_scene(), press_stroke(2)).value();
-  }
+  });
   std::string text = test::read_text(path);
   const auto second = text.find("{\"node\":2");
   text.replace(text.find("\"x\":[", second), 6, "\"x\":[9");
@@ -285,13 +288,10 @@ TEST(Journal, RecoversEverythingBeforeADamagedLine) {
 /// The lines that cannot be read may be strokes after the save.
 TEST(Journal, OffersASavedWorkIfItsJournalIsDamaged) {
   const Folder folder;
-  std::filesystem::path path;
-  {
-    Work work = kept_work(folder);
-    path = work.journal()->path();
+  const auto path = journal_left(folder, [&](Work& work) {
     (void)work.add(small_scene(), press_stroke(1)).value();
     ASSERT_TRUE(work.save(folder.scratch.file("saved.work")));
-  }
+  });
   std::ofstream(path, std::ios::app) << "{ damaged\n";
   const auto all = recoverable(folder.path);
   ASSERT_EQ(all.size(), 1u);
@@ -301,11 +301,7 @@ TEST(Journal, OffersASavedWorkIfItsJournalIsDamaged) {
 
 TEST(Journal, KeepsTheCopyOfAnEarlierDamage) {
   const Folder folder;
-  std::filesystem::path path;
-  {
-    Work work = kept_work(folder);
-    path = work.journal()->path();
-  }
+  const auto path = journal_left(folder, [](Work&) {});
   for (const char* damage : {"first", "second"}) {
     std::ofstream(path, std::ios::binary | std::ios::app) << damage << "\n";
     ASSERT_TRUE(recover(path));
@@ -341,12 +337,8 @@ TEST(Journal, ReportsAMissingFolder) {
 // Opening a pipe without a writer blocks for ever.
 TEST(Journal, SkipsAPipeInTheFolder) {
   const Folder folder;
-  std::filesystem::path journal;
-  {
-    Work work = kept_work(folder);
-    journal = work.journal()->path();
-    (void)work.add(small_scene(), press_stroke(1)).value();
-  }
+  const auto journal = journal_left(
+      folder, [](Work& work) { (void)work.add(small_scene(), press_stroke(1)).value(); });
   const std::filesystem::path pipe = folder.path / "pipe.work";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_EQ(test::status_of_child([&] {

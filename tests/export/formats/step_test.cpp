@@ -55,7 +55,7 @@ TEST(Step, ACupIsExactInBothKinds) {
 }
 
 /// A rod of 20 000 rings, alternately 40 and 42 mm in radius. The volume is a sum with a term for
-/// each face. Rounding makes a plain sum of so many terms wrong by more than 1e-13 of the volume.
+/// each face. In a plain sum the rounding errors add up to more than 1e-13 of the volume.
 TEST(Step, TheVolumeOfManyFacesIsSummedWithoutLoss) {
   constexpr int kRings = 20'000;
   constexpr double kHeightMm = 0.0051;
