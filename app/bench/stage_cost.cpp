@@ -45,6 +45,9 @@ std::optional<SceneSpec> with_rule(SceneSpec scene, std::string_view rule) {
   else if (rule == "pressed rim" &&
            (scene.tool.mode == ToolMode::press || scene.tool.mode == ToolMode::trim))
     clay.heave = clay.rim_sinks = true;
+  else if (rule == "narrow rim" &&
+           (scene.tool.mode == ToolMode::press || scene.tool.mode == ToolMode::pinch))
+    clay.narrow_rim_closes = true;
   else
     return std::nullopt;
   return scene;

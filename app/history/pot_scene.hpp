@@ -14,8 +14,11 @@ inline constexpr double kFingerMm = 90.0;
 /// The clay of a new work: the six rules and all options.
 [[nodiscard]] inline ClaySpec usual_clay() {
   constexpr double kFloorMm = 5.0;  // usual for a pot that is not trimmed on its foot
-  return {
-      .floor_mm = kFloorMm, .finger_mm = kFingerMm, .thin_wall_yields = true, .rim_sinks = true};
+  return {.floor_mm = kFloorMm,
+          .finger_mm = kFingerMm,
+          .thin_wall_yields = true,
+          .rim_sinks = true,
+          .narrow_rim_closes = true};
 }
 /// The usual settings, for a lump or a pot of this height.
 [[nodiscard]] SceneSpec usual_scene(double height_mm);

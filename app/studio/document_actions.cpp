@@ -68,10 +68,11 @@ void Performer::operator()(const BeginWork& begin) const {
 void Performer::operator()(const BeginSample& sample) const {
   auto scene = scene_of(samples().at(sample.index));
   if (!scene) return;
-  // New works have a finger, and their rim sinks; the session of the sample was thrown without.
+  // New works have these options; the session of the sample was thrown without.
   if (scene->clay) {
     scene->clay->finger_mm = history::kFingerMm;
     scene->clay->rim_sinks = true;
+    scene->clay->narrow_rim_closes = true;
   }
   (*this)(BeginWork{*scene, nullptr, {}});
 }

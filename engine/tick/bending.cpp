@@ -84,7 +84,7 @@ double speed_into(Side side, const Motion& motion) noexcept {
 
 void bend_wall(const StepPlan& plan, const Motion& motion, const ClayStack& stack,
                const Contact& contact, const Band& band, WallRadii& walls, std::span<double> sums,
-               Shift& shift) noexcept {
+               double rim_mm2, Shift& shift) noexcept {
   const double min_wall = plan.removal.min_wall_mm;
   const bool yields = plan.clay.thin_wall_yields;
   const Shell shell =
@@ -94,7 +94,7 @@ void bend_wall(const StepPlan& plan, const Motion& motion, const ClayStack& stac
   const double about = std::max(kAbout * shell.wall_mm / h, 0.5);
   const MeanGive gives(contact.rings, shell.share, about, sums);
   const Shift::Push push{contact.side == Side::expansive, (plan.clay.rules & kHoop) != 0, min_wall,
-                         yields};
+                         rim_mm2, yields};
   shift.lay(
       stack, walls, band, shell, push,
       [&](std::size_t first, std::span<float> by) {

@@ -94,16 +94,19 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
       if (two || kOneToolBand<rules>)
         make_in_place(work.bands[k], [&] { return band_of(plan.tool, stack, hip_y, contact); });
     }
+  const bool closes = plan.clay.narrow_rim_closes && !press.trim;
+  work.rim_mm2 = closes ? raised_rim_mm2(stack, plan.tool, hip_y, removals) : kAnyRim;
   if (two) {
     if ((rules & kShift) && !press.trim)
-      centre(plan, stack, press.tool, work.bands, removals, work.walls, work.over, work.shift);
+      centre(plan, stack, press.tool, work.bands, removals, work.walls, work.rim_mm2, work.over,
+             work.shift);
     compute_pinch_removal<Model::conserving>(plan.removal, stack, press.tool.gap_mm, dt_s,
                                              removals[0], removals[1], &squeeze);
   } else {
     Contact& contact = removals[0].contact;
     if ((rules & kShift) && !press.trim)
       bend_wall(plan, press.motion, stack, contact, work.bands[0], work.walls, work.give_sums,
-                work.shift);
+                work.rim_mm2, work.shift);
     squeeze_out(squeeze, stack, contact, removals[0].removed);
   }
   if constexpr (rules & kHeave) {
@@ -153,10 +156,10 @@ std::int64_t inside_share(const StepPlan& plan, const ClayStack& stack, const Co
 }
 
 /// Lays the clay that one tool squeezed out beside it; that of a pressed rim goes down. Returns the
-/// part that becomes height.
+/// part that becomes height. Clay that would make a narrow rim too high goes down.
 template <unsigned rules>
 WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removals, RuleWork& work,
-                    WideQuanta amount, ClayStack& stack, Rim* rim) noexcept {
+                    const LooseClay& loose, ClayStack& stack, Rim* rim) noexcept {
   const StepPlan& plan = press.plan;
   const std::size_t at = removals[0].contact.rings.empty() ? removals.size() - 1 : 0;
   const Contact& contact = removals[at].contact;
@@ -185,23 +188,35 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
       return flow_by_kernel(plan, part, up, removals.front().contact, rim, stack);
     }
   };
-  const WideQuanta up = upward_part(amount, press.motion, press.tool);
-  return flow(up + flow(amount - up + work.pressed.down, false), true);
+  const WideQuanta up = upward_part(loose.total, press.motion, press.tool);
+  const WideQuanta rest = flow(up + flow(loose.total - up + work.pressed.down, false), true);
+  if (!(rest > 0 && loose.limited())) return rest;
+  const WideQuanta rises = std::min(rest, static_cast<WideQuanta>(loose.raising));
+  work.walls.begin(contact.bottom);
+  return rises + flow(rest - rises, false);
 }
 
-/// Removes the clay in the cones beyond the contacts. Returns it.
-WideQuanta relieve(const RulePress& press, std::span<const ToolRemoval> removals,
-                   const RuleWork& work, const ClayStack& stack, StackWriter& writer) noexcept {
-  WideQuanta removed = 0;
+/// Removes the clay that the tools squeeze out.
+void squeeze(std::span<const ToolRemoval> removals, ClayStack& stack, Rim* rim,
+             LooseClay& loose) noexcept {
+  loose.total += remove_clay(removals, stack, rim);
+  if (!loose.limited()) return;
+  for (const auto& [contact, removed] : removals)
+    for (std::size_t k = 0; k < removed.size(); ++k)
+      loose.raise(removed[k], stack.rings()[contact.rings.from() + k]);
+}
+
+/// Removes the clay in the cones beyond the contacts, and in the way of the finger.
+void relieve(const RulePress& press, std::span<const ToolRemoval> removals, const RuleWork& work,
+             const ClayStack& stack, StackWriter& writer, LooseClay& loose) noexcept {
   const double dt_s = press.tool.dt_s * work.pressed.aside;
   for (std::size_t k = 0; k < removals.size(); ++k)
     if (!removals[k].contact.rings.empty())
       for (const Cone& cone : work.cones[k])
         if (cone.meets)
-          removed += relieve_beyond(press.plan, cone, stack, dt_s, removals[k].contact, writer);
+          relieve_beyond(press.plan, cone, stack, dt_s, removals[k].contact, writer, loose);
   if (work.finger.stands())
-    removed += relieve_finger(press.plan, work.finger, stack, dt_s, removals[0].contact, writer);
-  return removed;
+    relieve_finger(press.plan, work.finger, stack, dt_s, removals[0].contact, writer, loose);
 }
 
 /// Smears the surface that each tool presses, once in a third of a period.
@@ -281,21 +296,22 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
     writer.gain(-work.shift.raised());
     writer.put_on_crown(work.shift.raised());
   }
-  WideQuanta removed = remove_clay(removals, stack, rim);
-  if constexpr (rules & kHeave) removed += relieve(press, removals, work, stack, writer);
+  LooseClay loose{work.rim_mm2};
+  squeeze(removals, stack, rim, loose);
+  if constexpr (rules & kHeave) relieve(press, removals, work, stack, writer, loose);
   Flow flow;
   if (press.trim && plan.clay.thin_wall_yields && plan.mode != ToolMode::trim_foot)
     for (const ToolRemoval& removal : removals)
-      removed += cut_ledge(plan, removal.contact, stack, writer, flow);
-  if (press.trim && plan.clay.rim_sinks) removed += cut_crown(stack, top_before, writer);
+      loose.total += cut_ledge(plan, removal.contact, stack, writer, flow);
+  if (press.trim && plan.clay.rim_sinks) loose.total += cut_crown(stack, top_before, writer);
   limit_to_rim(stack, work.pressed);
   writer.put_on_crown(-work.pressed.down);
   if (press.trim)
-    ledger.trimmed += removed + work.pressed.down;
+    ledger.trimmed += loose.total + work.pressed.down;
   else if ((rules & kLift) && removals.size() == 2)
-    writer.put_on_crown(removed);
+    writer.put_on_crown(loose.total);
   else
-    writer.put_on_crown(displace<rules>(press, removals, work, removed, stack, rim));
+    writer.put_on_crown(displace<rules>(press, removals, work, loose, stack, rim));
   if constexpr (rules & kSmear)
     if (!press.trim && press.tool.slow_s > 0.0)
       smear_surfaces(press, removals, work, stack, writer);

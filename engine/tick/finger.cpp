@@ -29,10 +29,9 @@ Finger finger_of(const StepPlan& plan, const ToolState& tool, const ClayStack& s
   return {from, to, bore, widest};
 }
 
-WideQuanta relieve_finger(const StepPlan& plan, const Finger& finger, const ClayStack& stack,
-                          double dt_s, const Contact& contact, StackWriter& writer) noexcept {
+void relieve_finger(const StepPlan& plan, const Finger& finger, const ClayStack& stack, double dt_s,
+                    const Contact& contact, StackWriter& writer, LooseClay& loose) noexcept {
   const double h = stack.ring_height_mm();
-  WideQuanta total = 0;
   for (std::size_t i = contact.rings.to(); i < stack.size(); ++i) {
     const Ring& ring = stack.rings()[i];
     const double middle = (static_cast<double>(i) + 0.5) * h, bore = finger.bore_at(middle);
@@ -44,9 +43,8 @@ WideQuanta relieve_finger(const StepPlan& plan, const Finger& finger, const Clay
     const double part = finger.part(wall_mm(ring));
     const auto amount = static_cast<Quanta>(part * static_cast<double>(all));
     writer.take_inside(i, amount);
-    total += amount;
+    loose.add(amount, ring);
   }
-  return total;
 }
 
 }  // namespace clay

@@ -4,7 +4,7 @@
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/plan.hpp"
 #include "engine/clay/stack_writer.hpp"
-#include "engine/tick/contact.hpp"
+#include "engine/tick/removal.hpp"
 #include "engine/tool/tool_state.hpp"
 
 #include <algorithm>
@@ -34,9 +34,9 @@ struct Finger {
 /// None if all of the bore is far wider than the finger.
 [[nodiscard]] Finger finger_of(const StepPlan& plan, const ToolState& tool, const ClayStack& stack,
                                const Contact& contact) noexcept;
-/// Removes the clay in its way above the contact, as fast as a cone does (`yielded`). Returns that
-/// clay.
-WideQuanta relieve_finger(const StepPlan& plan, const Finger& finger, const ClayStack& stack,
-                          double dt_s, const Contact& contact, StackWriter& writer) noexcept;
+/// Removes the clay in its way above the contact, as fast as a cone does (`yielded`). Adds it to
+/// `loose`.
+void relieve_finger(const StepPlan& plan, const Finger& finger, const ClayStack& stack, double dt_s,
+                    const Contact& contact, StackWriter& writer, LooseClay& loose) noexcept;
 
 }  // namespace clay

@@ -116,11 +116,10 @@ std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoul
   return cones;
 }
 
-WideQuanta relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack,
-                          double dt_s, const Contact& contact, StackWriter& writer) noexcept {
+void relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack, double dt_s,
+                    const Contact& contact, StackWriter& writer, LooseClay& loose) noexcept {
   const double h = stack.ring_height_mm(), reach = kReliefMm / h;
   std::size_t i = cone.up ? contact.rings.to() - 1 : contact.rings.from();
-  WideQuanta total = 0;
   for (double k = 1.0; k <= reach && next(i, cone.up, stack.size()); k += 1.0) {
     const Ring& ring = stack.rings()[i];
     double out = excess(cone, ring, (static_cast<double>(i) + 0.5) * h);
@@ -130,9 +129,8 @@ WideQuanta relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStac
       writer.take_outside(i, amount);
     else
       writer.take_inside(i, amount);
-    total += amount;
+    loose.add(amount, ring);
   }
-  return total;
 }
 
 }  // namespace clay

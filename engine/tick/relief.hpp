@@ -58,8 +58,8 @@ struct Cone {
                              double& out) noexcept;
 
 /// Removes the clay in a cone beyond the contact, never through the minimum wall, nor where there
-/// is no bore. Returns that clay.
-WideQuanta relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack,
-                          double dt_s, const Contact& contact, StackWriter& writer) noexcept;
+/// is no bore. Adds it to `loose`.
+void relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack, double dt_s,
+                    const Contact& contact, StackWriter& writer, LooseClay& loose) noexcept;
 
 }  // namespace clay

@@ -4,6 +4,7 @@
 #include "engine/tick/contact.hpp"
 #include "engine/tick/shift.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -15,6 +16,24 @@ namespace clay {
 struct ToolRemoval {
   Contact contact;
   std::vector<Quanta> removed;
+};
+
+/// Clay that has given way, and how much of it may become height.
+struct LooseClay {
+  double rim_mm2 = kAnyRim;  ///< as `Shift::Push`'s
+  WideQuanta total = 0;
+  double raising = 0.0;  ///< at most, if a rim limits it [quanta]
+
+  [[nodiscard]] bool limited() const noexcept { return rim_mm2 < kAnyRim; }
+  void add(Quanta amount, const Ring& left) noexcept {
+    total += amount;
+    if (limited()) raise(amount, left);
+  }
+  /// What is squeezed out of a ring raises the rim by no more than it would raise that ring.
+  void raise(Quanta amount, const Ring& left) noexcept {
+    const double part = rim_mm2 * kQuantaPerMm2 / static_cast<double>(left.volume());
+    raising += static_cast<double>(amount) * std::min(1.0, part);
+  }
 };
 
 /// Delta v of a surface that moves by eps [mm], limited by the clay that the ring can lose.

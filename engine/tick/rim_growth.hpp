@@ -22,10 +22,14 @@ void grow_rings(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim,
 
 /// Whole rings from the crown: with a rim as `press_clay` makes them, without one below the lip,
 /// which is lifted as it is. Where a tool stands beside the lip, on top, as copies of the rim that
-/// taper to the wall below where the rim is thicker. A ring rises beside the tools, not into them;
-/// if they leave room for less than half of it, the clay waits in the crown.
+/// taper to the wall below where the rim is thicker. A ring rises beside the tools, not into them:
+/// a narrow rim that closes leans away from them, any other rim loses a part of the ring. If they
+/// leave too little room for it, the clay waits in the crown.
 void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const ToolRemoval> removals,
               ClayStack& stack, Rim* rim, StackWriter& writer) noexcept;
+/// R^2 - r^2 of the ring by which the rim rises: the wall below the lip, or the top ring. [mm^2]
+[[nodiscard]] double raised_rim_mm2(const ClayStack& stack, const Tool& tool, double hip_y,
+                                    std::span<const ToolRemoval> removals) noexcept;
 /// Takes rings out below the lip until the crown is no longer below 0; where a tool stands beside
 /// the lip, on top. Expects that the stack holds enough clay.
 void sink_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> removals,

@@ -56,6 +56,17 @@ CLAYSTACK_INLINE inline bool soften(const float* outers, const float* inners, st
   }
   return most_of(most) > 1.0f - 8.0f * kRounding;
 }
+/// A ring that is thicker or wider than the rim raises it by no more height than its own.
+template <std::size_t n>
+CLAYSTACK_INLINE inline void limit_rise(const float* outers, const float* inners, std::size_t count,
+                                        float rim_mm2, float* rises) noexcept {
+  using F = TwiceFloats<n>;
+  for (std::size_t k = 0; k < count; k += 2 * n) {
+    const F outer = load_floats<n>(outers + k), inner = load_floats<n>(inners + k);
+    store(rises + k,
+          lesser(load_floats<n>(rises + k), F(rim_mm2 / (outer * outer + inner * inner))));
+  }
+}
 /// From mm to the change of R^2 and r^2 [mm^2].
 template <std::size_t n>
 CLAYSTACK_INLINE inline void square(const float* outers, const float* inners, std::size_t count,
@@ -153,10 +164,12 @@ void Shift::move(const ClayStack& stack, const WallRadii& walls, const Push& pus
   in_packs([=, outers = walls.outer(first), inners = walls.inner(first), rises = &rises[0],
             changes = &changes_[first - from_], hoop = push.hoop ? 0.5f : 0.0f,
             per_min_wall = static_cast<float>(1.0 / push.min_wall_mm),
-            min_wall = static_cast<float>(push.min_wall_mm), outward = push.outward,
-            stretches = push.outward && push.stretch, total = &sum,
+            min_wall = static_cast<float>(push.min_wall_mm),
+            rim_mm2 = static_cast<float>(push.rim_mm2), limited = push.rim_mm2 < kAnyRim,
+            outward = push.outward, stretches = push.outward && push.stretch, total = &sum,
             thin = &hair_thin](auto n) CLAYSTACK_INLINE {
     *thin = soften<n>(outers, inners, count, by, rises);
+    if (limited) limit_rise<n>(outers, inners, count, rim_mm2, rises);
     if (stretches)
       stretch<n>(outers, inners, count, hoop, min_wall, by, rises);
     else

@@ -11,6 +11,9 @@
 
 namespace clay {
 
+/// R^2 - r^2 of a rim that limits nothing [mm^2].
+inline constexpr double kAnyRim = 1e30;
+
 /// Rings that one part of a tick may take out under the rim.
 inline constexpr std::size_t kMostSunk = 64;
 
@@ -55,6 +58,9 @@ class Shift {
     bool outward = false;
     bool hoop = true;
     double min_wall_mm = 0.0;
+    /// R^2 - r^2 of the ring by which the rim rises, where a narrow rim closes: no ring gives it
+    /// more height than the ring gains by half of its hoop strain.
+    double rim_mm2 = kAnyRim;
     bool stretch = false;  ///< outward, a wall at its minimum keeps its thickness and loses height
   };
   /// Lays the wall's motion about a band. `limit(first, by)` may change how far the rings from

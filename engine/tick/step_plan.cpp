@@ -85,9 +85,15 @@ double finger_mm(const SceneSpec& s) {
   return s.clay && s.tool.mode == ToolMode::press ? s.clay->finger_mm.value_or(0.0) : 0.0;
 }
 
+bool cutter(ToolMode mode) { return mode == ToolMode::trim || mode == ToolMode::trim_foot; }
+
 bool sinks_rim(const SceneSpec& s) {
   return s.clay && s.clay->rim_sinks && s.clay->heave &&
          (s.tool.mode == ToolMode::press || s.tool.mode == ToolMode::trim);
+}
+
+bool closes_rim(const SceneSpec& s) {
+  return s.clay && s.clay->narrow_rim_closes && !cutter(s.tool.mode);
 }
 
 RulesPlan rules_plan(const SceneSpec& s) {
@@ -103,7 +109,8 @@ RulesPlan rules_plan(const SceneSpec& s) {
           kTurn * s.clay->wheel_rpm / 60.0,
           finger_mm(s),
           s.clay->thin_wall_yields,
-          sinks_rim(s)};
+          sinks_rim(s),
+          closes_rim(s)};
 }
 
 ForcePlan force_plan(const SceneSpec& s) {
@@ -132,7 +139,29 @@ ToolShapeSpec turned(const ToolShapeSpec& shape) {
   return turned;
 }
 
-bool cutter(ToolMode mode) { return mode == ToolMode::trim || mode == ToolMode::trim_foot; }
+/// The options of the clay rules. `any`: the scene has clay rules; otherwise `none` is the reason.
+void describe_options(const SceneSpec& s, bool any, const std::string& none,
+                      std::vector<PlanLine>& lines) {
+  const bool cuts = cutter(s.tool.mode);
+  const auto line = [&](const char* stage, bool used, const char* in, const char* out) {
+    lines.push_back({stage, used, used ? in : any ? out : none});
+  };
+  line("finger", any && s.clay->heave && finger_mm(s) > 0.0,
+       "in a bore, no clay closes behind the tool",
+       "no finger is set, or heave is off, or the tool does not press");
+  line("thin wall", any && s.clay->thin_wall_yields && s.tool.mode != ToolMode::trim_foot,
+       "a wall at its minimum bends outward; a cut leaves no ledge",
+       any && s.clay->thin_wall_yields ? "a foot has no rule against a ledge"
+                                       : "a tool from inside goes through a wall at its minimum");
+  line("pressed rim", any && sinks_rim(s),
+       cuts ? "a cut from above lowers the rim"
+            : "a tool that comes down on the rim presses it down",
+       any && s.clay->rim_sinks ? "heave is off, or the tool neither presses nor trims"
+                                : "a tool that comes down on the rim goes aside");
+  line("narrow rim", any && closes_rim(s), "a rim that is pushed inward closes",
+       any && s.clay->narrow_rim_closes ? "a trimming tool moves no clay"
+                                        : "a rim that is pushed inward becomes a pipe");
+}
 
 void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
   const unsigned rules = rules_of(s);
@@ -157,25 +186,7 @@ void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
                            : "displaced clay leaves no steep slope"});
   line("smear", kSmear, "a wet finger evens out the surface",
        "off in the scene, or the wheel stands still");
-  const bool finger = heaves && finger_mm(s) > 0.0;
-  lines.push_back({"finger", finger,
-                   finger ? "in a bore, no clay closes behind the tool"
-                   : any  ? "no finger is set, or heave is off, or the tool does not press"
-                          : none});
-  const bool yields = any && s.clay->thin_wall_yields && s.tool.mode != ToolMode::trim_foot;
-  lines.push_back({"thin wall", yields,
-                   yields ? "a wall at its minimum bends outward; a cut leaves no ledge"
-                   : !any ? none
-                   : s.clay->thin_wall_yields
-                       ? "a foot has no rule against a ledge"
-                       : "a tool from inside goes through a wall at its minimum"});
-  const bool sinks = any && sinks_rim(s);
-  lines.push_back({"pressed rim", sinks,
-                   sinks && cuts       ? "a cut from above lowers the rim"
-                   : sinks             ? "a tool that comes down on the rim presses it down"
-                   : !any              ? none
-                   : s.clay->rim_sinks ? "heave is off, or the tool neither presses nor trims"
-                                       : "a tool that comes down on the rim goes aside"});
+  describe_options(s, any, none, lines);
 }
 
 void describe_force(const SceneSpec& s, unsigned stages, std::vector<PlanLine>& lines) {

@@ -99,6 +99,7 @@ inline SceneSpec arbitrary_scene() {
                     *number_in(0, 1e6),
                     maybe<double>([] { return *number_in(0, 200); }),
                     on(),
+                    on(),
                     on()};
   });
   return scene;

@@ -58,7 +58,8 @@ constexpr std::string_view kText = R"({
     "floor_mm": 7,
     "finger_mm": 80,
     "thin_wall": "yields",
-    "pressed_rim": "sinks"
+    "pressed_rim": "sinks",
+    "narrow_rim": "closes"
   }
 }
 )";

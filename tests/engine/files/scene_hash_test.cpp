@@ -32,9 +32,12 @@ TEST(SceneHash, OmitsAWallAndARimThatStay) {
   scene.clay = ClaySpec{};
   EXPECT_EQ(write_scene(scene).find("thin_wall"), std::string::npos);
   EXPECT_EQ(write_scene(scene).find("pressed_rim"), std::string::npos);
+  EXPECT_EQ(write_scene(scene).find("narrow_rim"), std::string::npos);
   scene.clay->thin_wall_yields = scene.clay->rim_sinks = true;
+  scene.clay->narrow_rim_closes = true;
   EXPECT_NE(write_scene(scene).find("thin_wall"), std::string::npos);
   EXPECT_NE(write_scene(scene).find("pressed_rim"), std::string::npos);
+  EXPECT_NE(write_scene(scene).find("narrow_rim"), std::string::npos);
 }
 
 RC_GTEST_PROP(SceneHash, DistinguishesScenes, ()) {

@@ -135,6 +135,10 @@ struct ClaySpec {
   /// A tool that comes down on the rim. False: it goes aside. True: it presses the rim down (needs
   /// `heave`), and the wall below becomes thicker; a cutter lowers the rim.
   bool rim_sinks = false;
+  /// A rim that is narrower than the wall that a tool presses. False: the clay of that wall raises
+  /// the rim, which can become a long pipe. True: the rim rises by no more height than the wall
+  /// gains, and it leans away from a tool above it, so that it closes.
+  bool narrow_rim_closes = false;
   friend bool operator==(const ClaySpec&, const ClaySpec&) = default;
 };
 
