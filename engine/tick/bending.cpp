@@ -63,12 +63,12 @@ class MeanGive {
   double* sums_;         ///< from `whole_` + 1 before the first ring to as many behind the last
 };
 
-/// A touched ring moves at least by its give beyond the spare wall above the minimum.
-void bend_thin(const TouchedRings& rings, const float* walls, const Shell& shell, double min_wall,
+/// A touched ring moves at least by its give beyond the wall that can be squeezed out.
+void bend_thin(const TouchedRings& rings, const float* walls, const Shell& shell, double firm_mm,
                double h, std::size_t first, std::span<float> by) noexcept {
   const std::size_t end = std::min(first + by.size(), rings.to());
   for (std::size_t i = std::max(first, rings.from()); i < end; ++i) {
-    const double spare = std::max(static_cast<double>(walls[i - first]) - min_wall, 0.0);
+    const double spare = std::max(static_cast<double>(walls[i - first]) - firm_mm, 0.0);
     const double held = shell.hold((static_cast<double>(i) + 0.5) * h);
     by[i - first] = std::max(by[i - first], static_cast<float>(held * (rings.give(i) - spare)));
   }
@@ -84,17 +84,19 @@ double speed_into(Side side, const Motion& motion) noexcept {
 
 void bend_wall(const StepPlan& plan, const Motion& motion, const ClayStack& stack,
                const Contact& contact, const Band& band, WallRadii& walls, std::span<double> sums,
-               double rim_mm2, Shift& shift) noexcept {
+               const RimLimit& rim, Shift& shift) noexcept {
   const double min_wall = plan.removal.min_wall_mm;
   const bool yields = plan.clay.thin_wall_yields;
+  // Nothing can be squeezed out of a wall of this thickness.
+  const double firm_mm = rim.waits ? kMaxRadiusMm : min_wall;
   const Shell shell =
-      shell_at(stack, walls, band, min_wall, motion.upward_mm_s, speed_into(contact.side, motion));
+      shell_at(stack, walls, band, firm_mm, motion.upward_mm_s, speed_into(contact.side, motion));
   if (!(shell.share > 0.0)) return;
   const double h = stack.ring_height_mm();
   const double about = std::max(kAbout * shell.wall_mm / h, 0.5);
   const MeanGive gives(contact.rings, shell.share, about, sums);
   const Shift::Push push{contact.side == Side::expansive, (plan.clay.rules & kHoop) != 0, min_wall,
-                         rim_mm2, yields};
+                         rim, yields};
   shift.lay(
       stack, walls, band, shell, push,
       [&](std::size_t first, std::span<float> by) {
@@ -102,7 +104,8 @@ void bend_wall(const StepPlan& plan, const Motion& motion, const ClayStack& stac
         hold_foot(shell, h, first, by);
       },
       [&](std::size_t first, std::span<float> by) {
-        if (yields) bend_thin(contact.rings, walls.thickness(first), shell, min_wall, h, first, by);
+        if (yields || rim.waits)
+          bend_thin(contact.rings, walls.thickness(first), shell, firm_mm, h, first, by);
       });
 }
 

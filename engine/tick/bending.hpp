@@ -20,9 +20,8 @@ namespace clay {
 
 /// Sets `shift` for one tool, whose contact has given way. A wall that does not bend (a solid lump)
 /// leaves it as it is. `sums`: scratch, of `sums_for` numbers.
-/// `rim_mm2`: as `Shift::Push`'s.
 void bend_wall(const StepPlan& plan, const Motion& motion, const ClayStack& stack,
                const Contact& contact, const Band& band, WallRadii& walls, std::span<double> sums,
-               double rim_mm2, Shift& shift) noexcept;
+               const RimLimit& rim, Shift& shift) noexcept;
 
 }  // namespace clay

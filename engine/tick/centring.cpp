@@ -121,7 +121,7 @@ void PushOver::measure(const Tool& tool, const ClayStack& stack, double hip_y,
 
 void centre(const StepPlan& plan, const ClayStack& stack, const ToolState& tool,
             const std::array<Band, 2>& bands, std::span<ToolRemoval> removals, WallRadii& walls,
-            double rim_mm2, PushOver& over, Shift& shift) noexcept {
+            const RimLimit& rim, PushOver& over, Shift& shift) noexcept {
   over.measure(plan.tool, stack, tool.hip_mm.y, removals);
   Band band = both(bands, removals);
   bool outward = false;
@@ -132,7 +132,7 @@ void centre(const StepPlan& plan, const ClayStack& stack, const ToolState& tool,
   if (!(shell.share > 0.0)) return;
   const bool hoop = (plan.clay.rules & kHoop) != 0;
   shift.lay(
-      stack, walls, band, shell, {outward, hoop, min_wall, rim_mm2, plan.clay.thin_wall_yields},
+      stack, walls, band, shell, {outward, hoop, min_wall, rim, plan.clay.thin_wall_yields},
       [&](std::size_t first, std::span<float> by) {
         const std::size_t end = std::min(first + by.size(), over.to());
         for (std::size_t i = std::max(first, over.from()); i < end; ++i)

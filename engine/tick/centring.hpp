@@ -45,9 +45,8 @@ class PushOver {
 };
 
 /// Sets `shift` for two tools, whose contacts have given way, and reduces the depths by it.
-/// `rim_mm2`: as `Shift::Push`'s.
 void centre(const StepPlan& plan, const ClayStack& stack, const ToolState& tool,
             const std::array<Band, 2>& bands, std::span<ToolRemoval> removals, WallRadii& walls,
-            double rim_mm2, PushOver& over, Shift& shift) noexcept;
+            const RimLimit& rim, PushOver& over, Shift& shift) noexcept;
 
 }  // namespace clay

@@ -95,10 +95,10 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
         make_in_place(work.bands[k], [&] { return band_of(plan.tool, stack, hip_y, contact); });
     }
   const bool closes = plan.clay.narrow_rim_closes && !press.trim;
-  work.rim_mm2 = closes ? raised_rim_mm2(stack, plan.tool, hip_y, removals) : kAnyRim;
+  work.rim = closes ? rim_limit(stack, plan.tool, hip_y, removals) : RimLimit{};
   if (two) {
     if ((rules & kShift) && !press.trim)
-      centre(plan, stack, press.tool, work.bands, removals, work.walls, work.rim_mm2, work.over,
+      centre(plan, stack, press.tool, work.bands, removals, work.walls, work.rim, work.over,
              work.shift);
     compute_pinch_removal<Model::conserving>(plan.removal, stack, press.tool.gap_mm, dt_s,
                                              removals[0], removals[1], &squeeze);
@@ -106,7 +106,7 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
     Contact& contact = removals[0].contact;
     if ((rules & kShift) && !press.trim)
       bend_wall(plan, press.motion, stack, contact, work.bands[0], work.walls, work.give_sums,
-                work.rim_mm2, work.shift);
+                work.rim, work.shift);
     squeeze_out(squeeze, stack, contact, removals[0].removed);
   }
   if constexpr (rules & kHeave) {
@@ -190,7 +190,7 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
   };
   const WideQuanta up = upward_part(loose.total, press.motion, press.tool);
   const WideQuanta rest = flow(up + flow(loose.total - up + work.pressed.down, false), true);
-  if (!(rest > 0 && loose.limited())) return rest;
+  if (!(rest > 0 && loose.rim.limits())) return rest;
   const WideQuanta rises = std::min(rest, static_cast<WideQuanta>(loose.raising));
   work.walls.begin(contact.bottom);
   return rises + flow(rest - rises, false);
@@ -200,7 +200,7 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
 void squeeze(std::span<const ToolRemoval> removals, ClayStack& stack, Rim* rim,
              LooseClay& loose) noexcept {
   loose.total += remove_clay(removals, stack, rim);
-  if (!loose.limited()) return;
+  if (!loose.rim.limits()) return;
   for (const auto& [contact, removed] : removals)
     for (std::size_t k = 0; k < removed.size(); ++k)
       loose.raise(removed[k], stack.rings()[contact.rings.from() + k]);
@@ -296,7 +296,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
     writer.gain(-work.shift.raised());
     writer.put_on_crown(work.shift.raised());
   }
-  LooseClay loose{work.rim_mm2};
+  LooseClay loose{work.rim};
   squeeze(removals, stack, rim, loose);
   if constexpr (rules & kHeave) relieve(press, removals, work, stack, writer, loose);
   Flow flow;

@@ -38,7 +38,7 @@ struct RuleWork {
   std::array<std::array<Cone, 2>, 2> cones;  ///< of each tool: at its lower end, at its upper end
   Finger finger;                             ///< of one tool
   RimPress pressed;                          ///< of one tool
-  double rim_mm2 = kAnyRim;                  ///< as `Shift::Push`'s
+  RimLimit rim;                              ///< of a narrow rim
   std::array<double, 2> reach_mm{};          ///< of the clay that each tool heaves
   std::size_t lowest = 0, highest = 0;       ///< rings that the flow may change
 

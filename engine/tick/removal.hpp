@@ -20,18 +20,17 @@ struct ToolRemoval {
 
 /// Clay that has given way, and how much of it may become height.
 struct LooseClay {
-  double rim_mm2 = kAnyRim;  ///< as `Shift::Push`'s
+  RimLimit rim;
   WideQuanta total = 0;
-  double raising = 0.0;  ///< at most, if a rim limits it [quanta]
+  double raising = 0.0;  ///< at most, if the rim limits it [quanta]
 
-  [[nodiscard]] bool limited() const noexcept { return rim_mm2 < kAnyRim; }
   void add(Quanta amount, const Ring& left) noexcept {
     total += amount;
-    if (limited()) raise(amount, left);
+    if (rim.limits()) raise(amount, left);
   }
   /// What is squeezed out of a ring raises the rim by no more than it would raise that ring.
   void raise(Quanta amount, const Ring& left) noexcept {
-    const double part = rim_mm2 * kQuantaPerMm2 / static_cast<double>(left.volume());
+    const double part = rim.ring_mm2 * kQuantaPerMm2 / static_cast<double>(left.volume());
     raising += static_cast<double>(amount) * std::min(1.0, part);
   }
 };

@@ -188,10 +188,10 @@ void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const To
   });
 }
 
-double raised_rim_mm2(const ClayStack& stack, const Tool& tool, double hip_y,
-                      std::span<const ToolRemoval> removals) noexcept {
+RimLimit rim_limit(const ClayStack& stack, const Tool& tool, double hip_y,
+                   std::span<const ToolRemoval> removals) noexcept {
   const Ring& ring = stack.rings()[lip_of(stack, tool, hip_y, removals) - 1];
-  return static_cast<double>(ring.volume()) * kMm2PerQuantum;
+  return {static_cast<double>(ring.volume()) * kMm2PerQuantum, stack.crown() >= ring.volume()};
 }
 
 void sink_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> removals,

@@ -27,9 +27,10 @@ void grow_rings(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim,
 /// leave too little room for it, the clay waits in the crown.
 void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const ToolRemoval> removals,
               ClayStack& stack, Rim* rim, StackWriter& writer) noexcept;
-/// R^2 - r^2 of the ring by which the rim rises: the wall below the lip, or the top ring. [mm^2]
-[[nodiscard]] double raised_rim_mm2(const ClayStack& stack, const Tool& tool, double hip_y,
-                                    std::span<const ToolRemoval> removals) noexcept;
+/// The limit of a narrow rim that closes. It rises by a ring of the wall below the lip, or by the
+/// top ring.
+[[nodiscard]] RimLimit rim_limit(const ClayStack& stack, const Tool& tool, double hip_y,
+                                 std::span<const ToolRemoval> removals) noexcept;
 /// Takes rings out below the lip until the crown is no longer below 0; where a tool stands beside
 /// the lip, on top. Expects that the stack holds enough clay.
 void sink_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRemoval> removals,

@@ -165,8 +165,9 @@ void Shift::move(const ClayStack& stack, const WallRadii& walls, const Push& pus
             changes = &changes_[first - from_], hoop = push.hoop ? 0.5f : 0.0f,
             per_min_wall = static_cast<float>(1.0 / push.min_wall_mm),
             min_wall = static_cast<float>(push.min_wall_mm),
-            rim_mm2 = static_cast<float>(push.rim_mm2), limited = push.rim_mm2 < kAnyRim,
-            outward = push.outward, stretches = push.outward && push.stretch, total = &sum,
+            rim_mm2 = push.rim.waits ? 0.0f : static_cast<float>(push.rim.ring_mm2),
+            limited = push.rim.limits(), outward = push.outward,
+            stretches = push.outward && push.stretch, total = &sum,
             thin = &hair_thin](auto n) CLAYSTACK_INLINE {
     *thin = soften<n>(outers, inners, count, by, rises);
     if (limited) limit_rise<n>(outers, inners, count, rim_mm2, rises);

@@ -11,8 +11,13 @@
 
 namespace clay {
 
-/// R^2 - r^2 of a rim that limits nothing [mm^2].
-inline constexpr double kAnyRim = 1e30;
+/// How much clay may raise the rim, where a narrow rim closes. By default any.
+struct RimLimit {
+  double ring_mm2 = 1e30;  ///< R^2 - r^2 of the ring by which the rim rises
+  bool waits = false;      ///< clay waits above the rim: a press bends the wall and raises nothing
+
+  [[nodiscard]] bool limits() const noexcept { return ring_mm2 < 1e30; }
+};
 
 /// Rings that one part of a tick may take out under the rim.
 inline constexpr std::size_t kMostSunk = 64;
@@ -58,9 +63,8 @@ class Shift {
     bool outward = false;
     bool hoop = true;
     double min_wall_mm = 0.0;
-    /// R^2 - r^2 of the ring by which the rim rises, where a narrow rim closes: no ring gives it
-    /// more height than the ring gains by half of its hoop strain.
-    double rim_mm2 = kAnyRim;
+    /// No ring raises the rim by more height than the ring gains by half of its hoop strain.
+    RimLimit rim = {};
     bool stretch = false;  ///< outward, a wall at its minimum keeps its thickness and loses height
   };
   /// Lays the wall's motion about a band. `limit(first, by)` may change how far the rings from

@@ -23,31 +23,53 @@ SceneSpec closing_scene(bool closes) {
   return scene;
 }
 
-/// A ball that moves from outside to the axis, with its middle so far above the rim.
-Wheel swept_over(const SceneSpec& scene, double above_mm, double mm_s, double ring_height_mm = kH) {
+/// A ball that moves inward with its middle so far above the rim, to the axis or to a distance.
+Wheel swept_over(const SceneSpec& scene, double above_mm, double mm_s, double to_mm = 0.0,
+                 double ring_height_mm = kH) {
   Wheel wheel = wheel_with(
       scene, kPotMm, [](double) { return kPotRadiusMm; },
       [](double) { return kPotRadiusMm - kThinMm; }, ring_height_mm);
   Hand hand(wheel);
   hand.place_at(kPotRadiusMm + kFingertipMm + 1.0, kPotMm + above_mm);
-  hand.move_to(0.0, kPotMm + above_mm, mm_s);
-  hand.move_to(0.0, kPotMm + 200.0, 200.0);
+  hand.move_to(to_mm, kPotMm + above_mm, mm_s);
+  hand.move_to(to_mm, kPotMm + 200.0, 200.0);
   return wheel;
 }
 
-/// The pot does not become a pipe.
+/// Walls of a pot that narrows, a bottle, a cylinder and a bowl.
+double outer_of(int pot, double up) {
+  return pot == 0   ? std::max(14.0, 45.0 - 0.4 * std::max(up - 20.0, 0.0))
+         : pot == 1 ? (up < 60.0 ? 50.0 : std::max(20.0, 50.0 - (up - 60.0)))
+         : pot == 2 ? kPotRadiusMm
+                    : 50.0 + 0.4 * up;
+}
+
+/// Height of the pot after a ball has moved over its rim to the axis.
+double height_swept(bool closes, int pot, double wall_mm, double above_mm, double mm_s) {
+  SceneSpec scene = closing_scene(closes);
+  scene.removal.min_wall_mm = 2.0;
+  Wheel wheel = wheel_with(
+      scene, kPotMm, [=](double up) { return outer_of(pot, up); },
+      [=](double up) { return outer_of(pot, up) - wall_mm; });
+  Hand hand(wheel);
+  hand.place_at(outer_of(pot, kPotMm) + kFingertipMm + 1.0, kPotMm + above_mm);
+  hand.move_to(0.0, kPotMm + above_mm, mm_s);
+  hand.move_to(0.0, kPotMm + 200.0, 200.0);
+  expect_balanced(wheel);
+  for (const Ring& ring : wheel.stack().rings()) EXPECT_GT(wall_of(ring), 2.0 - 1e-5);
+  return wheel.stack().height_mm();
+}
+
+/// No pot becomes a pipe.
 TEST(NarrowRim, ClosesUnderAToolThatSweepsOverIt) {
-  double highest_without = 0.0;
-  for (const double mm_s : {15.0, 60.0})
-    for (const double above_mm : {3.0, 4.0, 5.0, 6.0, 7.0}) {
-      const Wheel wheel = swept_over(closing_scene(true), above_mm, mm_s);
-      EXPECT_LT(wheel.stack().height_mm(), kPotMm + 50.0) << above_mm << ' ' << mm_s;
-      expect_balanced(wheel);
-      for (const Ring& ring : wheel.stack().rings()) EXPECT_GT(wall_of(ring), kThinMm - 1e-5);
-      highest_without = std::max(
-          highest_without, swept_over(closing_scene(false), above_mm, mm_s).stack().height_mm());
-    }
-  EXPECT_GT(highest_without, kPotMm + 100.0);
+  constexpr double kMostMm[] = {145.0, 190.0, 265.0, 175.0};
+  for (int pot = 0; pot < 4; ++pot)
+    for (const double wall_mm : {2.0, 3.0, 5.0})
+      for (const double above_mm : {3.0, 4.0, 5.0, 6.0, 7.0})
+        for (const double mm_s : {15.0, 30.0, 60.0, 150.0})
+          EXPECT_LT(height_swept(true, pot, wall_mm, above_mm, mm_s), kMostMm[pot])
+              << pot << ' ' << wall_mm << ' ' << above_mm << ' ' << mm_s;
+  EXPECT_GT(height_swept(false, 3, 3.0, 6.0, 15.0), kPotMm + 800.0);
 }
 
 /// Neighbours of the new rings touch: half of the thickness of a rim stays on the rim below.
@@ -124,11 +146,17 @@ TEST(NarrowRim, LeavesAWallAsWideAsItsRimAlone) {
   }
 }
 
-/// Mean difference of the height from that with rings of half the height.
+/// A rim of 80 mm that is pushed in to about half of its width.
 TEST(NarrowRim, DependsLittleOnTheRingHeight) {
-  const double coarse = swept_over(closing_scene(true), 5.0, 30.0, 0.4).stack().height_mm();
-  const double fine = swept_over(closing_scene(true), 5.0, 30.0, 0.2).stack().height_mm();
-  EXPECT_NEAR(coarse, fine, 2.0);
+  for (const double above_mm : {3.0, 5.0, 7.0}) {
+    const auto height = [&](double ring_height_mm) {
+      return swept_over(closing_scene(true), above_mm, 30.0, 26.0, ring_height_mm)
+          .stack()
+          .height_mm();
+    };
+    EXPECT_NEAR(height(0.4), height(0.2), 1.0) << above_mm;
+    EXPECT_NEAR(height(0.2), height(0.1), 1.0) << above_mm;
+  }
 }
 
 }  // namespace
