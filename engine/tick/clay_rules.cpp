@@ -73,54 +73,68 @@ void set_flow_range(const RulePress& press, const ClayStack& stack,
   }
 }
 
+/// How far the clay gives way in each contact, and the bands that the rules need.
+template <unsigned rules>
+void give_way_to(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> removals,
+                 RuleWork& work) noexcept {
+  const StepPlan& plan = press.plan;
+  const double hip_y = press.tool.hip_mm.y;
+  const bool two = removals.size() == 2;
+  if (two && !kTwoToolBand<rules>) return;
+  const bool sinks = (rules & kHeave) && plan.clay.rim_sinks && !two;
+  for (std::size_t k = 0; k < removals.size(); ++k) {
+    Contact& contact = removals[k].contact;
+    if (contact.rings.empty()) continue;
+    give_way(plan.removal, stack, press.tool.dt_s, contact);
+    if (sinks) work.pressed = press_rim(plan.tool, press.motion, stack, hip_y, contact);
+    if (two || kOneToolBand<rules>)
+      make_in_place(work.bands[k], [&] { return band_of(plan.tool, stack, hip_y, contact); });
+  }
+}
+
+/// The cones beyond the contacts, with the clay in them that the tools touch, and the finger.
+void find_undercuts(const RulePress& press, const ClayStack& stack, const Squeeze& squeeze,
+                    std::span<ToolRemoval> removals, RuleWork& work) noexcept {
+  ToolState aside = press.tool;
+  aside.dt_s *= work.pressed.aside;
+  for (std::size_t k = 0; k < removals.size(); ++k)
+    if (!removals[k].contact.rings.empty())
+      make_in_place(work.cones[k], [&] {
+        return relieve_touched(press.plan, work.shoulders, stack, aside, work.bands[k], squeeze,
+                               removals, k, press.trim);
+      });
+  work.finger = {};
+  if (removals.size() == 1 && !press.trim)
+    work.finger = finger_of(press.plan, press.tool, stack, removals[0].contact);
+}
+
 template <unsigned rules>
 void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> removals,
                 RuleWork& work) noexcept {
   const StepPlan& plan = press.plan;
-  const double hip_y = press.tool.hip_mm.y, dt_s = press.tool.dt_s;
   work.shift.clear();
   work.walls.begin(removals.front().contact.bottom);
   work.pressed = {};
+  give_way_to<rules>(press, stack, removals, work);
+  const bool closes = plan.clay.narrow_rim_closes && !press.trim;
+  work.rim = closes ? rim_limit(stack, plan.tool, press.tool.hip_mm.y, removals) : RimLimit{};
   const Squeeze squeeze{plan.removal.min_wall_mm, plan.clay.floor_rings,
                         plan.mode == ToolMode::trim_foot, (rules & kShift) ? &work.shift : nullptr};
-  const bool two = removals.size() == 2;
-  const bool sinks = (rules & kHeave) && plan.clay.rim_sinks && !two;
-  if (!two || kTwoToolBand<rules>)
-    for (std::size_t k = 0; k < removals.size(); ++k) {
-      Contact& contact = removals[k].contact;
-      if (contact.rings.empty()) continue;
-      give_way(plan.removal, stack, dt_s, contact);
-      if (sinks) work.pressed = press_rim(plan.tool, press.motion, stack, hip_y, contact);
-      if (two || kOneToolBand<rules>)
-        make_in_place(work.bands[k], [&] { return band_of(plan.tool, stack, hip_y, contact); });
-    }
-  const bool closes = plan.clay.narrow_rim_closes && !press.trim;
-  work.rim = closes ? rim_limit(stack, plan.tool, hip_y, removals) : RimLimit{};
-  if (two) {
-    if ((rules & kShift) && !press.trim)
+  const bool shifts = (rules & kShift) && !press.trim;
+  if (removals.size() == 2) {
+    if (shifts)
       centre(plan, stack, press.tool, work.bands, removals, work.walls, work.rim, work.over,
              work.shift);
-    compute_pinch_removal<Model::conserving>(plan.removal, stack, press.tool.gap_mm, dt_s,
-                                             removals[0], removals[1], &squeeze);
+    compute_pinch_removal<Model::conserving>(plan.removal, stack, press.tool.gap_mm,
+                                             press.tool.dt_s, removals[0], removals[1], &squeeze);
   } else {
     Contact& contact = removals[0].contact;
-    if ((rules & kShift) && !press.trim)
+    if (shifts)
       bend_wall(plan, press.motion, stack, contact, work.bands[0], work.walls, work.give_sums,
                 work.rim, work.shift);
     squeeze_out(squeeze, stack, contact, removals[0].removed);
   }
-  if constexpr (rules & kHeave) {
-    ToolState aside = press.tool;
-    aside.dt_s *= work.pressed.aside;
-    for (std::size_t k = 0; k < removals.size(); ++k)
-      if (!removals[k].contact.rings.empty())
-        make_in_place(work.cones[k], [&] {
-          return relieve_touched(plan, work.shoulders, stack, aside, work.bands[k], squeeze,
-                                 removals, k, press.trim);
-        });
-    work.finger = {};
-    if (!two && !press.trim) work.finger = finger_of(plan, press.tool, stack, removals[0].contact);
-  }
+  if constexpr (rules & kHeave) find_undercuts(press, stack, squeeze, removals, work);
   set_flow_range<rules>(press, stack, removals, work);
 }
 
@@ -197,8 +211,8 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
 }
 
 /// Removes the clay that the tools squeeze out.
-void squeeze(std::span<const ToolRemoval> removals, ClayStack& stack, Rim* rim,
-             LooseClay& loose) noexcept {
+void take_squeezed(std::span<const ToolRemoval> removals, ClayStack& stack, Rim* rim,
+                   LooseClay& loose) noexcept {
   loose.total += remove_clay(removals, stack, rim);
   if (!loose.rim.limits()) return;
   for (const auto& [contact, removed] : removals)
@@ -297,7 +311,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
     writer.put_on_crown(work.shift.raised());
   }
   LooseClay loose{work.rim};
-  squeeze(removals, stack, rim, loose);
+  take_squeezed(removals, stack, rim, loose);
   if constexpr (rules & kHeave) relieve(press, removals, work, stack, writer, loose);
   Flow flow;
   if (press.trim && plan.clay.thin_wall_yields && plan.mode != ToolMode::trim_foot)
