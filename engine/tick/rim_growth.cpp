@@ -1,5 +1,6 @@
 #include "engine/tick/rim_growth.hpp"
 
+#include "engine/tick/relief.hpp"
 #include "engine/tick/shell.hpp"
 
 #include <algorithm>
@@ -117,49 +118,39 @@ Ring as_thick(const Ring& ring, const Ring& other) noexcept {
   return reshaped.inner2 > 0 && reshaped.volume() > 0 ? reshaped : ring;
 }
 
-/// A ring above the rim beside a tool of radius f there: the part of it that the tool leaves, or,
-/// where it leans, all of its thickness.
-Ring beside_tool(const Ring& ring, double f, const Contact& contact, bool leans) noexcept {
+/// What a tool of radius f leaves of a ring above the rim.
+Ring left_beside(const Ring& ring, double f, const Contact& contact) noexcept {
   if (!(depth_of(ring, f, contact) > 0.0)) return ring;
-  const double d = contact.axis_distance_mm, wall = wall_mm(ring);
-  Ring beside = ring;
-  if (contact.side == Side::compressive) {
-    beside.outer2 = std::min(ring.outer2, quanta_from_radius(std::max(d - f, 0.0)));
-    if (leans) beside.inner2 = quanta_from_radius(std::max(beside.outer_mm() - wall, 0.0));
-  } else {
-    beside.inner2 = std::max(ring.inner2, quanta_from_radius(d + f));
-    if (leans) beside.outer2 = quanta_from_radius(beside.inner_mm() + wall);
-  }
-  return beside;
+  const double d = contact.axis_distance_mm;
+  if (contact.side == Side::compressive)
+    return {std::min(ring.outer2, quanta_from_radius(std::max(d - f, 0.0))), ring.inner2};
+  return {ring.outer2, std::max(ring.inner2, quanta_from_radius(d + f))};
 }
 
-/// Whether a ring above the rim leans away from a tool: a wall that is no thicker than the tool is
-/// wide, and bends.
-bool leans_beside(const Ring& ring, const StepPlan& plan) noexcept {
-  return plan.clay.narrow_rim_closes && pliancy(ring) > 0.0 && wall_mm(ring) <= plan.tool.widest();
+/// A ring that leans inward to this outer radius, no more steeply than an undercut yields, and by
+/// half of its thickness at most; else no wall.
+Ring leaning_ring(const Ring& ring, Quanta outer2, double h) noexcept {
+  const double outer = radius_from_quanta(outer2), wall = wall_mm(ring), inner = outer - wall;
+  const bool fits = ring.outer_mm() - outer <= std::min(kReliefSlope * h, 0.5 * wall);
+  return fits && inner > 0.0 ? Ring{outer2, quanta_from_radius(inner)} : Ring{};
 }
 
-/// A ring above the rim where it fits beside the tools. Where it leans away from one, it overlaps
-/// the rim by half of its thickness at least. Any other ring loses a part. No wall where less than
-/// half of it fits, or less than the minimum wall.
+/// The part of a ring above the rim that fits beside the tools. Where less than half of it fits, or
+/// less than the minimum wall, a narrow rim that closes leans away from a tool outside; any other
+/// rim gets no wall.
 Ring beside_tools(const Ring& next, const ClayStack& stack, const StepPlan& plan, double hip_y,
                   std::span<const ToolRemoval> removals) noexcept {
   const Tool& tool = plan.tool;
   const double t = (static_cast<double>(stack.size()) + 0.5) * stack.ring_height_mm() - hip_y;
   if (!(t >= tool.low() && t <= tool.high())) return next;
   const double f = tool.radius(t);
-  const bool leans = removals.size() == 1 && leans_beside(next, plan);
   Ring ring = next;
-  for (const auto& [contact, removed] : removals) ring = beside_tool(ring, f, contact, leans);
-  if (ring == next) return ring;
-  if (leans) {
-    const Ring& top = stack.rings().back();
-    const double overlap =
-        std::min(top.outer_mm(), ring.outer_mm()) - std::max(top.inner_mm(), ring.inner_mm());
-    return ring.inner2 > 0 && overlap >= 0.5 * wall_mm(next) ? ring : Ring{};
-  }
-  const bool thin = wall_mm(ring) < plan.removal.min_wall_mm;
-  return 2 * ring.volume() >= next.volume() && !thin ? ring : Ring{};
+  for (const auto& [contact, removed] : removals) ring = left_beside(ring, f, contact);
+  const bool thin = ring != next && wall_mm(ring) < plan.removal.min_wall_mm;
+  if (2 * ring.volume() >= next.volume() && !thin) return ring;
+  const bool leans = plan.clay.narrow_rim_closes && removals.size() == 1 && pliancy(next) > 0.0 &&
+                     ring.inner2 == next.inner2;
+  return leans ? leaning_ring(next, ring.outer2, stack.ring_height_mm()) : Ring{};
 }
 
 }  // namespace

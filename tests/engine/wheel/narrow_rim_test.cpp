@@ -62,7 +62,7 @@ double height_swept(bool closes, int pot, double wall_mm, double above_mm, doubl
 
 /// No pot becomes a pipe.
 TEST(NarrowRim, ClosesUnderAToolThatSweepsOverIt) {
-  constexpr double kMostMm[] = {145.0, 190.0, 265.0, 175.0};
+  constexpr double kMostMm[] = {165.0, 190.0, 265.0, 175.0};
   for (int pot = 0; pot < 4; ++pot)
     for (const double wall_mm : {2.0, 3.0, 5.0})
       for (const double above_mm : {3.0, 4.0, 5.0, 6.0, 7.0})
