@@ -97,7 +97,9 @@ std::size_t lip_of(const ClayStack& stack, const Tool& tool, double hip_y,
   double thickest_mm = top_mm, first = size - 1.0;
   for (int pass = 0; pass < kLipPasses && first > 0.0; ++pass) {
     first = std::max(size - std::floor(std::min(0.5 * thickest_mm, kHighestLipMm) / h + 0.5), 1.0);
-    thickest_mm = std::max(thickest_mm, wall_mm(rings[static_cast<std::size_t>(first) - 1]));
+    const double below_mm = wall_mm(rings[static_cast<std::size_t>(first) - 1]);
+    if (!(below_mm > thickest_mm)) break;
+    thickest_mm = below_mm;
   }
   const double least = std::max(first, from);
   const double half_way = std::ceil(0.5 * (size + first));
