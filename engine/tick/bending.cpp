@@ -87,7 +87,7 @@ void bend_wall(const StepPlan& plan, const Motion& motion, const ClayStack& stac
                const RimLimit& rim, Shift& shift) noexcept {
   const double min_wall = plan.removal.min_wall_mm;
   const bool yields = plan.clay.thin_wall_yields;
-  // Nothing can be squeezed out of a wall of this thickness.
+  // Nothing can be squeezed out of a wall of this thickness; while clay waits, out of none.
   const double firm_mm = rim.waits ? kMaxRadiusMm : min_wall;
   const Shell shell =
       shell_at(stack, walls, band, firm_mm, motion.upward_mm_s, speed_into(contact.side, motion));

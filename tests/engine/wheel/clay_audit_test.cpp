@@ -24,14 +24,18 @@ int ticks() {
   return text != nullptr ? std::max(std::atoi(text), 1) : 3000;
 }
 
-/// The most clay of a ring within 12 mm of the rim: a lip rises by a ring of the wall below it.
+/// The clay of a ring by which the rim rises: the top ring. A lip, at most 12 mm high and at the
+/// rim less than 0.7 as thick as the wall below, rises by a ring of that wall.
 Quanta largest_at_rim(const ClayStack& stack) {
   const auto rings = stack.rings();
   const auto count = static_cast<std::size_t>(12.0 / stack.ring_height_mm()) + 1;
+  double thickest_mm = 0.0;
   Quanta most = 0;
-  for (const Ring& ring : rings.last(std::min(count, rings.size())))
+  for (const Ring& ring : rings.last(std::min(count, rings.size()))) {
+    thickest_mm = std::max(thickest_mm, wall_of(ring));
     most = std::max(most, ring.volume());
-  return most;
+  }
+  return wall_of(rings.back()) < 0.7 * thickest_mm ? most : rings.back().volume();
 }
 
 TEST(ClayAudit, AccountsForEveryQuantumAfterEveryTick) {

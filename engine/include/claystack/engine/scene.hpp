@@ -137,7 +137,7 @@ struct ClaySpec {
   bool rim_sinks = false;
   /// A rim that is narrower than the wall that a tool presses. False: the clay of that wall raises
   /// the rim, which can become a long pipe. True: the rim rises by no more height than the wall
-  /// gains, and it leans away from a tool above it, so that it closes.
+  /// gains, and where a tool outside leaves no room, it leans inward: it closes.
   bool narrow_rim_closes = false;
   friend bool operator==(const ClaySpec&, const ClaySpec&) = default;
 };
