@@ -62,7 +62,12 @@ struct DiscardRecoverable {
   std::size_t index = 0;
   bool confirmed = false;
 };
-/// The answer to that question.
+/// Deletes the file of a work. Asks first, unless `confirmed`.
+struct DeleteWork {
+  std::filesystem::path path;
+  bool confirmed = false;
+};
+/// The answer to these questions.
 struct DiscardAsked {};
 /// Completes the extension. Asks first if it would replace another file, unless `replace`.
 struct SaveFile {
@@ -92,6 +97,7 @@ enum class DialogKind {
   shortcuts,
   settings,
   open_file,
+  works,
   save_file,
   export_files,
   picture,
@@ -250,9 +256,9 @@ using ToggleHints = Toggle<&Settings::hints>;
 
 using Action = std::variant<
     RunCommand, BeginWork, BeginSample, BeginLesson, YourTurn, NextStep, ShowStep, StopShowing,
-    EndLesson, OpenFile, RecoverWork, Quit, DiscardRecoverable, DiscardAsked, SaveFile, Save, Undo,
-    Redo, GoToStroke, OtherBranch, Scrub, EndScrub, BranchHere, ShowDialog, CloseDialog, EditPath,
-    SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, ReplaceFiles, KeepFiles,
+    EndLesson, OpenFile, RecoverWork, Quit, DiscardRecoverable, DeleteWork, DiscardAsked, SaveFile,
+    Save, Undo, Redo, GoToStroke, OtherBranch, Scrub, EndScrub, BranchHere, ShowDialog, CloseDialog,
+    EditPath, SaveAndContinue, DiscardAndContinue, EditExport, WriteExport, ReplaceFiles, KeepFiles,
     CancelExport, ShowExportFolder, ChooseExportFolder, ChooseProcessFile, UseProcess, EditImport,
     TakeImport, ChooseTarget, UseTarget, UseSampleTarget, ClearTarget, SetGoal, ShowWarning,
     CloseNotice, OpenMenu, SetToolMode, StepTool, SetToolShape, ScaleTool, ChangeGap, SetStiffness,

@@ -181,6 +181,7 @@ const std::array kCommands = {
     C{"file.learn_bottle", "Throw a bottle step by step", kNone, kNone, BeginLesson{2, false}, always},
     C{"file.learn_cylinder", "Throw a cylinder step by step", kNone, kNone, BeginLesson{3, false}, always},
     C{"file.open", "Open...", key(GLFW_KEY_O, kCtrl), kNone, ShowDialog{Kind::open_file}, always},
+    C{"file.works", "Works...", kNone, kNone, ShowDialog{Kind::works}, always},
     C{"file.save", "Save", key(GLFW_KEY_S, kCtrl), kNone, Save{}, between, nullptr, why_not_between},
     C{"file.save_as", "Save as...", key(GLFW_KEY_S, kCtrlShift), kNone, ShowDialog{Kind::save_file}, between},
     C{"file.export", "Export...", key(GLFW_KEY_E, kCtrl), kNone, ShowDialog{Kind::export_files}, between, nullptr, why_not_between},

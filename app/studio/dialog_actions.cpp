@@ -54,6 +54,9 @@ void Performer::operator()(const ShowDialog& show) const {
       if (!open_desktop_dialog(state, FileDialog::Kind::open, open_folder(state.settings)))
         state.ui.dialog = OpenDialog{open_folder(state.settings).string()};
       break;
+    case DialogKind::works:
+      show_works();
+      break;
     case DialogKind::save_file:
       ask_for_name(std::nullopt);
       break;
@@ -69,7 +72,8 @@ void Performer::operator()(const ShowDialog& show) const {
 
 void Performer::operator()(const CloseDialog&) const {
   if (state.ui.shows<ReplaceDialog>()) return (*this)(KeepFiles{});
-  if (state.ui.shows<DiscardDialog>()) {
+  if (const auto* asked = std::get_if<DiscardDialog>(&state.ui.dialog)) {
+    if (asked->is_file()) return show_works();
     state.ui.dialog = GalleryDialog{};
     return;
   }

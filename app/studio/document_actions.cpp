@@ -7,6 +7,7 @@
 #include "app/studio/new_scene.hpp"
 #include "app/studio/output_dialogs.hpp"
 #include "app/studio/page.hpp"
+#include "app/studio/panels/panels.hpp"
 #include "app/studio/samples.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "core/text.hpp"
@@ -30,6 +31,12 @@ std::filesystem::path with_extension(std::filesystem::path path) {
 std::filesystem::path save_path(const Settings& settings, const std::filesystem::path& name) {
   const std::filesystem::path path = with_extension(name);
   return kInPage ? std::filesystem::path(settings.folder) / path.filename() : path;
+}
+
+/// A new work goes there. Names are shown with their folder, as for an export; a page has none.
+std::filesystem::path save_folder(const Settings& settings) {
+  const std::filesystem::path folder = settings.folder;
+  return folder.empty() && !kInPage ? current_folder() : folder;
 }
 
 /// NAME.work in the folder, or NAME-2.work and so on: the first that is free.
@@ -144,7 +151,8 @@ void Performer::operator()(const DiscardRecoverable& discard) const {
   const std::filesystem::path path = state.recoverable.at(discard.index).path;
   if (!discard.confirmed) {
     state.log("prompt: discard");
-    state.ui.dialog = DiscardDialog{discard.index};
+    state.ui.dialog = DiscardDialog{text_of(state.recoverable[discard.index]),
+                                    DiscardRecoverable{discard.index, true}};
     return;
   }
   state.ui.dialog = GalleryDialog{};
@@ -153,9 +161,22 @@ void Performer::operator()(const DiscardRecoverable& discard) const {
   state.log("discarded: " + path.string());
 }
 
+void Performer::operator()(const DeleteWork& remove) const {
+  if (!remove.confirmed) {
+    state.log("prompt: delete");
+    state.ui.dialog = DiscardDialog{remove.path.filename().string(), DeleteWork{remove.path, true}};
+    return;
+  }
+  (void)succeeded(state, delete_work(remove.path));
+  forget_if_missing(state.settings, remove.path);
+  show_works();
+}
+
 void Performer::operator()(const DiscardAsked&) const {
-  if (const auto* asked = std::get_if<DiscardDialog>(&state.ui.dialog))
-    (*this)(DiscardRecoverable{asked->index, true});
+  const auto* asked = std::get_if<DiscardDialog>(&state.ui.dialog);
+  if (asked == nullptr) return;
+  const Action confirmed = asked->confirmed;  // it closes the dialog
+  apply(state, confirmed);
 }
 
 void Performer::operator()(const Quit&) const { state.done = true; }
@@ -299,12 +320,15 @@ void Performer::open_drawing(const std::filesystem::path& path) const {
 
 void Performer::ask_for_name(std::optional<Action> next) const {
   show_present(state);
-  // The name is shown with its folder, as for an export; a page has no folders.
-  std::filesystem::path folder = state.settings.folder;
-  if (folder.empty() && !kInPage) folder = current_folder();
-  const std::filesystem::path path = unused_name(folder, state.document.name());
+  const std::filesystem::path path =
+      unused_name(save_folder(state.settings), state.document.name());
   if (!open_desktop_dialog(state, FileDialog::Kind::save, path))
     state.ui.dialog = SaveDialog{shown_name(path), std::move(next)};
+}
+
+void Performer::show_works() const {
+  const std::filesystem::path folder = save_folder(state.settings);
+  state.ui.dialog = WorksDialog{folder, stored_works(folder)};
 }
 
 }  // namespace clay::studio

@@ -26,6 +26,7 @@ struct Performer {
   void operator()(const OpenFile& open) const;
   void operator()(const RecoverWork& recover) const;
   void operator()(const DiscardRecoverable& discard) const;
+  void operator()(const DeleteWork& remove) const;
   void operator()(const DiscardAsked&) const;
   void operator()(const Quit&) const;
   void operator()(const SaveFile& save) const;
@@ -132,6 +133,7 @@ struct Performer {
   void forget(std::size_t index) const;
   void open_drawing(const std::filesystem::path& path) const;
   void ask_for_name(std::optional<Action> next) const;
+  void show_works() const;
   void back_to_export(const ReplaceDialog& asked) const;
 };
 

@@ -18,8 +18,8 @@ std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 /// In the order of the alternatives of Dialog.
 const char* name_of(const Dialog& dialog) {
   constexpr std::array<const char*, std::variant_size_v<Dialog>> kNames = {
-      "none",   "gallery", "shortcuts", "quit",    "open",    "save",
-      "export", "import",  "settings",  "replace", "picture", "discard"};
+      "none",   "gallery",  "shortcuts", "quit",    "open",    "save", "export",
+      "import", "settings", "replace",   "picture", "discard", "works"};
   return kNames[dialog.index()];
 }
 

@@ -71,6 +71,7 @@ class Studio {
   void plug_gamepad(const std::string& name);
   void gamepad(const GamepadState& pad);
   void pad_button(const PadBinding& binding, bool down);
+  [[nodiscard]] bool enter_chooses() const;
   [[nodiscard]] int key_that_chooses() const;
   void name_window();
   void turn_wheel(double elapsed_s);

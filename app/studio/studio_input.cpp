@@ -176,10 +176,15 @@ void Studio::pad_button(const PadBinding& binding, bool down) {
   if (held != 0) key({held, true, false, kNoMods});
 }
 
-/// In menus and the gallery Enter chooses, and in a text field it accepts the text.
+/// In dialogs that are lists.
+bool Studio::enter_chooses() const {
+  return state_.ui.shows<GalleryDialog>() || state_.ui.shows<WorksDialog>();
+}
+
+/// In menus and lists Enter chooses, and in a text field it accepts the text.
 int Studio::key_that_chooses() const {
-  const bool enter = menu_open() || state_.ui.shows<GalleryDialog>() ||
-                     state_.ui.shows<OpenDialog>() || state_.ui.shows<SaveDialog>();
+  const bool enter = menu_open() || enter_chooses() || state_.ui.shows<OpenDialog>() ||
+                     state_.ui.shows<SaveDialog>();
   return enter ? GLFW_KEY_ENTER : GLFW_KEY_SPACE;
 }
 
@@ -188,14 +193,14 @@ int Studio::key_that_chooses() const {
 /// its default button.
 void Studio::let_keys_navigate() {
   ImGuiIO& io = ImGui::GetIO();
-  const bool menu = menu_open(), gallery = state_.ui.shows<GalleryDialog>();
+  const bool menu = menu_open();
   // A dialog with one text field has the keys in that from the start.
   const bool typing = state_.ui.shows<OpenDialog>() || state_.ui.shows<SaveDialog>();
   if (menu || (state_.ui.shows<NoDialog>() ? state_.ui.keys_in.has_value() : !typing))
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   else
     io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
-  io.KeyMap[ImGuiKey_Space] = menu || gallery ? GLFW_KEY_ENTER : GLFW_KEY_SPACE;
+  io.KeyMap[ImGuiKey_Space] = menu || enter_chooses() ? GLFW_KEY_ENTER : GLFW_KEY_SPACE;
 }
 
 void Studio::key(const KeyChanged& change) {

@@ -4,6 +4,7 @@
 
 #include "app/history/work.hpp"
 #include "app/studio/action.hpp"
+#include "app/studio/stored_works.hpp"
 #include "app/studio/style.hpp"
 #include "app/studio/target.hpp"
 
@@ -102,9 +103,18 @@ struct ReplaceDialog {
   std::optional<SaveDialog> save;  ///< what is asked for; empty: the export
   bool picture = false;            ///< the export is that of a picture
 };
-/// Asks whether to delete an unsaved work that a crash has left.
+/// Asks whether to delete a work: an unsaved one that a crash has left, or a file.
 struct DiscardDialog {
-  std::size_t index = 0;  ///< index in AppState::recoverable
+  std::string work;
+  Action confirmed;  ///< deletes it
+  [[nodiscard]] bool is_file() const noexcept {
+    return std::holds_alternative<DeleteWork>(confirmed);
+  }
+};
+/// The works in the folder of saved files.
+struct WorksDialog {
+  std::filesystem::path folder;
+  std::vector<StoredWork> works;
 };
 struct ExportDialog {
   std::optional<ExportChoices> previewed{};  ///< choices of the current preview
@@ -117,7 +127,7 @@ using ImportDialog = ImportCard;
 
 using Dialog = std::variant<NoDialog, GalleryDialog, ShortcutsDialog, UnsavedDialog, OpenDialog,
                             SaveDialog, ExportDialog, ImportDialog, SettingsDialog, ReplaceDialog,
-                            PictureDialog, DiscardDialog>;
+                            PictureDialog, DiscardDialog, WorksDialog>;
 
 /// Choices and results of an export. They outlive the dialog, because an export continues after it
 /// is closed.

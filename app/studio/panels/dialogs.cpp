@@ -143,13 +143,16 @@ void draw(const ReplaceDialog& dialog, const ViewModel& model, Actions& actions,
 void draw(const DiscardDialog& dialog, const ViewModel& model, Actions& actions,
           const ViewRect& rect) {
   begin_dialog("##discard", rect, 38.0f);
-  dialog_title(model, "Discard this work?");
-  wrapped_text(text_of(model.recoverable[dialog.index]));
-  wrapped_text("It was not saved. Discard deletes it.");
+  dialog_title(model, dialog.is_file() ? "Delete this work?" : "Discard this work?");
+  wrapped_text(dialog.work);
+  wrapped_text(!dialog.is_file() ? "It was not saved. Discard deletes it."
+               : kInPage         ? "The browser deletes it. Downloads of it remain."
+                                 : "Its file is deleted.");
   ImGui::Spacing();
   if (main_button("Keep (Esc)", model.colours())) actions.emplace_back(CloseDialog{});
-  same_line_if_room("Discard (Ctrl+Shift+D)");
-  if (ImGui::Button("Discard (Ctrl+Shift+D)")) actions.emplace_back(RunCommand{"recover.confirm"});
+  const char* button = dialog.is_file() ? "Delete (Ctrl+Shift+D)" : "Discard (Ctrl+Shift+D)";
+  same_line_if_room(button);
+  if (ImGui::Button(button)) actions.emplace_back(RunCommand{"recover.confirm"});
   ImGui::End();
 }
 

@@ -6,12 +6,10 @@
 #include "app/studio/panels/widgets.hpp"
 #include "app/studio/samples.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <optional>
 
 namespace clay::studio {
@@ -95,9 +93,11 @@ void draw_lump(const ViewModel& model, Actions& actions) {
   ImGui::Columns(1);
 }
 
-/// Button for any file, and the recent files that have room.
+/// Buttons for any file and for the list of works, and the recent files that have room.
 void draw_files(const ViewModel& model, Actions& actions) {
   if (ImGui::Button("Open...")) actions.emplace_back(RunCommand{"file.open"});
+  ImGui::SameLine();
+  if (ImGui::Button("Works...")) actions.emplace_back(RunCommand{"file.works"});
   const float em = ImGui::GetFontSize(), pad = 2.0f * ImGui::GetStyle().FramePadding.x;
   for (const std::string& path : model.settings.recent) {
     const std::string whole = std::filesystem::path(path).filename().string();
@@ -110,11 +110,6 @@ void draw_files(const ViewModel& model, Actions& actions) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", shown_name(path).c_str());
     ImGui::PopID();
   }
-}
-
-/// "22 Nov 14:05", local time.
-std::string time_text(std::chrono::system_clock::time_point when) {
-  return fmt::format("{:%d %b %H:%M}", fmt::localtime(std::chrono::system_clock::to_time_t(when)));
 }
 
 }  // namespace

@@ -86,6 +86,8 @@ void draw(const ShortcutsDialog&, const ViewModel& model, Actions& actions, cons
 /// "22 Nov 14:05, bowl: 3 strokes, 20 s".
 [[nodiscard]] std::string text_of(const history::Recoverable& work);
 void draw(const ReplaceDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);
+void draw(const WorksDialog& dialog, const ViewModel& model, Actions& actions,
+          const ViewRect& rect);
 void draw(const DiscardDialog& dialog, const ViewModel& model, Actions& actions,
           const ViewRect& rect);
 void draw(const UnsavedDialog&, const ViewModel& model, Actions& actions, const ViewRect& rect);

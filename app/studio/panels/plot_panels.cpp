@@ -76,7 +76,7 @@ namespace {
 constexpr float kHeightEm = 4.5f;
 constexpr double kLeastForceN = 0.5, kLeastLateUs = 10.0;  // smallest axis ranges
 
-std::string time_text(double us) {
+std::string duration_text(double us) {
   if (us >= 1000.0) return fmt::format("{:.3g} ms", 1e-3 * us);
   return fmt::format("{:.{}f} \xc2\xb5s", us, us < 10.0 ? 1 : 0);
 }
@@ -102,11 +102,11 @@ void draw_servo(const ViewModel& model, Actions&) {
                colours.faint, colours);
   value_row(colours, "Lateness", fmt::format("last {:g} s", kHistoryS));
   const double late_top = round_up(std::max(kLeastLateUs, figures.late_most_us));
-  draw_history(ticks, &servo::TickSample::late_us, late_top, time_text(late_top), colours.warning,
-               colours);
-  value_row(colours, "Lateness, median", time_text(figures.late_p50_us));
-  value_row(colours, "Lateness, 99 %", time_text(figures.late_p99_us));
-  value_row(colours, "Run time, median", time_text(figures.work_p50_us));
+  draw_history(ticks, &servo::TickSample::late_us, late_top, duration_text(late_top),
+               colours.warning, colours);
+  value_row(colours, "Lateness, median", duration_text(figures.late_p50_us));
+  value_row(colours, "Lateness, 99 %", duration_text(figures.late_p99_us));
+  value_row(colours, "Run time, median", duration_text(figures.work_p50_us));
   value_row(colours, "Ticks, missed", fmt::format("{}, {}", figures.ticks, figures.missed));
   if (const auto dropped = model.stroke.trace().dropped(); dropped > 0)
     faint_text(colours, fmt::format("{} ticks are missing: the window was too slow", dropped));

@@ -2,6 +2,8 @@
 
 #include "core/text.hpp"
 
+#include <fmt/chrono.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -117,6 +119,10 @@ void value_row(const Palette& colours, const char* name, const std::string& valu
   else
     ImGui::SetCursorPosX(std::max(left, right));
   ImGui::TextUnformatted(value.c_str());
+}
+
+std::string time_text(std::chrono::system_clock::time_point when) {
+  return fmt::format("{:%d %b %H:%M}", fmt::localtime(std::chrono::system_clock::to_time_t(when)));
 }
 
 void shaded_text(ImDrawList* draw, ImVec2 at, const std::string& text, const ImVec4& colour) {

@@ -5,6 +5,7 @@
 
 #include <imgui.h>
 
+#include <chrono>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,9 @@ void faint_text(const Palette& colours, const std::string& text);
 /// Name at the left, value at the right edge of the column, below the name if it does not fit
 /// beside.
 void value_row(const Palette& colours, const char* name, const std::string& value);
+
+/// "22 Nov 14:05", local time.
+[[nodiscard]] std::string time_text(std::chrono::system_clock::time_point when);
 
 /// Opacity of the ground of texts over the view.
 inline constexpr float kOverView = 0.82f;

@@ -7,6 +7,7 @@
 #include "app/studio/panels/widgets.hpp"
 #include "tests/app/history/strokes.hpp"
 #include "tests/app/studio/still_host.hpp"
+#include "tests/support/run_program.hpp"
 
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
@@ -113,7 +114,7 @@ TEST_F(Panels, DrawingEmitsNoAction) {
   };
   const Dialog dialogs[] = {NoDialog{},       GalleryDialog{}, ShortcutsDialog{}, UnsavedDialog{},
                             OpenDialog{},     SaveDialog{},    ExportDialog{},    ImportDialog{},
-                            SettingsDialog{}, ReplaceDialog{}};
+                            SettingsDialog{}, ReplaceDialog{}, DiscardDialog{},   WorksDialog{}};
   for (const Dialog& dialog : dialogs) {
     state.ui.dialog = dialog;
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(frame(all).empty()) << dialog.index();
@@ -430,6 +431,28 @@ TEST_F(Panels, ALongRecentNameHidesNoOtherFile) {
     for (const Action& action : click(gallery, {x, y}))
       if (const auto* open = std::get_if<OpenFile>(&action)) opened.insert(open->path.string());
   EXPECT_EQ(opened, std::set(state.settings.recent.begin(), state.settings.recent.end()));
+}
+
+TEST_F(Panels, EachWorkOfTheListCanBeOpenedOrDeletedButNotTheOpenOne) {
+  test::ScratchFolder folder;
+  const std::filesystem::path own = folder.file("own.work"), other = folder.file("other.work");
+  test::write_text(other, "x");
+  ASSERT_TRUE(state.document.save(own));
+  state.ui.dialog = WorksDialog{folder.path(), stored_works(folder.path())};
+  const auto list = [](const ViewModel& model, Actions& actions) {
+    draw_dialog(model, actions, kView);
+  };
+  for (int i = 0; i < 3; ++i) (void)frame(list);
+  const ImGuiWindow* window = ImGui::FindWindowByName("##works");
+  std::set<std::filesystem::path> opened, deleted;
+  for (float y = window->Pos.y; y < window->Pos.y + window->Size.y; y += 10.0f)
+    for (float x = window->Pos.x; x < window->Pos.x + window->Size.x; x += 20.0f)
+      for (const Action& action : click(list, {x, y})) {
+        if (const auto* open = std::get_if<OpenFile>(&action)) opened.insert(open->path);
+        if (const auto* remove = std::get_if<DeleteWork>(&action)) deleted.insert(remove->path);
+      }
+  EXPECT_EQ(opened, (std::set{own, other}));
+  EXPECT_EQ(deleted, std::set{other});
 }
 
 TEST_F(Panels, ALongTextIsShortenedInItsMiddle) {

@@ -1,13 +1,16 @@
 // Files of the window, without a window: when it asks before a work or a file is lost.
 
+#include "app/history/file_lock.hpp"
 #include "app/studio/app_state.hpp"
 #include "tests/app/studio/actions.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace clay::studio {
 namespace {
@@ -182,7 +185,6 @@ TEST_F(ActionsTest, OpeningAFileLeavesTheFolderOfExports) {
   EXPECT_EQ(state.settings.folder, folder.path()) << "what is written stays together";
 }
 
-/// The top of the target stays in sight.
 TEST_F(ActionsTest, ARecentFileThatIsGoneIsOfferedNoMore) {
   const std::string work = folder.file("a.work"), pot = folder.file("b.pot.json");
   apply(state, SaveFile{work});
@@ -199,6 +201,63 @@ TEST_F(ActionsTest, ARecentFileThatIsGoneIsOfferedNoMore) {
   state.settings.recent = {work};
   apply(state, OpenFile{work});
   EXPECT_EQ(state.settings.recent, (std::vector{work})) << "it may be repaired";
+}
+
+TEST_F(ActionsTest, WorksAreListedNewestFirst) {
+  namespace fs = std::filesystem;
+  for (const char* name : {"b.work", "c.WORK", "a.work", "a.pot.json"})
+    test::write_text(folder.file(name), name);
+  fs::create_directory(folder.file("d.work"));
+  const auto now = fs::file_time_type::clock::now();
+  fs::last_write_time(folder.file("a.work"), now - std::chrono::hours(2));
+  fs::last_write_time(folder.file("b.work"), now - std::chrono::hours(1));
+  fs::last_write_time(folder.file("c.WORK"), now - std::chrono::hours(3));
+  state.settings.folder = folder.path();
+  apply(state, ShowDialog{DialogKind::works});
+  const auto& works = std::get<WorksDialog>(state.ui.dialog).works;
+  std::vector<std::string> names;
+  for (const StoredWork& work : works) names.push_back(work.path.filename().string());
+  EXPECT_EQ(names, (std::vector<std::string>{"b.work", "a.work", "c.WORK"}));
+  EXPECT_EQ(works[0].bytes, 6u);
+  const auto age = std::chrono::system_clock::now() - works[0].when;
+  EXPECT_GT(age, std::chrono::minutes(59));
+  EXPECT_LT(age, std::chrono::minutes(70));
+  state.settings.folder = folder.file("none");
+  apply(state, ShowDialog{DialogKind::works});
+  EXPECT_TRUE(std::get<WorksDialog>(state.ui.dialog).works.empty());
+}
+
+TEST_F(ActionsTest, AWorkIsDeletedOnlyAfterAQuestion) {
+  const std::string work = folder.file("a.work");
+  apply(state, SaveFile{work});
+  apply(state, SaveFile{folder.file("b.work")});
+  apply(state, ShowDialog{DialogKind::works});
+  apply(state, DeleteWork{work});
+  ASSERT_TRUE(state.ui.shows<DiscardDialog>());
+  EXPECT_TRUE(std::get<DiscardDialog>(state.ui.dialog).is_file());
+  apply(state, Back{});
+  ASSERT_TRUE(state.ui.shows<WorksDialog>());
+  EXPECT_EQ(std::get<WorksDialog>(state.ui.dialog).works.size(), 2u);
+  apply(state, DeleteWork{work});
+  apply(state, DiscardAsked{});
+  EXPECT_FALSE(std::filesystem::exists(work));
+  ASSERT_TRUE(state.ui.shows<WorksDialog>());
+  EXPECT_EQ(std::get<WorksDialog>(state.ui.dialog).works.size(), 1u);
+  EXPECT_EQ(state.settings.recent, (std::vector{folder.file("b.work")}));
+  EXPECT_FALSE(state.last_error);
+}
+
+TEST_F(ActionsTest, AWorkThatIsOpenElsewhereIsNotDeleted) {
+  const std::string work = folder.file("a.work");
+  test::write_text(work, "x");
+  state.settings.folder = folder.path();
+  const history::FileLock other(work, history::FileLock::Kind::exclusive);
+  apply(state, DeleteWork{work});
+  apply(state, DiscardAsked{});
+  EXPECT_TRUE(std::filesystem::exists(work));
+  EXPECT_TRUE(state.ui.shows<WorksDialog>());
+  ASSERT_TRUE(state.ui.notices.shown());
+  EXPECT_EQ(state.ui.notices.shown()->text, work + " is open in another window");
 }
 
 TEST_F(ActionsTest, SavingFromTheMenuDuringTheQuestionDoesNotContinue) {

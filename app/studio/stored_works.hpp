@@ -1,0 +1,24 @@
+#pragma once
+// The works in the folder into which the window saves; in a page, all works that the browser keeps.
+
+#include "claystack/core/result.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace clay::studio {
+
+struct StoredWork {
+  std::filesystem::path path;
+  std::chrono::system_clock::time_point when;  ///< of its last change
+  std::uintmax_t bytes = 0;
+};
+
+/// Newest first. A folder that cannot be read holds none.
+[[nodiscard]] std::vector<StoredWork> stored_works(const std::filesystem::path& folder);
+/// Refuses (`io`) while another window has it open. A file that is already gone is no error.
+Result<void> delete_work(const std::filesystem::path& path);
+
+}  // namespace clay::studio
