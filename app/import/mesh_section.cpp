@@ -211,7 +211,9 @@ Result<std::vector<ScannedSlab>> common_slabs(const Levels& levels,
   }
   if (slabs.empty())
     return failure(ErrorKind::bad_input,
-                   name + ": expected a closed mesh around an axis, found clay around none");
+                   fmt::format("{}: expected a closed mesh around an axis, found clay around none; "
+                               "claystack check {} reports the faults of the mesh",
+                               name, name));
   return slabs;
 }
 

@@ -27,6 +27,10 @@ void warn_about(const solid::MeshEnclosure& found, std::vector<std::string>& war
         fmt::format("expected triangles that all face outward, found {} between triangles of "
                     "opposite orientation, {}; the mesh has no volume",
                     counted(found.flipped_edges, "edge"), first_at(found.flipped_at)));
+  if (found.open_edges == 0 && found.flipped_edges == 0 && !found.volume_mm3)
+    warnings.emplace_back(
+        "expected two triangles at each edge, found edges with more; the mesh has no volume: check "
+        "--repair removes triangles that occur twice");
   if (found.inward())
     warnings.emplace_back(
         "expected triangles that face outward, found them facing inward: read as reversed");

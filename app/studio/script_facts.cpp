@@ -2,6 +2,7 @@
 
 #include "app/studio/script_facts.hpp"
 #include "app/studio/panels/panels.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -29,7 +30,7 @@ std::string place_text(const AppState& state, double (*part)(glm::dvec2)) {
   const auto place = state.stroke.throwing() && status.ticks > 0
                          ? std::optional(state.scene.in_section(status.tool_mm))
                          : state.scene.pointed_mm();
-  return place ? fmt::format("{}", part(*place)) : std::string();
+  return place ? nine_digit_text(part(*place)) : std::string();
 }
 
 struct Fact {
@@ -48,12 +49,12 @@ const std::array kFacts = {
     Fact{"tool_mm",
          [](const AppState& s) {
            const auto size = size_mm(s.settings.tool);
-           return size ? fmt::format("{}", *size) : std::string();
+           return size ? nine_digit_text(*size) : std::string();
          }},
     Fact{"stiffness",
          [](const AppState& s) {
            return s.document.has_work() && s.document.scene().force
-                      ? fmt::format("{}", s.document.scene().force->stiffness_n_per_mm2)
+                      ? nine_digit_text(s.document.scene().force->stiffness_n_per_mm2)
                       : std::string();
          }},
     Fact{"strokes",
@@ -93,21 +94,21 @@ const std::array kFacts = {
          [](const AppState& s) { return s.gamepad.name().empty() ? "none" : s.gamepad.name(); }},
     Fact{"strength",
          [](const AppState& s) {
-           return s.stroke.throwing() && s.scene.strength() ? fmt::format("{}", *s.scene.strength())
+           return s.stroke.throwing() && s.scene.strength() ? nine_digit_text(*s.scene.strength())
                                                             : std::string("none");
          }},
-    Fact{"pull_mm", [](const AppState& s) { return fmt::format("{}", s.stroke.stretch_mm()); }},
-    Fact{"gap_mm", [](const AppState& s) { return fmt::format("{}", s.stroke.status().gap_mm); }},
+    Fact{"pull_mm", [](const AppState& s) { return nine_digit_text(s.stroke.stretch_mm()); }},
+    Fact{"gap_mm", [](const AppState& s) { return nine_digit_text(s.stroke.status().gap_mm); }},
     Fact{"tool_rho_mm",
          [](const AppState& s) { return place_text(s, [](glm::dvec2 at) { return at.x; }); }},
     Fact{"tool_y_mm",
          [](const AppState& s) { return place_text(s, [](glm::dvec2 at) { return at.y; }); }},
     Fact{"azimuth_deg",
          [](const AppState& s) {
-           return fmt::format("{}", glm::degrees(s.scene.camera().azimuth_rad));
+           return nine_digit_text(glm::degrees(s.scene.camera().azimuth_rad));
          }},
     Fact{"distance_mm",
-         [](const AppState& s) { return fmt::format("{}", s.scene.camera().distance_mm); }},
+         [](const AppState& s) { return nine_digit_text(s.scene.camera().distance_mm); }},
     Fact{"device", [](const AppState& s) { return s.stroke.device_name(); }},
     Fact{"force",
          [](const AppState& s) { return s.ui.arm.guard.empty() ? "none" : s.ui.arm.guard; }},
@@ -119,11 +120,9 @@ const std::array kFacts = {
          [](const AppState& s) {
            return s.ui.notices.shown() ? s.ui.notices.shown()->text : std::string();
          }},
-    Fact{"height_mm",
-         [](const AppState& s) { return fmt::format("{}", s.stroke.view().height_mm); }},
-    Fact{
-        "force_n",
-        [](const AppState& s) { return fmt::format("{}", glm::length(s.stroke.status().clay_n)); }},
+    Fact{"height_mm", [](const AppState& s) { return nine_digit_text(s.stroke.view().height_mm); }},
+    Fact{"force_n",
+         [](const AppState& s) { return nine_digit_text(glm::length(s.stroke.status().clay_n)); }},
     Fact{"volume_error",
          [](const AppState& s) { return fmt::format("{}", s.stroke.status().volume_error); }},
     Fact{"poses", [](const AppState& s) { return fmt::format("{}", s.stroke.status().poses); }},
@@ -151,7 +150,7 @@ const std::array kFacts = {
     Fact{"off_target_mm",
          [](const AppState& s) {
            const auto& check = s.readings.check();
-           return check && check->off ? fmt::format("{}", check->off->mm) : std::string();
+           return check && check->off ? nine_digit_text(check->off->mm) : std::string();
          }},
     Fact{"step",
          [](const AppState& s) {
@@ -161,12 +160,12 @@ const std::array kFacts = {
          }},
     Fact{"thinnest_mm",
          [](const AppState& s) {
-           return s.readings.check() ? fmt::format("{}", s.readings.check()->thinnest_mm)
+           return s.readings.check() ? nine_digit_text(s.readings.check()->thinnest_mm)
                                      : std::string();
          }},
     Fact{"stress_part",
          [](const AppState& s) {
-           return fmt::format("{}", s.readings.stress().part().value_or(0.0));
+           return nine_digit_text(s.readings.stress().part().value_or(0.0));
          }},
     Fact{"plotted_ticks",
          [](const AppState& s) { return fmt::format("{}", s.readings.ticks().samples().size()); }},

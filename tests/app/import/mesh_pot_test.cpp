@@ -344,7 +344,7 @@ TEST(MeshPot, CommandScalesAMeshInMetresAndItsVolume) {
   EXPECT_NEAR(run.json().at("volume_mm3").get<double>(), mm3, 2e-3 * mm3);
 }
 
-TEST(MeshPot, CommandWarnsOfAnOpenMeshAndAnInvertedOne) {
+TEST(MeshPot, CommandWarnsOfMeshesThatEncloseNoVolume) {
   const Exported sample("vase");
   const std::string pot = " -o " + sample.folder.file("again.pot.json");
   const auto imported = [&](const TriangleMesh& mesh, const char* name) {
@@ -373,6 +373,21 @@ TEST(MeshPot, CommandWarnsOfAnOpenMeshAndAnInvertedOne) {
   const auto [mixed_json, mixed_text] = imported(mixed, "mixed.stl");
   EXPECT_THAT(mixed_json.err, HasSubstr("found 3 edges between triangles of opposite orientation"));
   EXPECT_TRUE(mixed_json.json().at("mesh_mm3").is_null());
+
+  TriangleMesh partly = sample.mesh;
+  partly.triangles.insert(partly.triangles.end(), sample.mesh.triangles.begin(),
+                          sample.mesh.triangles.begin() + 20);
+  const auto [partly_json, partly_text] = imported(partly, "partly.stl");
+  EXPECT_EQ(partly_json.status, 0);
+  EXPECT_THAT(partly_json.err, HasSubstr("expected two triangles at each edge"));
+  EXPECT_TRUE(partly_json.json().at("mesh_mm3").is_null());
+
+  TriangleMesh twice = sample.mesh;
+  twice.triangles.insert(twice.triangles.end(), sample.mesh.triangles.begin(),
+                         sample.mesh.triangles.end());
+  const auto [twice_json, twice_text] = imported(twice, "twice.stl");
+  EXPECT_EQ(twice_json.status, 2);
+  EXPECT_THAT(twice_json.err, testing::ContainsRegex("around none; claystack check .*twice.stl"));
 
   const auto [sound_json, sound_text] = imported(sample.mesh, "sound.stl");
   EXPECT_EQ(sound_json.err, "");
