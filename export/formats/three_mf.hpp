@@ -11,8 +11,11 @@ inline constexpr std::string_view kTypesPath = "[Content_Types].xml";
 inline constexpr std::string_view kRelationsPath = "_rels/.rels";
 // Found by its relationship. The usual name, thumbnail.png, makes assimp 5.2 free memory twice.
 inline constexpr std::string_view kThumbnailPath = "Metadata/thumb.png";
-// Settings of objects for PrusaSlicer; `notes` is the only one.
+// Settings of objects for PrusaSlicer; `notes` is the only one. In its projects it also names the
+// kinds of volumes.
 inline constexpr std::string_view kNotesPath = "Metadata/Slic3r_PE_model.config";
+// The same of Bambu Studio and OrcaSlicer.
+inline constexpr std::string_view kSettingsPath = "Metadata/model_settings.config";
 inline constexpr std::string_view kPotNote = "claystack:pot:";
 inline constexpr std::string_view kPotPath = "Metadata/claystack.pot.cbor";
 inline constexpr std::string_view kCertificatePath = "Metadata/claystack.certificate.json";

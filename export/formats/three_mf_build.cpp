@@ -79,11 +79,12 @@ std::string ModelReader::left_out() const {
   const auto supports = static_cast<std::size_t>(std::ranges::count_if(
       items_, [&](const Placed& item) { return objects_[item.object].type == "support"; }));
   std::string text;
-  if (supports > 0) text = counted(supports, "support item");
-  if (not_printed_ > 0)
-    text.append(supports > 0 ? " and " : "")
-        .append(counted(not_printed_, "item"))
-        .append(" with printable=\"0\"");
+  const auto add = [&text](const std::string& more) {
+    text.append(text.empty() ? "" : " and ").append(more);
+  };
+  if (supports > 0) add(counted(supports, "support item"));
+  if (not_printed_ > 0) add(counted(not_printed_, "item") + " with printable=\"0\"");
+  if (no_clay_.any()) add(no_clay_.text());
   return text;
 }
 

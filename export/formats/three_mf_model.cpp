@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -51,6 +52,22 @@ std::optional<Transform> transform_from(std::string_view text) {
   }
   if (text.find_first_not_of(' ') != text.npos) return std::nullopt;
   return matrix;
+}
+
+/// Of volumes that are left out: otherwise they would count for the size of the mesh.
+void drop_unused_points(Object& object) {
+  std::vector<std::uint32_t> number(object.points.size(), 0);  // first: 1 where it is used
+  for (const auto& triangle : object.triangles)
+    for (const std::uint32_t corner : triangle) number[corner] = 1;
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (number[i] == 0) continue;
+    object.points[kept] = object.points[i];
+    number[i] = kept++;
+  }
+  object.points.resize(kept);
+  for (auto& triangle : object.triangles)
+    for (std::uint32_t& corner : triangle) corner = number[corner];
 }
 
 std::uint64_t bounded(std::uint64_t count) { return std::min<std::uint64_t>(count, 1ULL << 40); }
@@ -202,12 +219,17 @@ void ModelReader::begin_object(XmlReader& reader, const XmlElement& element) {
                        quoted(type));
   id_ = whole<std::uint32_t>(element.value_of("id"), 1, kMaxId).value_or(0);
   has_mesh_ = has_components_ = false;
+  no_clay_ranges_ = other_.empty() ? volumes_.ranges_of(id_) : nullptr;
+  triangle_ = 0;
+  dropped_ = {};
   objects_.emplace_back().type = type;
 }
 
 void ModelReader::end_object(XmlReader& reader) {
   Object& object = objects_.back();
-  if (has_mesh_ ? object.triangles.empty() : object.components.empty())
+  if (dropped_.any())
+    drop_unused_points(object);
+  else if (has_mesh_ ? object.triangles.empty() : object.components.empty())
     return reader.fail("expected an object with triangles or components, found neither");
   object.all_points = object.points.size();
   object.all_triangles = object.triangles.size();
@@ -252,6 +274,7 @@ void ModelReader::add_triangle(XmlReader& reader, const XmlElement& element) {
                          expected_number("a vertex", 0, object.points.size()) + found(text));
     corners[i] = *index;
   }
+  if (next_is_no_clay()) return;
   if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
     if (options_.repair) return void(++twice_);
     return reader.fail(
@@ -263,6 +286,20 @@ void ModelReader::add_triangle(XmlReader& reader, const XmlElement& element) {
   if (++stored_triangles_ > kMaxTriangles)
     return reader.fail(expected_at_most(kMaxTriangles, "triangles"));
   object.triangles.push_back(corners);
+}
+
+bool ModelReader::next_is_no_clay() {
+  const std::uint32_t triangle = triangle_++;
+  if (no_clay_ranges_ == nullptr) return false;
+  const auto after = no_clay_ranges_->upper_bound(triangle);
+  if (after == no_clay_ranges_->begin()) return false;
+  const SlicerVolumes::Range& range = std::prev(after)->second;
+  if (triangle > range.last) return false;
+  if (triangle == range.first) {
+    dropped_.add(range.negative);
+    no_clay_.add(range.negative);
+  }
+  return true;
 }
 
 const ModelReader::Part* ModelReader::part_of(XmlReader& reader, const XmlElement& element) const {
@@ -309,6 +346,11 @@ void ModelReader::add_placed(XmlReader& reader, const XmlElement& element,
     return reader.fail("expected an object to build, found one of type other");
   if (list.size() == kMaxPlaced)
     return reader.fail("expected at most " + std::to_string(kMaxPlaced) + " components or items");
+  if (const bool* negative = volumes_.component(id_, *id);
+      negative != nullptr && places_.back() == Place::component && other_.empty()) {
+    dropped_.add(*negative);
+    return no_clay_.add(*negative);
+  }
   // Not in the core specification, but PrusaSlicer and Bambu Studio write and obey it.
   const std::string_view printable = element.value_of("printable").value_or("1");
   if (places_.back() == Place::item && (printable == "0" || printable == "false"))

@@ -4,6 +4,7 @@
 #include "claystack/core/result.hpp"
 #include "claystack/export/formats.hpp"
 #include "export/formats/three_mf_grammar.hpp"
+#include "export/formats/three_mf_volumes.hpp"
 #include "export/formats/xml_reader.hpp"
 
 #include <array>
@@ -13,6 +14,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace clay::solid::inline formats::three_mf {
@@ -42,7 +44,9 @@ struct Object {
 /// Reads the start part of a package, after the other parts whose objects it names by their path.
 class ModelReader final : public XmlReader::Events {
  public:
-  explicit ModelReader(const ReadOptions& options) : options_(options) {}
+  /// `volumes`: those that are not clay.
+  explicit ModelReader(const ReadOptions& options, SlicerVolumes volumes = {})
+      : options_(options), volumes_(std::move(volumes)) {}
 
   /// Before and after a part that is not the start part.
   void begin_other(std::string_view path);
@@ -65,6 +69,8 @@ class ModelReader final : public XmlReader::Events {
   void end_object(XmlReader& reader);
   void add_vertex(XmlReader& reader, const XmlElement& element);
   void add_triangle(XmlReader& reader, const XmlElement& element);
+  /// Whether the next triangle of the object belongs to a volume that is not clay.
+  [[nodiscard]] bool next_is_no_clay();
   void add_placed(XmlReader& reader, const XmlElement& element, std::vector<Placed>& list);
   void add_resource(XmlReader& reader, const XmlElement& element);
   void check_property(XmlReader& reader, const XmlElement& element);
@@ -89,6 +95,7 @@ class ModelReader final : public XmlReader::Events {
   [[nodiscard]] std::string left_out() const;
 
   ReadOptions options_;
+  SlicerVolumes volumes_;
   std::vector<Place> places_{Place::outside};
   std::size_t foreign_depth_ = 0;       ///< within an element of another namespace
   Part part_;                           ///< the one that is read
@@ -97,6 +104,10 @@ class ModelReader final : public XmlReader::Events {
   std::vector<Object> objects_;         ///< of all parts
   std::uint32_t id_ = 0;                ///< of the object that is read
   bool has_mesh_ = false, has_components_ = false;
+  const SlicerVolumes::Ranges* no_clay_ranges_ = nullptr;  ///< of the object that is read
+  std::uint32_t triangle_ = 0;    ///< the next one of the object that is read
+  SlicerVolumes::Count dropped_;  ///< volumes of that object
+  SlicerVolumes::Count no_clay_;  ///< volumes of all objects that are not read
   std::vector<Placed> items_;
   std::size_t not_printed_ = 0;  ///< items with printable="0"
   std::size_t twice_ = 0;        ///< triangles that use a vertex twice, left out for repairs

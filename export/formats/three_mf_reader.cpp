@@ -148,10 +148,25 @@ Result<void> read_model(const ZipPackage& package, const std::string& path, std:
       .and_then([&] { return read_part(package, path, name, model); });
 }
 
+constexpr std::uint64_t kMaxConfigBytes = std::uint64_t{16} << 20;
+
+/// Of the project of a slicer; none in other packages.
+Result<SlicerVolumes> slicer_volumes(const ZipPackage& package, std::string_view name) {
+  SlicerVolumes volumes;
+  for (const std::string_view path : {kNotesPath, kSettingsPath}) {
+    if (!package.has(path)) continue;
+    const auto visit = [&](XmlReader& reader, const XmlElement& element) {
+      volumes.visit(reader, element);
+    };
+    if (auto read = each_element(package, path, name, visit, kMaxConfigBytes); !read)
+      return tl::make_unexpected(read.error());
+  }
+  return volumes;
+}
+
 /// The text of the first note that holds a pot; empty: there is none.
 Result<std::string> pot_note(const ZipPackage& package, std::string_view name) {
   std::string text;
-  constexpr std::uint64_t kMostBytes = std::uint64_t{16} << 20;
   return each_element(
              package, kNotesPath, name,
              [&](XmlReader&, const XmlElement& element) {
@@ -159,7 +174,7 @@ Result<std::string> pot_note(const ZipPackage& package, std::string_view name) {
                if (!text.empty() || element.value_of("key") != "notes") return;
                if (value.starts_with(kPotNote)) text = value.substr(kPotNote.size());
              },
-             kMostBytes)
+             kMaxConfigBytes)
       .map([&] { return std::move(text); });
 }
 
@@ -168,8 +183,10 @@ Result<std::string> pot_note(const ZipPackage& package, std::string_view name) {
 Result<TriangleMesh> decode_3mf(std::string_view bytes, std::string_view name,
                                 const ReadOptions& options) {
   return with_model(bytes, name, [&](const ZipPackage& package, const std::string& path) {
-    ModelReader model(options);
-    return read_model(package, path, name, model).and_then([&] { return model.build(name); });
+    return slicer_volumes(package, name).and_then([&](SlicerVolumes volumes) {
+      ModelReader model(options, std::move(volumes));
+      return read_model(package, path, name, model).and_then([&] { return model.build(name); });
+    });
   });
 }
 

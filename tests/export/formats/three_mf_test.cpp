@@ -428,6 +428,104 @@ TEST(ThreeMf, NotesItemsThatAreNotPrinted) {
                       "expected an item to print, found only 1 item with printable=\"0\""));
 }
 
+/// A project of a slicer: a model, and a part that names the kinds of volumes.
+Result<TriangleMesh> read_project(const std::string& model, std::string_view path,
+                                  const std::string& config,
+                                  std::vector<std::string>* notes = nullptr) {
+  const std::string package = zipped({{"[Content_Types].xml", kTypesPart},
+                                      {"_rels/.rels", kRelationsPart},
+                                      {"3D/3dmodel.model", model},
+                                      {path, config}})
+                                  .value();
+  return decode_3mf(package, "m", {.notes = notes});
+}
+
+/// One mesh for all volumes of an object, as PrusaSlicer writes it: a tetrahedron, and a copy of it
+/// that has points of its own.
+std::string two_volumes() {
+  return changed(changed(kModel, "</vertices>",
+                         R"(<vertex x="90" y="0" z="0"/><vertex x="99" y="0" z="0"/>)"
+                         R"(<vertex x="90" y="9" z="0"/><vertex x="90" y="0" z="9"/></vertices>)"),
+                 "</triangles>",
+                 R"(<triangle v1="4" v2="6" v3="5"/><triangle v1="4" v2="5" v3="7"/>)"
+                 R"(<triangle v1="5" v2="6" v3="7"/><triangle v1="4" v2="7" v3="6"/></triangles>)");
+}
+
+std::string prusa_config(const std::string& second) {
+  return R"(<config><object id="1"><metadata type="object" key="name" value="a"/>)"
+         R"(<volume firstid="0" lastid="3"><metadata type="volume" key="volume_type" )"
+         R"(value="ModelPart"/></volume><volume firstid="4" lastid="7">)" +
+         second + "</volume></object></config>";
+}
+
+constexpr std::string_view kPrusaPath = "Metadata/Slic3r_PE_model.config",
+                           kBambuPath = "Metadata/model_settings.config";
+
+TEST(ThreeMf, LeavesOutTheVolumesOfPrusaSlicerThatAreNotPrinted) {
+  const std::string modifier = R"(<metadata type="volume" key="modifier" value="1"/>)";
+  const auto type = [](const std::string& value) {
+    return R"(<metadata type="volume" key="volume_type" value=")" + value + R"("/>)";
+  };
+  const std::pair<std::string, std::string> kinds[] = {
+      {modifier + type("ParameterModifier"), "1 modifier or support volume not read"},
+      {modifier, "1 modifier or support volume not read"},
+      {type("SupportBlocker"), "1 modifier or support volume not read"},
+      {type("NegativeVolume"), "1 negative volume not read"}};
+  for (const auto& [second, note] : kinds) {
+    std::vector<std::string> notes;
+    const auto mesh = read_project(two_volumes(), kPrusaPath, prusa_config(second), &notes);
+    EXPECT_EQ(mesh.value(), tetrahedron()) << "neither its triangles nor its points";
+    EXPECT_EQ(notes, std::vector<std::string>{note});
+  }
+  std::vector<std::string> notes;
+  EXPECT_EQ(read_project(two_volumes(), kPrusaPath, prusa_config(type("ModelPart")), &notes)
+                ->triangles.size(),
+            8u);
+  const std::string other = changed(prusa_config(modifier), R"(object id="1")", R"(object id="2")");
+  EXPECT_EQ(read_project(two_volumes(), kPrusaPath, other, &notes)->triangles.size(), 8u);
+  EXPECT_TRUE(notes.empty());
+  EXPECT_TRUE(
+      refused(read_project(two_volumes(), kPrusaPath,
+                           changed(prusa_config(modifier), R"(lastid="7")", R"(lastid="3")")),
+              ErrorKind::bad_input,
+              "m: Metadata/Slic3r_PE_model.config:1: expected the first and the last triangle"));
+}
+
+TEST(ThreeMf, RefusesAProjectWithoutAVolumeToPrint) {
+  const std::string config =
+      R"(<config><object id="1"><volume firstid="0" lastid="3">)"
+      R"(<metadata key="volume_type" value="SupportEnforcer"/></volume></object></config>)";
+  EXPECT_TRUE(refused(read_project(kModel, kPrusaPath, config), ErrorKind::bad_input,
+                      "found only 1 modifier or support volume"));
+}
+
+TEST(ThreeMf, LeavesOutThePartsOfBambuStudioThatAreNotPrinted) {
+  const std::string model =
+      kModelStart + kObject + changed(kObject, R"(id="1")", R"(id="2")") +
+      R"(<object id="3"><components><component objectid="1"/>)"
+      R"(<component objectid="2" transform="1 0 0 0 1 0 0 0 1 90 0 0"/></components></object>)" +
+      changed(kBuild, R"(objectid="1")", R"(objectid="3")");
+  const auto config = [](const std::string& object, const std::string& kind) {
+    return R"(<config><object id=")" + object +
+           R"("><part id="1" subtype="normal_part"/><part id="2" subtype=")" + kind +
+           R"("/></object></config>)";
+  };
+  for (const char* kind : {"modifier_part", "support_blocker", "support_enforcer"}) {
+    std::vector<std::string> notes;
+    EXPECT_EQ(read_project(model, kBambuPath, config("3", kind), &notes).value(), tetrahedron());
+    EXPECT_EQ(notes, std::vector<std::string>{"1 modifier or support volume not read"}) << kind;
+  }
+  std::vector<std::string> notes;
+  EXPECT_EQ(read_project(model, kBambuPath, config("3", "negative_part"), &notes).value(),
+            tetrahedron());
+  EXPECT_EQ(notes, std::vector<std::string>{"1 negative volume not read"});
+  const std::string by_itself = changed(model, "</build>", R"(<item objectid="2"/></build>)");
+  EXPECT_EQ(read_project(by_itself, kBambuPath, config("3", "modifier_part"))->triangles.size(), 8u)
+      << "the object is also an item";
+  for (const auto& all : {config("3", "normal_part"), config("4", "modifier_part")})
+    EXPECT_EQ(read_project(model, kBambuPath, all)->triangles.size(), 8u);
+}
+
 TEST(ThreeMf, LeavesOutTrianglesOfTwoVerticesForRepairs) {
   const std::string model =
       changed(kModel, "<triangles>", R"(<triangles><triangle v1="1" v2="1" v3="3"/>)");
