@@ -103,10 +103,10 @@ auto with_model(std::string_view bytes, std::string_view name, Use use)
   });
 }
 
-Result<void> read_part(const ZipPackage& package, const std::string& path, std::string_view name,
-                       ModelReader& model) {
-  const std::string place = std::string(name) + ": " + path;
-  XmlReader reader(model, place);
+Result<void> read_part(const ZipPackage& package, std::string_view path, std::string_view name,
+                       XmlReader::Events& events) {
+  const std::string place = std::string(name).append(": ").append(path);
+  XmlReader reader(events, place);
   return package.read(path, [&](std::string_view piece) { return reader.read(piece); })
       .and_then([&] { return reader.finish(); });
 }
@@ -148,17 +148,15 @@ Result<void> read_model(const ZipPackage& package, const std::string& path, std:
       .and_then([&] { return read_part(package, path, name, model); });
 }
 
-constexpr std::uint64_t kMaxConfigBytes = std::uint64_t{16} << 20;
-
-/// Of the project of a slicer; none in other packages.
+/// Of the project of a slicer; none in other packages. Read piece by piece: the notes of many
+/// bodies with their pot are long.
 Result<SlicerVolumes> slicer_volumes(const ZipPackage& package, std::string_view name) {
   SlicerVolumes volumes;
   for (const std::string_view path : {kNotesPath, kSettingsPath}) {
     if (!package.has(path)) continue;
-    const auto visit = [&](XmlReader& reader, const XmlElement& element) {
-      volumes.visit(reader, element);
-    };
-    if (auto read = each_element(package, path, name, visit, kMaxConfigBytes); !read)
+    Elements events(
+        [&](XmlReader& reader, const XmlElement& element) { volumes.visit(reader, element); });
+    if (auto read = read_part(package, path, name, events); !read)
       return tl::make_unexpected(read.error());
   }
   return volumes;
@@ -167,6 +165,7 @@ Result<SlicerVolumes> slicer_volumes(const ZipPackage& package, std::string_view
 /// The text of the first note that holds a pot; empty: there is none.
 Result<std::string> pot_note(const ZipPackage& package, std::string_view name) {
   std::string text;
+  constexpr std::uint64_t kMostBytes = std::uint64_t{16} << 20;
   return each_element(
              package, kNotesPath, name,
              [&](XmlReader&, const XmlElement& element) {
@@ -174,7 +173,7 @@ Result<std::string> pot_note(const ZipPackage& package, std::string_view name) {
                if (!text.empty() || element.value_of("key") != "notes") return;
                if (value.starts_with(kPotNote)) text = value.substr(kPotNote.size());
              },
-             kMaxConfigBytes)
+             kMostBytes)
       .map([&] { return std::move(text); });
 }
 
