@@ -146,6 +146,43 @@ export async function pickedAgain({open, folder}) {
   await page.browserContext().close();
 }
 
+/// The list has all works, more than the menu of recent files; one is deleted after a question.
+export async function listedWorks({open, folder}) {
+  const works = page => page.evaluate(() =>
+    studio.FS.readdir('/home/web_user').filter(name => name.endsWith('.work')).length);
+  const page = await open();
+  await choose(page, '#open', join(folder, 'bowl.work'));
+  await page.says('opened: bowl.work');
+  await page.evaluate(() => {
+    const bytes = studio.FS.readFile('/opened/bowl.work');
+    for (let i = 0; i < 10; ++i) studio.FS.writeFile(`/home/web_user/pot-${i}.work`, bytes);
+  });
+  await page.focus('#canvas');
+  await page.keyboard.press('F10');
+  for (let i = 0; i < 11; ++i) {
+    await pause(60);
+    await page.keyboard.press('ArrowDown');
+  }
+  await page.keyboard.press('Enter');
+  await page.says('action: file.works');
+  await pause(500);
+  const asked = () => page.$eval('#events', events => events.textContent.includes('prompt: delete'));
+  for (let y = 120; y < 700 && !await asked(); y += 9) {  // down the buttons at the right
+    await page.mouse.click(822, y);
+    await pause(150);
+  }
+  assert.ok(await asked(), 'expected a question after a click on a button of the list');
+  assert.equal(await works(page), 10);
+  await chord(page, 'KeyD', 'Control', 'Shift');
+  for (let i = 0; i < 50 && await works(page) === 10; ++i) await pause(100);
+  await pause(kStored);
+  await page.reload();
+  await page.says('window open');
+  assert.equal(await works(page), 9);
+  assert.deepEqual(page.problems, []);
+  await page.browserContext().close();
+}
+
 /// A reload of a page whose address holds a pot offers the work, with the strokes since then.
 export async function reloadedLink({open}) {
   const page = await open();
