@@ -18,7 +18,8 @@ inline constexpr double kFingerMm = 90.0;
           .finger_mm = kFingerMm,
           .thin_wall_yields = true,
           .rim_sinks = true,
-          .narrow_rim_closes = true};
+          .narrow_rim_closes = true,
+          .lifted_wall_stretches = true};
 }
 /// The usual settings, for a lump or a pot of this height.
 [[nodiscard]] SceneSpec usual_scene(double height_mm);

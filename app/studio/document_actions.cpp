@@ -80,6 +80,7 @@ void Performer::operator()(const BeginSample& sample) const {
     scene->clay->finger_mm = history::kFingerMm;
     scene->clay->rim_sinks = true;
     scene->clay->narrow_rim_closes = true;
+    scene->clay->lifted_wall_stretches = true;
   }
   (*this)(BeginWork{*scene, nullptr, {}});
 }

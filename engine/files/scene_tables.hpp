@@ -20,6 +20,7 @@ inline constexpr std::array<std::string_view, 2> kSwitchNames = {"off", "on"};
 inline constexpr std::array<std::string_view, 2> kThinWallNames = {"stops", "yields"};
 inline constexpr std::array<std::string_view, 2> kPressedRimNames = {"bends", "sinks"};
 inline constexpr std::array<std::string_view, 2> kNarrowRimNames = {"rises", "closes"};
+inline constexpr std::array<std::string_view, 2> kLiftedWallNames = {"grows", "stretches"};
 inline constexpr std::array<std::string_view, 2> kWheelTurnNames = {"clockwise",
                                                                     "counterclockwise"};
 
@@ -103,6 +104,7 @@ void describe(auto& io, Is<ClaySpec> auto& clay) {
   io.choice_unless(false, "thin_wall", clay.thin_wall_yields, files::kThinWallNames);
   io.choice_unless(false, "pressed_rim", clay.rim_sinks, files::kPressedRimNames);
   io.choice_unless(false, "narrow_rim", clay.narrow_rim_closes, files::kNarrowRimNames);
+  io.choice_unless(false, "lifted_wall", clay.lifted_wall_stretches, files::kLiftedWallNames);
 }
 
 void describe(auto& io, Is<ThrowSettings> auto& settings) {

@@ -116,7 +116,8 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
   work.walls.begin(removals.front().contact.bottom);
   work.pressed = {};
   give_way_to<rules>(press, stack, removals, work);
-  const bool closes = plan.clay.narrow_rim_closes && !press.trim;
+  const bool closes = plan.clay.narrow_rim_closes && !press.trim &&
+                      !place_of_stretch(plan, stack, press.tool.hip_mm.y, removals);
   work.rim = closes ? rim_limit(stack, plan.tool, press.tool.hip_mm.y, removals) : RimLimit{};
   const Squeeze squeeze{plan.removal.min_wall_mm, plan.clay.floor_rings,
                         plan.mode == ToolMode::trim_foot, (rules & kShift) ? &work.shift : nullptr};

@@ -15,7 +15,8 @@ constexpr std::size_t kMostGrowthPerTick = 64;
 // How fast a thick rim tapers: loss of thickness over height.
 constexpr double kTaper = 0.5;
 
-constexpr double kHighestLipMm = 12.0;  // bounds what a tick moves
+// Bounds of what a tick moves.
+constexpr double kHighestLipMm = 12.0, kMostLiftedRings = 4096.0;
 // A lip is rounded: its largest thickness at the rim and half-way down, relative to the wall below.
 constexpr double kThinRim = 0.7, kThinLip = 0.93;
 // Steps of the search from the rim down for the wall that is twice as thick as the lip is high.
@@ -155,7 +156,28 @@ Ring beside_tools(const Ring& next, const ClayStack& stack, const StepPlan& plan
   return leans ? leaning_ring(next, ring.outer2, stack.ring_height_mm()) : Ring{};
 }
 
+/// The mean of two rings that touch, so that a wall that leans stretches.
+Ring ring_between(const Ring& below, const Ring& above) noexcept {
+  return {below.outer2 + (above.outer2 - below.outer2) / 2,
+          below.inner2 + (above.inner2 - below.inner2) / 2};
+}
+
 }  // namespace
+
+std::optional<std::size_t> place_of_stretch(const StepPlan& plan, const ClayStack& stack,
+                                            double hip_y,
+                                            std::span<const ToolRemoval> removals) noexcept {
+  const bool pinched = removals.size() == 2 && !removals[0].contact.rings.empty() &&
+                       !removals[1].contact.rings.empty();
+  if (!plan.clay.lifted_wall_stretches || !pinched) return std::nullopt;
+  const auto rings = stack.rings();
+  const double above = std::ceil((hip_y + plan.tool.high()) / stack.ring_height_mm());
+  const double size = static_cast<double>(rings.size());
+  if (!(above >= 1.0 && above < size && size - above <= kMostLiftedRings)) return std::nullopt;
+  const auto place = static_cast<std::size_t>(above);
+  if (rings[place - 1].inner2 == 0 || rings[place].inner2 == 0) return std::nullopt;
+  return place;
+}
 
 template <Model model>
 void grow_rings(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim,
@@ -171,6 +193,8 @@ void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const To
   Ledger none;
   grow<Model::conserving>(flow, stack, none, writer, rim, [&] {
     const auto rings = stack.rings();
+    if (const auto place = place_of_stretch(plan, stack, hip_y, removals))
+      return Growth{ring_between(rings[*place - 1], rings[*place]), *place};
     // The wall below a lip holds more than the top ring. The lip rises into a new ring's place.
     if (rim == nullptr && stack.crown() >= rings.back().volume() &&
         beside_tools(rings.back(), stack, plan, hip_y, removals) == rings.back())

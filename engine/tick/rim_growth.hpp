@@ -7,6 +7,8 @@
 #include "engine/tick/flow.hpp"
 #include "engine/tick/removal.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <span>
 
 namespace clay {
@@ -20,7 +22,14 @@ void grow_rings(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim,
 
 // For the clay rules.
 
-/// Whole rings from the crown: with a rim as `press_clay` makes them, without one below the lip,
+/// Where two tools stretch a wall that they lift: the index of the lowest ring above them, which
+/// rises with all rings above it as it is. Empty: it grows at the rim.
+[[nodiscard]] std::optional<std::size_t> place_of_stretch(
+    const StepPlan& plan, const ClayStack& stack, double hip_y,
+    std::span<const ToolRemoval> removals) noexcept;
+
+/// Whole rings from the crown. Where two tools stretch the wall, a ring between its neighbours.
+/// Otherwise, with a rim as `press_clay` makes them, without one below the lip,
 /// which is lifted as it is. Where a tool stands beside the lip, on top, as copies of the rim that
 /// taper to the wall below where the rim is thicker. A ring rises beside the tools, not into them:
 /// a narrow rim that closes leans away from them, any other rim loses a part of the ring. If they

@@ -96,6 +96,11 @@ bool closes_rim(const SceneSpec& s) {
   return s.clay && s.clay->narrow_rim_closes && !cutter(s.tool.mode);
 }
 
+bool stretches_wall(const SceneSpec& s) {
+  return s.clay && s.clay->lifted_wall_stretches && s.clay->lift && s.tool.gap_mm &&
+         (s.tool.mode == ToolMode::press || s.tool.mode == ToolMode::pinch);
+}
+
 RulesPlan rules_plan(const SceneSpec& s) {
   if (!s.clay) return {};
   // Rings whose middle is below the floor's height. A foot may be trimmed until the floor is as
@@ -110,7 +115,8 @@ RulesPlan rules_plan(const SceneSpec& s) {
           finger_mm(s),
           s.clay->thin_wall_yields,
           sinks_rim(s),
-          closes_rim(s)};
+          closes_rim(s),
+          stretches_wall(s)};
 }
 
 ForcePlan force_plan(const SceneSpec& s) {
@@ -161,6 +167,9 @@ void describe_options(const SceneSpec& s, bool any, const std::string& none,
   line("narrow rim", any && closes_rim(s), "a rim that is pushed inward closes",
        any && s.clay->narrow_rim_closes ? "a trimming tool moves no clay"
                                         : "a rim that is pushed inward becomes a pipe");
+  line("lifted wall", any && stretches_wall(s), "a wall that two tools lift stretches at the tools",
+       any && s.clay->lifted_wall_stretches ? "lift is off, or there is one tool"
+                                            : "a wall that two tools lift grows at its rim");
 }
 
 void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {

@@ -49,7 +49,8 @@ TEST(Plan, KeepsAllNeededStages) {
   scene["clay"] = {{"finger_mm", 90},
                    {"thin_wall", "yields"},
                    {"pressed_rim", "sinks"},
-                   {"narrow_rim", "closes"}};
+                   {"narrow_rim", "closes"},
+                   {"lifted_wall", "stretches"}};
   write_text(folder.file("s.scene.json"), scene.dump());
   EXPECT_TRUE(
       claystack("plan --json " + folder.file("s.scene.json")).json().at("left_out").empty());

@@ -59,7 +59,8 @@ constexpr std::string_view kText = R"({
     "finger_mm": 80,
     "thin_wall": "yields",
     "pressed_rim": "sinks",
-    "narrow_rim": "closes"
+    "narrow_rim": "closes",
+    "lifted_wall": "stretches"
   }
 }
 )";

@@ -33,11 +33,13 @@ TEST(SceneHash, OmitsAWallAndARimThatStay) {
   EXPECT_EQ(write_scene(scene).find("thin_wall"), std::string::npos);
   EXPECT_EQ(write_scene(scene).find("pressed_rim"), std::string::npos);
   EXPECT_EQ(write_scene(scene).find("narrow_rim"), std::string::npos);
+  EXPECT_EQ(write_scene(scene).find("lifted_wall"), std::string::npos);
   scene.clay->thin_wall_yields = scene.clay->rim_sinks = true;
-  scene.clay->narrow_rim_closes = true;
+  scene.clay->narrow_rim_closes = scene.clay->lifted_wall_stretches = true;
   EXPECT_NE(write_scene(scene).find("thin_wall"), std::string::npos);
   EXPECT_NE(write_scene(scene).find("pressed_rim"), std::string::npos);
   EXPECT_NE(write_scene(scene).find("narrow_rim"), std::string::npos);
+  EXPECT_NE(write_scene(scene).find("lifted_wall"), std::string::npos);
 }
 
 RC_GTEST_PROP(SceneHash, DistinguishesScenes, ()) {

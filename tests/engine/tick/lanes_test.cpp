@@ -130,7 +130,7 @@ TEST(LanesOfRules, GiveTheSameBitsForAnyMotion) {
       scene.clay = ClaySpec{};
       scene.clay->floor_mm = 5.0;
       scene.clay->thin_wall_yields = scene.clay->rim_sinks = true;
-      scene.clay->narrow_rim_closes = true;
+      scene.clay->narrow_rim_closes = scene.clay->lifted_wall_stretches = true;
       if (sponge) scene.tool.mode = ToolMode::smooth;
       EXPECT_TRUE(thrown_with(scene, true) == thrown_with(scene, false)) << h << sponge;
     }

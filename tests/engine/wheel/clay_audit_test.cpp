@@ -205,6 +205,8 @@ TEST(ClayAudit, ClayNeverMovesIntoTheTool) {
   expect_no_gain_of_energy(scene);
   scene.clay->narrow_rim_closes = true;
   expect_no_gain_of_energy(scene);
+  scene.clay->lifted_wall_stretches = true;
+  expect_no_gain_of_energy(scene);
 }
 
 }  // namespace

@@ -1,0 +1,120 @@
+// A wall that stretches where two tools lift it (`ClaySpec::lifted_wall_stretches`).
+
+#include "claystack/engine/wheel.hpp"
+#include "tests/engine/wheel/rule_hand.hpp"
+#include "tests/engine/wheel/rule_samples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+namespace clay {
+namespace {
+
+constexpr double kBelliedMm = 150.0, kBelliedWallMm = 5.0, kPinchMm = 3.0, kTipMm = 10.0;
+
+SceneSpec lifting_scene(bool stretches) {
+  SceneSpec scene = cylinder_scene({.thin_wall_yields = true,
+                                    .rim_sinks = true,
+                                    .narrow_rim_closes = true,
+                                    .lifted_wall_stretches = stretches});
+  scene.removal = {200.0, 0.25, 1.0, {}};
+  return scene;
+}
+
+/// A belly below a narrow neck.
+double bellied(double up) { return 40.0 + 20.0 * std::sin(2.0 * std::numbers::pi * up / 200.0); }
+
+Wheel bellied_wheel(const SceneSpec& scene, double ring_height_mm = kH) {
+  return wheel_with(
+      scene, kBelliedMm, bellied, [](double up) { return bellied(up) - kBelliedWallMm; },
+      ring_height_mm);
+}
+
+/// Two tools lift the belly between these heights.
+void lift(Wheel& wheel, double from_mm, double to_mm) {
+  Hand hand(wheel);
+  const auto middle = [](double up) { return bellied(up) - 0.5 * kBelliedWallMm; };
+  hand.place_at(middle(from_mm), from_mm, kPinchMm + 4.0);
+  hand.move_to(middle(from_mm), from_mm + 0.1, 1.0, kPinchMm);
+  for (double up = from_mm + 1.0; up <= to_mm; up += 1.0)
+    hand.move_to(middle(up), up, 20.0, kPinchMm);
+}
+
+TEST(LiftedWall, AllAboveTheToolsRisesAsItIs) {
+  Wheel wheel = bellied_wheel(lifting_scene(true));
+  const std::vector<Ring> before(wheel.stack().rings().begin(), wheel.stack().rings().end());
+  lift(wheel, 30.0, 70.0);
+  expect_balanced(wheel);
+  const auto after = wheel.stack().rings();
+  ASSERT_GT(after.size(), before.size() + 50);
+  // Those that were more than the tool's radius above it, and what it lifted past it.
+  const auto above = static_cast<std::size_t>((70.0 + kTipMm) / kH) + 1;
+  ASSERT_LT(after.size() - before.size() + above, after.size());
+  for (std::size_t down = 1; down <= before.size() - above; ++down)
+    ASSERT_EQ(after[after.size() - down], before[before.size() - down]) << down;
+}
+
+/// Grown at the rim, the same clay is a pipe on the neck.
+TEST(LiftedWall, MakesNoPipeOfANarrowRim) {
+  const auto pipe_mm = [](bool stretches) {
+    Wheel wheel = bellied_wheel(lifting_scene(stretches));
+    lift(wheel, 30.0, 70.0);
+    const auto rings = wheel.stack().rings();
+    double mm = 0.0;
+    for (std::size_t i = rings.size();
+         i-- > 0 && std::abs(rings[i].outer_mm() - rings.back().outer_mm()) < 0.2;)
+      mm += kH;
+    return mm;
+  };
+  EXPECT_GT(pipe_mm(false), 20.0);
+  EXPECT_LT(pipe_mm(true), 4.0);  // the neck is upright there
+}
+
+/// The height that a wall gains is the clay that it gives up over its section, which becomes
+/// thinner. Of a cylinder that is the rim's section too.
+TEST(LiftedWall, RisesLikeARollingMill) {
+  ClaySpec clay = no_rules();
+  clay.lift = clay.rim = clay.lifted_wall_stretches = true;
+  SceneSpec scene = cylinder_scene(clay);
+  scene.removal = {200.0, 0.25, 1.0, {}};
+  Wheel wheel = Wheel::build(scene).value();
+  Hand hand(wheel);
+  hand.place_at(42.5, 25.0);
+  constexpr double kSpeed = 20.0, kGap = 4.0;
+  hand.move_to(42.5, 45.0, kSpeed, kGap);
+  const double start = wheel.stack().height_mm();
+  hand.move_to(42.5, 85.0, kSpeed, kGap);
+  const double rise = (wheel.stack().height_mm() - start) / 40.0 * kSpeed;
+  EXPECT_NEAR(rise, kSpeed * (1.0 - kGap / 5.0), 0.02 * kSpeed * (1.0 - kGap / 5.0));
+  expect_balanced(wheel);
+}
+
+TEST(LiftedWall, HasALimitAsRingsGetLower) {
+  const auto profile = [](double ring_height_mm) {
+    Wheel wheel = bellied_wheel(lifting_scene(true), ring_height_mm);
+    lift(wheel, 30.0, 70.0);
+    std::vector<double> radii;
+    for (double up = 20.0; up < 140.0; up += 0.5) radii.push_back(ring_at(wheel, up).outer_mm());
+    return radii;
+  };
+  EXPECT_LT(change_by_halving(0.4, profile), 0.1);
+}
+
+/// At the foot the tools reach no bore, at the rim they reach past it: there it grows as before.
+TEST(LiftedWall, GrowsAtTheRimWhereTheToolsReachIt) {
+  const auto top_rings = [](bool stretches) {
+    Wheel wheel = bellied_wheel(lifting_scene(stretches));
+    lift(wheel, 143.0, 148.0);
+    expect_balanced(wheel);
+    return std::vector<Ring>(wheel.stack().rings().begin(), wheel.stack().rings().end());
+  };
+  EXPECT_EQ(top_rings(true), top_rings(false));
+  EXPECT_GT(top_rings(true).size(), static_cast<std::size_t>(kBelliedMm / kH));
+}
+
+}  // namespace
+}  // namespace clay
