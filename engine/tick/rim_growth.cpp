@@ -17,6 +17,8 @@ constexpr double kTaper = 0.5;
 
 // Bounds of what a tick moves.
 constexpr double kHighestLipMm = 12.0, kMostLiftedRings = 4096.0;
+// A wall stretches where its rings hold this much more clay than those of the rim.
+constexpr double kWiderWall = 1.25;
 // A lip is rounded: its largest thickness at the rim and half-way down, relative to the wall below.
 constexpr double kThinRim = 0.7, kThinLip = 0.93;
 // Steps of the search from the rim down for the wall that is twice as thick as the lip is high.
@@ -67,6 +69,14 @@ void grow(Flow& flow, ClayStack& stack, Ledger& ledger, StackWriter& writer, Rim
   }
 }
 
+/// The ring of the wall as far below the rim as the rim is thick. Expects two rings.
+const Ring& below_rim(const ClayStack& stack, double rim_mm) noexcept {
+  const auto rings = stack.rings();
+  const double down = rim_mm / stack.ring_height_mm() + 0.5;
+  const double most = static_cast<double>(rings.size()) - 1.0;
+  return rings[rings.size() - 1 - static_cast<std::size_t>(std::clamp(down, 1.0, most))];
+}
+
 /// The unchanged rim: its middle line continues upright, because a lifted wall keeps its radius,
 /// and a rim thicker than the wall below it tapers back to that wall.
 Ring copied_rim(const ClayStack& stack) noexcept {
@@ -75,8 +85,7 @@ Ring copied_rim(const ClayStack& stack) noexcept {
   if (rings.size() < 2 || top.inner2 == 0) return top;
   const double h = stack.ring_height_mm(), outer = top.outer_mm(), inner = top.inner_mm();
   const double wall = outer - inner;
-  const double below = std::clamp(wall / h + 0.5, 1.0, static_cast<double>(rings.size()) - 1.0);
-  const Ring& old = rings[rings.size() - 1 - static_cast<std::size_t>(below)];
+  const Ring& old = below_rim(stack, wall);
   if (old.inner2 == 0) return top;
   const double thinner = wall - wall_mm(old);
   if (!(thinner > 0.0)) return top;
@@ -176,6 +185,10 @@ std::optional<std::size_t> place_of_stretch(const StepPlan& plan, const ClayStac
   if (!(above >= 1.0 && above < size && size - above <= kMostLiftedRings)) return std::nullopt;
   const auto place = static_cast<std::size_t>(above);
   if (rings[place - 1].inner2 == 0 || rings[place].inner2 == 0) return std::nullopt;
+  const Ring& rim = rings[lip_of(stack, plan.tool, hip_y, removals) - 1];
+  const Quanta rim_volume = std::max(rim.volume(), below_rim(stack, wall_mm(rim)).volume());
+  const auto wall = static_cast<double>(rings[place].volume());
+  if (!(wall > kWiderWall * static_cast<double>(rim_volume))) return std::nullopt;
   return place;
 }
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -71,26 +72,40 @@ TEST(LiftedWall, MakesNoPipeOfANarrowRim) {
     return mm;
   };
   EXPECT_GT(pipe_mm(false), 20.0);
-  EXPECT_LT(pipe_mm(true), 4.0);  // the neck is upright there
+  EXPECT_LT(pipe_mm(true), 5.0);  // the neck by itself: 4.5
 }
 
-/// The height that a wall gains is the clay that it gives up over its section, which becomes
-/// thinner. Of a cylinder that is the rim's section too.
+/// A cylinder with a narrow neck. The wall enters the rolling mill at 5 mm and leaves it at 4 mm,
+/// and the neck, whose rings hold half as much clay, rises no faster for that.
 TEST(LiftedWall, RisesLikeARollingMill) {
   ClaySpec clay = no_rules();
   clay.lift = clay.rim = clay.lifted_wall_stretches = true;
   SceneSpec scene = cylinder_scene(clay);
   scene.removal = {200.0, 0.25, 1.0, {}};
-  Wheel wheel = Wheel::build(scene).value();
+  const auto outer = [](double up) { return std::clamp(145.0 - up, 25.0, 45.0); };
+  Wheel wheel =
+      wheel_with(scene, 140.0, outer, [&](double up) { return outer(up) - kBelliedWallMm; });
   Hand hand(wheel);
   hand.place_at(42.5, 25.0);
   constexpr double kSpeed = 20.0, kGap = 4.0;
   hand.move_to(42.5, 45.0, kSpeed, kGap);
   const double start = wheel.stack().height_mm();
   hand.move_to(42.5, 85.0, kSpeed, kGap);
-  const double rise = (wheel.stack().height_mm() - start) / 40.0 * kSpeed;
-  EXPECT_NEAR(rise, kSpeed * (1.0 - kGap / 5.0), 0.02 * kSpeed * (1.0 - kGap / 5.0));
+  const double rise = (wheel.stack().height_mm() - start) / 40.0;
+  EXPECT_NEAR(rise, 1.0 - kGap / 5.0, 0.05 * (1.0 - kGap / 5.0));  // the crown swings by 0.2 mm
   expect_balanced(wheel);
+}
+
+/// Of a cylinder, so that a thick rim tapers to the wall as it rises.
+TEST(LiftedWall, GrowsAtARimThatIsNotNarrower) {
+  const auto thrown = [](bool stretches) {
+    Wheel wheel = Wheel::build(lifting_scene(stretches)).value();
+    Hand hand(wheel);
+    hand.place_at(42.5, 25.0);
+    hand.move_to(42.5, 85.0, 20.0, kPinchMm);
+    return std::vector<Ring>(wheel.stack().rings().begin(), wheel.stack().rings().end());
+  };
+  EXPECT_EQ(thrown(true), thrown(false));
 }
 
 TEST(LiftedWall, HasALimitAsRingsGetLower) {
@@ -101,7 +116,7 @@ TEST(LiftedWall, HasALimitAsRingsGetLower) {
     for (double up = 20.0; up < 140.0; up += 0.5) radii.push_back(ring_at(wheel, up).outer_mm());
     return radii;
   };
-  EXPECT_LT(change_by_halving(0.4, profile), 0.1);
+  EXPECT_LT(change_by_halving(0.2, profile), 0.1);
 }
 
 /// At the foot the tools reach no bore, at the rim they reach past it: there it grows as before.

@@ -140,7 +140,7 @@ struct ClaySpec {
   /// gains, and where a tool outside leaves no room, it leans inward: it closes.
   bool narrow_rim_closes = false;
   /// Clay that two tools squeeze out (needs `lift`). False: the wall grows at its rim. True: it
-  /// stretches at the tools, and all above them rises as it is.
+  /// stretches at the tools where it is wider than the rim, and all above them rises as it is.
   bool lifted_wall_stretches = false;
   friend bool operator==(const ClaySpec&, const ClaySpec&) = default;
 };
