@@ -94,7 +94,7 @@ void faint_text(const Palette& colours, const std::string& text) {
 }
 
 void problem_text(const std::string& problem, const ImVec4& colour) {
-  constexpr float kTipEm = 24.0f;
+  constexpr float kWidestEm = 24.0f;
   const std::string whole = sentence(problem);
   std::string shown = whole;
   for (std::size_t from = shown.find(" ("); from != std::string::npos; from = shown.find(" (")) {
@@ -104,7 +104,7 @@ void problem_text(const std::string& problem, const ImVec4& colour) {
   }
   wrapped_text(shown, colour);
   if (shown != whole && ImGui::IsItemHovered())
-    ImGui::SetTooltip("%s", wrapped(whole, kTipEm * ImGui::GetFontSize()).c_str());
+    ImGui::SetTooltip("%s", wrapped(whole, kWidestEm * ImGui::GetFontSize()).c_str());
 }
 
 void value_row(const Palette& colours, const char* name, const std::string& value) {
