@@ -29,7 +29,7 @@ void draw_pot(const ViewModel& model, Actions& actions) {
 namespace {
 
 constexpr std::size_t kMostStretches = 3;
-constexpr float kTipEm = 22.0f;
+constexpr float kSourceEm = 22.0f;
 
 void draw_thin_places(const PotCheck& check, const Palette& colours, LengthUnit unit) {
   const std::vector<Stretch> stretches = thin_stretches(check);
@@ -61,7 +61,7 @@ void draw_walls(const ViewModel& model, Actions& actions) {
                                        : ImGui::GetStyleColorVec4(ImGuiCol_Text));
   if (check->limit && ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "%s", wrapped("Source: " + check->limit->source, kTipEm * ImGui::GetFontSize()).c_str());
+        "%s", wrapped("Source: " + check->limit->source, kSourceEm * ImGui::GetFontSize()).c_str());
   draw_thin_places(*check, colours, model.settings.unit);
 }
 

@@ -100,6 +100,7 @@ inline SceneSpec arbitrary_scene() {
                     maybe<double>([] { return *number_in(0, 200); }),
                     on(),
                     on(),
+                    on(),
                     on()};
   });
   return scene;
