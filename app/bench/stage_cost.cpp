@@ -48,7 +48,7 @@ std::optional<SceneSpec> with_rule(SceneSpec scene, std::string_view rule) {
   else if (rule == "narrow rim" &&
            (scene.tool.mode == ToolMode::press || scene.tool.mode == ToolMode::pinch))
     clay.narrow_rim_closes = true;
-  else if (rule == "lifted wall" && scene.tool.gap_mm &&
+  else if (rule == "lifted wall" &&
            (scene.tool.mode == ToolMode::press || scene.tool.mode == ToolMode::pinch))
     clay.lift = clay.lifted_wall_stretches = true;
   else
