@@ -29,7 +29,7 @@ xdotool key --window "$window" Escape
 until_line "action: wheel.zero_force"
 # Export by the menu: File, then Export.
 xdotool mousemove --window "$window" 27 13 click 1
-xdotool mousemove --window "$window" 60 378 sleep 0.2 click 1
+xdotool mousemove --window "$window" 60 401 sleep 0.2 click 1
 until_line "action: file.export" 2
 until_line "export previewed" 2
 xdotool key --window "$window" ctrl+Return
