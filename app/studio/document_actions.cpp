@@ -168,7 +168,7 @@ void Performer::operator()(const DeleteWork& remove) const {
     state.ui.dialog = DiscardDialog{remove.path.filename().string(), DeleteWork{remove.path, true}};
     return;
   }
-  (void)succeeded(state, delete_work(remove.path));
+  if (succeeded(state, delete_work(remove.path))) state.log("deleted: " + remove.path.string());
   forget_if_missing(state.settings, remove.path);
   show_works();
 }

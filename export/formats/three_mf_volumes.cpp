@@ -37,7 +37,7 @@ void SlicerVolumes::visit(XmlReader& reader, const XmlElement& element) {
   } else if (element.name == "metadata" && in_volume_) {
     const std::string_view key = element.value_of("key").value_or("");
     const std::string_view value = element.value_of("value").value_or("");
-    // Versions before 2.3 wrote `modifier`; later ones write both.
+    // PrusaSlicer 2.5 writes both for a modifier; files of older versions may have the first alone.
     const bool modifier = key == "modifier" && value == "1";
     if (!modifier && (key != "volume_type" || value == "ModelPart")) return;
     volume_.negative = value == "NegativeVolume";

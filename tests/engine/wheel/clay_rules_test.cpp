@@ -105,21 +105,15 @@ TEST(ClayRules, APinchLiftsTheRimLikeARollingMill) {
   SceneSpec scene = cylinder_scene(clay);
   scene.removal = {200.0, 0.25, 1.0, {}};
   Wheel wheel = Wheel::build(scene).value();
-  Hand hand(wheel);
-  hand.place_at(42.5, 25.0);
-  constexpr double kSpeed = 20.0, kGap = 4.0;
-  hand.move_to(42.5, 45.0, kSpeed, kGap);
-  const double start = wheel.stack().height_mm();
-  hand.move_to(42.5, 85.0, kSpeed, kGap);
-  const double seconds = 40.0 / kSpeed, wall = wall_of(ring_at(wheel, 65.0));
+  constexpr double kGap = 4.0;
+  const double rise = rise_of_pinch(wheel, 20.0, kGap);
   // By volume, because the wall is not quite thin.
   const Ring& thinned = ring_at(wheel, 65.0);
   const double part = 1.0 - static_cast<double>(thinned.volume()) /
                                 static_cast<double>(wheel.stack().rings().front().volume());
-  EXPECT_NEAR(wall, kGap, 0.05);
-  EXPECT_NEAR((wheel.stack().height_mm() - start) / seconds, kSpeed * (1.0 - kGap / 5.0),
-              0.02 * kSpeed * (1.0 - kGap / 5.0));
-  EXPECT_NEAR((wheel.stack().height_mm() - start) / 40.0, part, 0.02 * part);
+  EXPECT_NEAR(wall_of(thinned), kGap, 0.05);
+  EXPECT_NEAR(rise, 1.0 - kGap / 5.0, 0.02 * (1.0 - kGap / 5.0));
+  EXPECT_NEAR(rise, part, 0.02 * part);
   // No clay piles up in front of the tools.
   EXPECT_EQ(ring_at(wheel, 110.0), wheel.stack().rings().back());
   expect_balanced(wheel);

@@ -85,24 +85,19 @@ TEST(LiftedWall, RisesLikeARollingMill) {
   const auto outer = [](double up) { return std::clamp(145.0 - up, 25.0, 45.0); };
   Wheel wheel =
       wheel_with(scene, 140.0, outer, [&](double up) { return outer(up) - kBelliedWallMm; });
-  Hand hand(wheel);
-  hand.place_at(42.5, 25.0);
-  constexpr double kSpeed = 20.0, kGap = 4.0;
-  hand.move_to(42.5, 45.0, kSpeed, kGap);
-  const double start = wheel.stack().height_mm();
-  hand.move_to(42.5, 85.0, kSpeed, kGap);
-  const double rise = (wheel.stack().height_mm() - start) / 40.0;
-  EXPECT_NEAR(rise, 1.0 - kGap / 5.0, 0.05 * (1.0 - kGap / 5.0));  // the crown swings by 0.2 mm
+  constexpr double kGap = 4.0;
+  EXPECT_NEAR(rise_of_pinch(wheel, 20.0, kGap), 1.0 - kGap / 5.0,
+              0.05 * (1.0 - kGap / 5.0));  // the crown swings by 0.2 mm
   expect_balanced(wheel);
 }
 
-/// Of a cylinder, so that a thick rim tapers to the wall as it rises.
+/// Where the rim is thicker than the wall, it tapers to the wall as it rises.
 TEST(LiftedWall, GrowsAtARimThatIsNotNarrower) {
   const auto thrown = [](bool stretches) {
-    Wheel wheel = Wheel::build(lifting_scene(stretches)).value();
-    Hand hand(wheel);
-    hand.place_at(42.5, 25.0);
-    hand.move_to(42.5, 85.0, 20.0, kPinchMm);
+    Wheel wheel = wheel_with(
+        lifting_scene(stretches), 120.0, [](double) { return 45.0; },
+        [](double up) { return up < 112.0 ? 40.0 : 37.0; });
+    (void)rise_of_pinch(wheel, 20.0, kPinchMm);
     return std::vector<Ring>(wheel.stack().rings().begin(), wheel.stack().rings().end());
   };
   EXPECT_EQ(thrown(true), thrown(false));
@@ -119,16 +114,23 @@ TEST(LiftedWall, HasALimitAsRingsGetLower) {
   EXPECT_LT(change_by_halving(0.2, profile), 0.1);
 }
 
-/// At the foot the tools reach no bore, at the rim they reach past it: there it grows as before.
+/// A wide wall below a rim of half its radius. Tools that reach past the rim leave no place above
+/// them.
 TEST(LiftedWall, GrowsAtTheRimWhereTheToolsReachIt) {
-  const auto top_rings = [](bool stretches) {
-    Wheel wheel = bellied_wheel(lifting_scene(stretches));
-    lift(wheel, 143.0, 148.0);
+  const auto outer = [](double up) { return std::clamp(60.0 - 5.0 * (up - 143.0), 25.0, 60.0); };
+  const auto rings_lifted = [&](bool stretches, double up) {
+    Wheel wheel = wheel_with(lifting_scene(stretches), kBelliedMm, outer,
+                             [&](double y) { return outer(y) - kBelliedWallMm; });
+    Hand hand(wheel);
+    const double middle = 60.0 - 0.5 * kBelliedWallMm;
+    hand.place_at(middle, up, kPinchMm + 4.0);
+    hand.move_to(middle, up + 1.0, 1.0, kPinchMm);
     expect_balanced(wheel);
+    EXPECT_GT(wheel.stack().size(), static_cast<std::size_t>(kBelliedMm / kH));
     return std::vector<Ring>(wheel.stack().rings().begin(), wheel.stack().rings().end());
   };
-  EXPECT_EQ(top_rings(true), top_rings(false));
-  EXPECT_GT(top_rings(true).size(), static_cast<std::size_t>(kBelliedMm / kH));
+  EXPECT_EQ(rings_lifted(true, 141.0), rings_lifted(false, 141.0));
+  EXPECT_NE(rings_lifted(true, 130.0), rings_lifted(false, 130.0));
 }
 
 }  // namespace

@@ -40,4 +40,16 @@ inline const Ring& ring_at(const Wheel& wheel, double y) {
 }
 inline double middle_of(const Ring& ring) { return 0.5 * (ring.outer_mm() + ring.inner_mm()); }
 
+/// Two tools lift the wall of cylinder_scene() from 25 to 85 mm. The rise of the pot for each mm
+/// that they go up, from 45 mm on.
+inline double rise_of_pinch(Wheel& wheel, double mm_s, double gap_mm) {
+  constexpr double kMiddleMm = 42.5, kFromMm = 45.0, kToMm = 85.0;
+  Hand hand(wheel);
+  hand.place_at(kMiddleMm, 25.0);
+  hand.move_to(kMiddleMm, kFromMm, mm_s, gap_mm);
+  const double start_mm = wheel.stack().height_mm();
+  hand.move_to(kMiddleMm, kToMm, mm_s, gap_mm);
+  return (wheel.stack().height_mm() - start_mm) / (kToMm - kFromMm);
+}
+
 }  // namespace clay
