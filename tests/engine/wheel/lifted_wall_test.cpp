@@ -26,6 +26,15 @@ SceneSpec lifting_scene(bool stretches) {
   return scene;
 }
 
+/// Without rules that move the wall above the tools.
+SceneSpec lift_alone() {
+  ClaySpec clay = no_rules();
+  clay.lift = clay.rim = clay.lifted_wall_stretches = true;
+  SceneSpec scene = cylinder_scene(clay);
+  scene.removal = {200.0, 0.25, 1.0, {}};
+  return scene;
+}
+
 /// A belly below a narrow neck.
 double bellied(double up) { return 40.0 + 20.0 * std::sin(2.0 * std::numbers::pi * up / 200.0); }
 
@@ -59,6 +68,29 @@ TEST(LiftedWall, AllAboveTheToolsRisesAsItIs) {
     ASSERT_EQ(after[after.size() - down], before[before.size() - down]) << down;
 }
 
+/// In the tick in which it appears, just above the tools.
+TEST(LiftedWall, ANewRingIsTheMeanOfItsNeighbours) {
+  Wheel wheel = bellied_wheel(lift_alone());
+  const double middle = bellied(30.0) - 0.5 * kBelliedWallMm;
+  int seen = 0;
+  for (int tick = 1; tick <= 200; ++tick) {  // later one tool leaves the wall
+    const std::vector<Ring> before(wheel.stack().rings().begin(), wheel.stack().rings().end());
+    const double y = 30.003 + 0.01 * tick;  // on no border between rings
+    wheel.step({1000 * tick, {middle, y, 0.0}, false, kPinchMm});
+    const auto after = wheel.stack().rings();
+    if (after.size() != before.size() + 1) continue;
+    ++seen;
+    const auto place = static_cast<std::size_t>(std::ceil((y + kTipMm) / kH));
+    const Ring &below = before[place - 1], &above = before[place];
+    ASSERT_EQ(after[place + 1], above);
+    ASSERT_NEAR(mm2_from_quanta(after[place].outer2),
+                0.5 * (mm2_from_quanta(below.outer2) + mm2_from_quanta(above.outer2)), 1e-9);
+    ASSERT_NEAR(mm2_from_quanta(after[place].inner2),
+                0.5 * (mm2_from_quanta(below.inner2) + mm2_from_quanta(above.inner2)), 1e-9);
+  }
+  EXPECT_GT(seen, 5);
+}
+
 /// Grown at the rim, the same clay is a pipe on the neck.
 TEST(LiftedWall, MakesNoPipeOfANarrowRim) {
   const auto pipe_mm = [](bool stretches) {
@@ -78,13 +110,9 @@ TEST(LiftedWall, MakesNoPipeOfANarrowRim) {
 /// A cylinder with a narrow neck. The wall enters the rolling mill at 5 mm and leaves it at 4 mm,
 /// and the neck, whose rings hold half as much clay, rises no faster for that.
 TEST(LiftedWall, RisesLikeARollingMill) {
-  ClaySpec clay = no_rules();
-  clay.lift = clay.rim = clay.lifted_wall_stretches = true;
-  SceneSpec scene = cylinder_scene(clay);
-  scene.removal = {200.0, 0.25, 1.0, {}};
   const auto outer = [](double up) { return std::clamp(145.0 - up, 25.0, 45.0); };
   Wheel wheel =
-      wheel_with(scene, 140.0, outer, [&](double up) { return outer(up) - kBelliedWallMm; });
+      wheel_with(lift_alone(), 140.0, outer, [&](double up) { return outer(up) - kBelliedWallMm; });
   constexpr double kGap = 4.0;
   EXPECT_NEAR(rise_of_pinch(wheel, 20.0, kGap), 1.0 - kGap / 5.0,
               0.05 * (1.0 - kGap / 5.0));  // the crown swings by 0.2 mm
