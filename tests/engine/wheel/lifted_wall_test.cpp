@@ -75,13 +75,15 @@ TEST(LiftedWall, ANewRingIsTheMeanOfItsNeighbours) {
   int seen = 0;
   for (int tick = 1; tick <= 200; ++tick) {  // later one tool leaves the wall
     const std::vector<Ring> before(wheel.stack().rings().begin(), wheel.stack().rings().end());
-    const double y = 30.003 + 0.01 * tick;  // on no border between rings
-    wheel.step({1000 * tick, {middle, y, 0.0}, false, kPinchMm});
+    // On no border between rings; closing slowly, so that no tick makes several rings.
+    const double y = 30.003 + 0.01 * tick, gap_mm = kBelliedWallMm - 0.01 * tick;
+    wheel.step({1000 * tick, {middle, y, 0.0}, false, gap_mm});
     const auto after = wheel.stack().rings();
     if (after.size() != before.size() + 1) continue;
     ++seen;
     const auto place = static_cast<std::size_t>(std::ceil((y + kTipMm) / kH));
     const Ring &below = before[place - 1], &above = before[place];
+    ASSERT_GT(above.outer_mm() - below.outer_mm(), 1e-4) << "the wall leans";
     ASSERT_EQ(after[place + 1], above);
     ASSERT_NEAR(mm2_from_quanta(after[place].outer2),
                 0.5 * (mm2_from_quanta(below.outer2) + mm2_from_quanta(above.outer2)), 1e-9);
