@@ -11,15 +11,17 @@ namespace clay::history {
 /// The usual length of a finger, for `ClaySpec::finger_mm`.
 inline constexpr double kFingerMm = 90.0;
 
+/// These rules with all options, as new works have them.
+[[nodiscard]] inline ClaySpec with_all_options(ClaySpec clay) {
+  clay.finger_mm = kFingerMm;
+  clay.thin_wall_yields = clay.rim_sinks = true;
+  clay.narrow_rim_closes = clay.lifted_wall_stretches = true;
+  return clay;
+}
 /// The clay of a new work: the six rules and all options.
 [[nodiscard]] inline ClaySpec usual_clay() {
   constexpr double kFloorMm = 5.0;  // usual for a pot that is not trimmed on its foot
-  return {.floor_mm = kFloorMm,
-          .finger_mm = kFingerMm,
-          .thin_wall_yields = true,
-          .rim_sinks = true,
-          .narrow_rim_closes = true,
-          .lifted_wall_stretches = true};
+  return with_all_options({.floor_mm = kFloorMm});
 }
 /// The usual settings, for a lump or a pot of this height.
 [[nodiscard]] SceneSpec usual_scene(double height_mm);

@@ -75,13 +75,8 @@ void Performer::operator()(const BeginWork& begin) const {
 void Performer::operator()(const BeginSample& sample) const {
   auto scene = scene_of(samples().at(sample.index));
   if (!scene) return;
-  // New works have these options; the session of the sample was thrown without.
-  if (scene->clay) {
-    scene->clay->finger_mm = history::kFingerMm;
-    scene->clay->rim_sinks = true;
-    scene->clay->narrow_rim_closes = true;
-    scene->clay->lifted_wall_stretches = true;
-  }
+  // The session of the sample was thrown without them.
+  if (scene->clay) scene->clay = history::with_all_options(*scene->clay);
   (*this)(BeginWork{*scene, nullptr, {}});
 }
 
