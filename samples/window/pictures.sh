@@ -38,7 +38,8 @@ picture() {
   for theme in $themes; do
     for look in $looks; do
       size=${look%x*} scale=${look##*x}
-      rm -f "$out"/*.3mf  # of the picture before: it would ask whether to replace it
+      # Files of the picture before: the window would ask whether to replace them.
+      rm -f "$out"/*.3mf "$out"/*.work
       # The scripts use window coordinates at scale 1.
       awk -v s="$scale" '$1 == "move" { $2 *= s; $3 *= s } 1' "samples/window/$2.script" >"$out/script"
       "$program" studio ${3:+"$3"} --script "$out/script" --screenshot "$out/$1-$theme-$size-$scale.png" \
@@ -74,6 +75,7 @@ picture settings settings "$pots/bowl.pot.json"
 picture quit quit "$pots/vase.pot.json"
 picture shortcuts shortcuts "$pots/bowl.pot.json"
 picture open open "$pots/bowl.pot.json"
+picture works works "$pots/bowl.pot.json"
 picture menu_file menu_file "$pots/bowl.pot.json"
 picture menu_view menu_view "$pots/bowl.pot.json"
 picture fault fault "$pots/bowl.pot.json"
