@@ -16,7 +16,6 @@ readers=${*:-$(find $programs -maxdepth 1 -name 'fuzz_*' -type f -executable -pr
 $programs/make_corpus build/fuzz/corpus
 mkdir -p build/fuzz/findings build/fuzz/corpus
 for format in svg dxf csv; do
-  mkdir -p build/fuzz/corpus/drawing_$format
   cp samples/drawings/*.$format build/fuzz/corpus/drawing_$format
 done
 
@@ -24,11 +23,13 @@ done
 # shellcheck disable=SC2016  # the inner shell expands these
 printf '%s\n' $readers | xargs -P "${JOBS:-2}" -I{} sh -c '
   program=$1/fuzz_{} log=build/fuzz/findings/{}.log end=$(($(date +%s) + $2))
+  words=build/fuzz/corpus/{}.dict
+  [ -e "$words" ] || words=tests/fuzz/json.dict
   export ASAN_OPTIONS=quarantine_size_mb=16
   : >"$log"
   while left=$((end - $(date +%s))); [ $left -gt 0 ]; do
     "$program" -max_total_time=$left -timeout=5 -rss_limit_mb=512 -print_final_stats=1 \
-      -dict=tests/fuzz/json.dict -artifact_prefix=build/fuzz/findings/{}- \
+      -dict="$words" -artifact_prefix=build/fuzz/findings/{}- \
       "build/fuzz/corpus/{}" >>"$log" 2>&1 && break
     slow=$(ls build/fuzz/findings/{}-timeout-* 2>/dev/null | head -n 1)
     if [ -n "$slow" ] && (ulimit -t 5; exec "$program" "$slow") >>"$log" 2>&1

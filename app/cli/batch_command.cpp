@@ -3,6 +3,7 @@
 #include "app/cli/batch_results.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/json_output.hpp"
+#include "app/cli/memory_room.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/cli/usage.hpp"
 
@@ -145,6 +146,22 @@ Result<std::vector<BatchJob>> checked_jobs(const BatchOptions& options, const Co
   return jobs;
 }
 
+/// The jobs with what they share: JSON on standard output, and the memory limit of the batch,
+/// unless a job has its own.
+std::vector<BatchJob> runs_of(std::vector<BatchJob> jobs) {
+  for (BatchJob& job : jobs) {
+    const auto has = [&](std::string_view option) {
+      return std::ranges::any_of(job.words, [&](std::string_view word) {
+        return word == option || (word.starts_with(option) && word[option.size()] == '=');
+      });
+    };
+    if (!has("--json")) job.words.emplace_back("--json");
+    if (memory_limit() > 0 && !has("--memory"))
+      job.words.push_back(fmt::format("--memory={}", memory_limit()));
+  }
+  return jobs;
+}
+
 Result<int> batch(BatchOptions options, const Console& console) {
   if (options.results == "-") options.results.clear();
   auto jobs = checked_jobs(options, console);
@@ -159,9 +176,7 @@ Result<int> batch(BatchOptions options, const Console& console) {
     return status.has_value();
   });
 
-  std::vector<BatchJob> runs = *jobs;
-  for (BatchJob& run : runs)
-    if (std::ranges::find(run.words, "--json") == run.words.end()) run.words.push_back("--json");
+  const std::vector<BatchJob> runs = runs_of(*jobs);
   std::size_t ended = 0;
   Result<void> written;
   Progress progress(console, "jobs", runs.size());
@@ -217,6 +232,7 @@ void add_batch_command(CLI::App& app, Console& console, int& exit) {
       "  claystack batch samples/jobs.jsonl -o results.jsonl\n"
       "  claystack batch samples/jobs.jsonl -j 4 --time-limit 60\n"
       "  claystack batch samples/jobs.jsonl --part 1/2 -o results-1.jsonl\n\n"
+      "--memory limits the batch, and each job that does not have this option.\n\n"
       "Exit status: 0 every job ended with 0; 1 a job did not; 2 a line of the file is "
       "wrong, and no job ran.");
   command->callback([options, &console, &exit] {

@@ -86,33 +86,33 @@ void add_servo_options(CLI::App& command, PlanOptions& options) {
 #endif
 
 Result<void> plan_scene(const PlanOptions& options, const Console& console) {
-  const std::string& path = options.scene;
-  const auto scene = load_scene(path);
-  if (!scene) return tl::make_unexpected(scene.error());
-  const auto wheel = Wheel::build(*scene);
-  if (!wheel) return failure(wheel.error().kind, path + ": " + wheel.error().message);
+  const auto start = load_start(options.scene, {}, console);
+  if (!start) return tl::make_unexpected(start.error());
+  const auto wheel = build_wheel(*start);
+  if (!wheel) return tl::make_unexpected(wheel.error());
+  const SceneSpec& scene = start->scene;
 #ifdef CLAYSTACK_FALCON
   std::optional<servo::ServoContact> contact;
   if (options.rate_hz) {
-    const auto checked = contact_of(*scene, wheel->plan(), options);
+    const auto checked = contact_of(scene, wheel->plan(), options);
     if (!checked) return tl::make_unexpected(checked.error());
     contact = *checked;
   }
 #endif
 
   Progress progress(console, "measuring", 0);
-  Json json = {{"scene", scene->name}, {"in", Json::array()}, {"left_out", Json::array()}};
+  Json json = {{"scene", scene.name}, {"in", Json::array()}, {"left_out", Json::array()}};
   for (const PlanLine& line : wheel->plan().lines) {
     progress.stage(line.stage);
-    const auto cost = line.in ? std::nullopt : bench::cost_of(*scene, line.stage);
+    const auto cost = line.in ? std::nullopt : bench::cost_of(scene, line.stage);
     const bench::StageCost* saved = cost ? &*cost : nullptr;
     json[line.in ? "in" : "left_out"].push_back(line_json(line, saved));
     console.print(line_text(line, saved));
   }
-  if (!bench::timed_stroke(*scene, bench::kFirmMm))
+  if (!bench::timed_stroke(scene, bench::kFirmMm))
     console.print(
         fmt::format("times not measured: a tick may reach {:.0f} rings, expected at most {}",
-                    bench::rings_in_reach(*scene), bench::kMostRingsInReach));
+                    bench::rings_in_reach(scene), bench::kMostRingsInReach));
 #ifdef CLAYSTACK_FALCON
   if (contact) print_contact(console, *contact, *options.rate_hz, json);
 #endif

@@ -48,7 +48,7 @@ Result<Pot> clay_of(const std::string& path, const Console& console) {
   return parse_scene(*bytes, path).and_then([](const SceneSpec& scene) {
     const LumpSpec& lump = scene.lump;
     return ClayStack::cylinder(lump.rings, lump.ring_height_mm, lump.outer_radius_mm,
-                               lump.inner_radius_mm, max_rings_of(lump))
+                               lump.inner_radius_mm, lump.rings)
         .map([&](ClayStack stack) {
           return Pot{std::move(stack), {}, scene.model, lump.density_g_cm3, {}, {}};
         });

@@ -1,6 +1,7 @@
 #include "app/servo/signals.hpp"
 
 #include "app/servo/servo.hpp"
+#include "claystack/core/atomic_file.hpp"
 
 #include <atomic>
 #include <cstddef>
@@ -34,6 +35,7 @@ void on_stop_request(int signal) {
 void on_end(int signal) {
   emergency_stop().fire();
   if (const Act act = last_act.load(std::memory_order_acquire); act != nullptr) act();
+  remove_temporary_files();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }

@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <string>
+
 namespace clay {
 namespace {
 
@@ -22,6 +26,21 @@ TEST(ReadText, ReadsValidFiles) {
     }
   const auto certificate = solid::parse_certificate(samples::good_certificate(), "certificate");
   EXPECT_TRUE(certificate) << certificate.error().message;
+}
+
+/// Else no mutant reaches what is behind the checksum of a line.
+TEST(ReadText, AChangedLineGetsItsChecksum) {
+  const auto readers = samples::text_readers(CLAYSTACK_SAMPLES);
+  for (const auto& [name, from, to] : {std::array{"session", R"("t_us":0)", R"("t_us":7)"},
+                                       {"work", R"("scene":0)", R"("scene":1)"}}) {
+    const auto reader = std::ranges::find(readers, name, &samples::TextReader::name);
+    std::string bytes = reader->good[0];
+    const std::size_t at = bytes.rfind(from);
+    ASSERT_NE(at, std::string::npos);
+    bytes.replace(at, std::string_view(from).size(), to);
+    EXPECT_NE(reader->error(bytes), "") << name;
+    EXPECT_EQ(reader->error(reader->with_checksums(bytes)), "") << name;
+  }
 }
 
 TEST(ReadText, MutatedFilesGiveAValueOrAnError) {

@@ -104,6 +104,43 @@ TEST_F(Batch, IsolatesAJobThatTakesTooLong) {
   EXPECT_EQ(results.at("a.pot.json").at("status"), 0);
 }
 
+TEST_F(Batch, IsolatesAJobThatCrashes) {
+  const std::string crashing = folder.file("crashing");
+  std::filesystem::create_directory(crashing);
+  write_jobs(
+      {job("crash", {"throw", sample("cylinder.scene.json"), "-o", crashing + "/a.pot.json"}),
+       thrown("b.pot.json")});
+  const Ran ran = shell(
+      "ulimit -c 0; env ASAN_OPTIONS=verify_asan_link_order=0:handle_segv=0 CLAYSTACK_FAULT_AT=1 "
+      "CLAYSTACK_FAULT_SIGNAL=11 CLAYSTACK_FAULT_FOLDER=" +
+      crashing + " LD_PRELOAD=" CLAYSTACK_FAULT_SHIM " " CLAYSTACK_PROGRAM " batch -j 1 " +
+      folder.file("jobs.jsonl"));
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  const auto results = results_in(ran.out);
+  EXPECT_EQ(results.at("crash").at("status"), 139);
+  EXPECT_EQ(results.at("crash").at("error"), "ended by signal 11");
+  EXPECT_EQ(results.at("b.pot.json").at("status"), 0);
+}
+
+TEST_F(Batch, LimitsTheMemoryOfItsJobs) {
+  write_text(folder.file("tall.scene.json"),
+             R"({"schema":"claystack-scene-1","name":"tall","lump":{"rings":10,)"
+             R"("ring_height_mm":0.001,"max_rings":1000000},"tool":{"shape":)"
+             R"({"sphere":{"radius_mm":9}},"gap_mm":5}})");
+  const std::vector<std::string> plan{"plan", folder.file("tall.scene.json")};
+  std::vector<std::string> roomy = plan;
+  roomy.insert(roomy.end(), {"--memory", "1GiB"});
+  write_jobs({job("small", plan), job("roomy", roomy)});
+  const auto results = results_in(run("--memory 40MiB").out);
+  EXPECT_EQ(results.at("small").at("status"), 3);
+  EXPECT_NE(results.at("small").at("error").get<std::string>().find(
+                "tall.scene.json: a wheel for up to 1000000 rings needs about 0.05 GB"),
+            std::string::npos)
+      << results.at("small");
+  EXPECT_EQ(results.at("roomy").at("status"), 0) << results.at("roomy");
+  EXPECT_EQ(results.at("small").at("run"), plan) << "as in the file of jobs";
+}
+
 TEST_F(Batch, SplitsIntoPartsThatTogetherAreAll) {
   write_jobs({thrown("1.pot.json"), thrown("2.pot.json"), thrown("3.pot.json")});
   const auto first = results_in(run("--part 1/2").out), second = results_in(run("--part 2/2").out);

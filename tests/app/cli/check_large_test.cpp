@@ -239,9 +239,11 @@ TEST(MemoryLimit, RefusesTheWheelAndThePotOfMoreRingsThanFit) {
   };
   const Ran wheel = thrown("40MiB");
   EXPECT_EQ(wheel.status, 3);
-  EXPECT_NE(wheel.err.find("tall.scene.json: a wheel for up to 1000000 rings needs about 0.05 GB"),
-            std::string::npos)
-      << wheel.err;
+  const std::string needs = "tall.scene.json: a wheel for up to 1000000 rings needs about 0.05 GB";
+  EXPECT_NE(wheel.err.find(needs), std::string::npos) << wheel.err;
+  const Ran plan = claystack("plan -q --memory 40MiB " + scene);
+  EXPECT_EQ(plan.status, 3);
+  EXPECT_NE(plan.err.find(needs), std::string::npos) << plan.err;
   const Ran pot = thrown("150MiB");
   EXPECT_EQ(pot.status, 3);
   EXPECT_NE(pot.err.find("tall.pot.json: writing the pot needs about 0.18 GB"), std::string::npos)
@@ -260,7 +262,7 @@ TEST(MemoryLimit, StatesTwoFiguresThatDiffer) {
 
 TEST(MemoryLimit, IsAnOptionOfEveryCommand) {
   for (const std::string command :
-       {"throw", "export", "check", "strokes", "plan", "batch", "doctor"})
+       {"throw", "export", "check", "strokes", "plan", "import", "batch", "doctor"})
     EXPECT_NE(claystack(command + " --help").out.find("--memory SIZE "), std::string::npos)
         << command;
   EXPECT_EQ(claystack("doctor --memory much").status, 2);

@@ -108,6 +108,23 @@ TEST(LiveThrow, KilledLeavesAReplayableRecordingAndTheOldSession) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
 }
 
+// A USB stick has no unnamed files, so the pot's temporary file is in its folder from the start.
+TEST(LiveThrow, LeavesNoTemporaryPotWhenASignalEndsIt) {
+  for (const std::string signal : {"QUIT", "USR1"}) {
+    const ScratchFolder folder;
+    const std::string pot = folder.file("a.pot.json");
+    const auto run = interrupted(
+        folder, "-o " + pot,
+        "ls -A " + folder.path().string() + "; kill -s " + signal + " $program",
+        "ulimit -c 0; env ASAN_OPTIONS=verify_asan_link_order=0 CLAYSTACK_FAULT_WITHOUT=tmpfile "
+        "CLAYSTACK_FAULT_FOLDER=" +
+            folder.path().string() + " LD_PRELOAD=" CLAYSTACK_FAULT_SHIM);
+    EXPECT_GT(run.status, 128) << run.err;
+    EXPECT_NE(run.out.find(".a.pot.json."), std::string::npos) << "it was there: " << run.out;
+    EXPECT_EQ(only_file_in(folder.path().string()), folder.file("s.session.recording"));
+  }
+}
+
 TEST(LiveThrow, RefusesASecondRecorderOfTheSameSession) {
   const ScratchFolder folder;
   const auto run = interrupted(folder, "-o " + folder.file("a.pot.json"),

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -28,9 +29,58 @@ Files files_in(const fs::path& folder) {
   return files;
 }
 
+/// A fault of the file system, as fault_shim.cpp describes.
+struct Fault {
+  int at = 0;  ///< the call that fails, from 1; 0: none
+  int error = 0;
+  int signal = 0;  ///< instead of an error
+  std::string without = {};
+};
+
+constexpr int kErrors[] = {ENOSPC, EIO, EROFS};
+constexpr int kFewestCalls = 5, kMostCalls = 300;
+
+/// The folders of a command, and the command with a fault: @ is the input folder, # the output
+/// folder.
+class Folders {
+ public:
+  [[nodiscard]] Ran run(const std::string& arguments, const Fault& fault = {}) const {
+    fs::remove(log());
+    std::string line = "env XDG_STATE_HOME=" + state.path().string() +
+                       " ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" CLAYSTACK_FAULT_SHIM;
+    const auto set = [&](const std::string& name, const std::string& value) {
+      line += " CLAYSTACK_FAULT_" + name + "=" + value;
+    };
+    set("FOLDER", out.path().string());
+    set("AT", std::to_string(fault.at));
+    set("ERRNO", std::to_string(fault.error));
+    set("SIGNAL", std::to_string(fault.signal));
+    set("LOG", log());
+    set("WITHOUT", fault.without);
+    line += " " CLAYSTACK_PROGRAM " ";
+    for (const char c : arguments)
+      line += c == '@' ? in.path().string() : c == '#' ? out.path().string() : std::string(1, c);
+    return shell(line);
+  }
+
+  /// The name of the call that failed; empty if there was none.
+  [[nodiscard]] std::string failed_call() const { return folders.failed_call(); }
+
+  /// Leaves these files in the output folder.
+  void reset(const Files& files) const {
+    for (const auto& entry : fs::directory_iterator(out.path())) fs::remove(entry.path());
+    for (const auto& [name, bytes] : files) write_text(out.file(name), bytes);
+  }
+
+  ScratchFolder in, out, state;
+
+ private:
+  [[nodiscard]] std::string log() const { return in.file("log"); }
+};
+
 struct FailingCall {
   std::string name;
-  std::string arguments;  ///< @ is the input folder, # the output folder
+  std::string arguments;
   std::vector<std::string> outputs;
   bool replaces = false;     ///< files of these names exist before
   std::string without = {};  ///< as CLAYSTACK_FAULT_WITHOUT
@@ -42,10 +92,13 @@ void PrintTo(const FailingCall& c, std::ostream* out) { *out << c.name; }
 class WriteFaults : public testing::TestWithParam<FailingCall> {
  protected:
   void SetUp() override {
+    const ScratchFolder& inputs = folders.in;
     const std::string session = read_text(sample("cylinder.session"));
     const std::size_t header = session.find('\n') + 1;
     write_text(inputs.file("a.session"), session.substr(0, session.find('\n', header) + 1));
     write_text(inputs.file("a.scene.json"), read_text(sample("cylinder.scene.json")));
+    write_text(inputs.file("a.csv"), read_text(sample("drawings/tumbler.csv")));
+    write_text(inputs.file("a.strokes.json"), read_text(sample("strokes/lip.strokes.json")));
     const std::string scene = inputs.file("a.scene.json");
     ASSERT_EQ(claystack("throw -q " + scene + " -o " + inputs.file("a.pot.json")).status, 0);
     // A cup of 40 segments without its first facet.
@@ -64,60 +117,35 @@ class WriteFaults : public testing::TestWithParam<FailingCall> {
       for (const std::string& name : GetParam().outputs) before[name] = "old " + name;
   }
 
-  void reset_folder() const {
-    for (const auto& entry : fs::directory_iterator(folder.path())) fs::remove(entry.path());
-    for (const auto& [name, bytes] : before) write_text(folder.file(name), bytes);
-  }
-
   /// `at` 0: without a fault.
   [[nodiscard]] Ran run(int at, int error) const {
-    fs::remove(log());
-    std::string line = "env ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" CLAYSTACK_FAULT_SHIM;
-    const auto set = [&](const std::string& name, const std::string& value) {
-      line += " CLAYSTACK_FAULT_" + name + "=" + value;
-    };
-    set("FOLDER", folder.path().string());
-    set("AT", std::to_string(at));
-    set("ERRNO", std::to_string(error));
-    set("SIGNAL", std::to_string(GetParam().signal));
-    set("LOG", log());
-    set("WITHOUT", GetParam().without);
-    line += " " CLAYSTACK_PROGRAM " ";
-    for (const char c : GetParam().arguments)
-      line += c == '@'   ? inputs.path().string()
-              : c == '#' ? folder.path().string()
-                         : std::string(1, c);
-    return shell(line);
+    return folders.run(GetParam().arguments, {at, error, GetParam().signal, GetParam().without});
   }
-
-  [[nodiscard]] std::string log() const { return inputs.file("log"); }
 
   void expect_names_a_file(const std::string& message, int error) const {
     bool named = false;
     for (const std::string& name : GetParam().outputs)
-      named = named || message.find(folder.file(name)) != std::string::npos;
+      named = named || message.find(folders.out.file(name)) != std::string::npos;
     EXPECT_TRUE(named) << message;
     EXPECT_NE(message.find(std::strerror(error)), std::string::npos) << message;
   }
 
-  ScratchFolder inputs, folder;
+  Folders folders;
   Files before, whole;
 };
 
 TEST_P(WriteFaults, WriteAllOrNothing) {
-  reset_folder();
+  folders.reset(before);
   ASSERT_EQ(run(0, 0).status, 0);
-  whole = files_in(folder.path());
+  whole = files_in(folders.out.path());
   ASSERT_EQ(whole.size(), GetParam().outputs.size());
 
-  constexpr int kErrors[] = {ENOSPC, EIO, EROFS};
-  constexpr int kFewestCalls = 5, kMostCalls = 300;
   for (int at = 1;; ++at) {
     ASSERT_LT(at, kMostCalls);
     const int error = kErrors[at % 3];
-    reset_folder();
+    folders.reset(before);
     const Ran ran = run(at, error);
-    const std::string call = read_text(log());
+    const std::string call = folders.failed_call();
     if (call.empty()) {
       EXPECT_GT(at, kFewestCalls);
       EXPECT_EQ(ran.status, 0) << ran.err;
@@ -126,10 +154,10 @@ TEST_P(WriteFaults, WriteAllOrNothing) {
     SCOPED_TRACE(call + ", call " + std::to_string(at) + ": " + std::strerror(error));
     if (GetParam().signal == SIGKILL) {  // the next writer finds the leftovers
       ASSERT_EQ(run(0, 0).status, 0);
-      EXPECT_TRUE(files_in(folder.path()) == whole);
+      EXPECT_TRUE(files_in(folders.out.path()) == whole);
       continue;
     }
-    const Files after = files_in(folder.path());
+    const Files after = files_in(folders.out.path());
     if (GetParam().signal != 0) {
       EXPECT_EQ(ran.status, 128 + GetParam().signal) << ran.err;
       EXPECT_TRUE(after == before || after == whole);
@@ -160,6 +188,10 @@ const std::string kThrow = "throw -q @/a.scene.json -o #/a.pot.json --trace #/tr
 const std::vector<std::string> kPot = {"a.pot.json", "trace.csv"};
 const std::string kRepair = "check -q --repair @/open.stl -o #/a.stl";
 const std::string kDecimate = "check -q --max-triangles 1000 @/whole.stl -o #/a.stl";
+const std::string kStrokes = "strokes -q --from @/a.pot.json @/a.strokes.json -o #/a.session";
+const std::string kDrawing = "import -q @/a.csv -o #/a.pot.json";
+const std::string kMesh = "import -q @/whole.stl -o #/a.pot.cbor";
+const std::string kCopy = "throw -q --from @/a.pot.json -s @/a.session -o #/a.pot.cbor";
 const std::string kStick = "tmpfile,links";  // FAT, as on USB drives
 
 INSTANTIATE_TEST_SUITE_P(
@@ -177,8 +209,86 @@ INSTANTIATE_TEST_SUITE_P(
         FailingCall{"DecimationEndedByCtrlC", kDecimate, {"a.stl"}, false, kStick, SIGINT},
         FailingCall{"ExportWithAPage", kPage, kPageFiles}, FailingCall{"Throw", kThrow, kPot},
         FailingCall{"ThrowOverOldFiles", kThrow, kPot, true},
-        FailingCall{"ThrowKilled", kThrow, kPot, true, kStick, SIGKILL}),
+        FailingCall{"ThrowKilled", kThrow, kPot, true, kStick, SIGKILL},
+        FailingCall{"ThrowOnAPot", kCopy, {"a.pot.cbor"}, true},
+        FailingCall{"Strokes", kStrokes, {"a.session"}, true},
+        FailingCall{"StrokesToAStick", kStrokes, {"a.session"}, true, kStick, SIGTERM},
+        FailingCall{"ImportOfADrawing", kDrawing, {"a.pot.json"}, true},
+        FailingCall{"ImportOfAMesh", kMesh, {"a.pot.cbor"}, true}),
     [](const auto& test) { return test.param.name; });
+
+/// Whether the file has a whole pot.
+bool has_pot(const std::string& path) {
+  const auto json = nlohmann::json::parse(read_text(path), nullptr, false);
+  return json.is_object() && json.value("schema", "") == "claystack-pot-1";
+}
+
+// Whatever fails in a throw by hand, there is a pot: the new one, also beside the planned place, or
+// the old one if the throw did not begin.
+TEST(WriteFaultsOfAThrowByHand, LoseNoPotAndNoSession) {
+  const Folders folders;
+  const std::string by_hand = "throw -q " + sample("cylinder.scene.json") +
+                              " --device simulated --seconds 0.2 --record #/s.session -o "
+                              "#/a.pot.json";
+  const Files before{{"a.pot.json", "old pot"}, {"s.session", "old session"}};
+  for (int at = 1;; ++at) {
+    ASSERT_LT(at, kMostCalls);
+    folders.reset(before);
+    const Ran ran = folders.run(by_hand, {at, kErrors[at % 3]});
+    const std::string call = folders.failed_call();
+    if (call.empty()) {
+      EXPECT_GT(at, kFewestCalls);
+      EXPECT_EQ(ran.status, 0) << ran.err;
+      break;
+    }
+    SCOPED_TRACE(call + ", call " + std::to_string(at) + ": " + ran.err);
+    const Files after = files_in(folders.out.path());
+    for (const auto& [name, bytes] : after)
+      EXPECT_TRUE(before.contains(name) || name == "s.session.recording") << name;
+    const bool thrown = has_pot(folders.out.file("a.pot.json"));
+    EXPECT_TRUE(thrown || after.at("a.pot.json") == "old pot");
+    EXPECT_TRUE(after.at("s.session") == "old session" ||
+                after.at("s.session").starts_with("{\"schema\":\"claystack-session-1\""));
+    if (ran.status == 0) {
+      EXPECT_TRUE(thrown);
+      continue;
+    }
+    EXPECT_EQ(ran.status, 3);
+    EXPECT_NE(ran.err.find(std::strerror(kErrors[at % 3])), std::string::npos);
+    EXPECT_NE(ran.err.find(folders.out.path().string()), std::string::npos);
+  }
+}
+
+TEST(WriteFaultsOfABatch, LeaveWholeResultsAndTheNextRunAddsTheRest) {
+  const Folders folders;
+  write_text(folders.in.file("jobs.jsonl"),
+             R"({"id": "a", "run": ["plan", ")" + sample("cylinder.scene.json") + "\"]}\n" +
+                 R"({"id": "b", "run": ["plan", ")" + sample("cylinder.scene.json") + "\"]}\n");
+  const std::string batch = "batch -q -j 1 @/jobs.jsonl -o #/results.jsonl";
+  for (int at = 1;; ++at) {
+    ASSERT_LT(at, kMostCalls);
+    folders.reset({});
+    const int error = kErrors[at % 3];
+    const Ran ran = folders.run(batch, {at, error});
+    const std::string call = folders.failed_call();
+    if (call.empty()) {
+      EXPECT_GT(at, 2);
+      EXPECT_EQ(ran.status, 0) << ran.err;
+      break;
+    }
+    SCOPED_TRACE(call + ", call " + std::to_string(at) + ": " + ran.err);
+    const std::string results = read_text(folders.out.file("results.jsonl"));
+    EXPECT_TRUE(results.empty() || results.ends_with('\n')) << results;
+    if (ran.status != 0) {
+      EXPECT_EQ(ran.status, 3);
+      EXPECT_NE(ran.err.find(std::strerror(error)), std::string::npos);
+      EXPECT_NE(ran.err.find(folders.out.file("results.jsonl")), std::string::npos);
+    }
+    ASSERT_EQ(folders.run(batch).status, 0);
+    const std::string all = read_text(folders.out.file("results.jsonl"));
+    EXPECT_EQ(std::ranges::count(all, '\n'), 2) << all;
+  }
+}
 
 TEST(WriteLimits, ReportsAFileAboveItsSizeLimit) {
   const ScratchFolder folder;
