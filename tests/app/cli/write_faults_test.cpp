@@ -64,7 +64,7 @@ class Folders {
   }
 
   /// The name of the call that failed; empty if there was none.
-  [[nodiscard]] std::string failed_call() const { return folders.failed_call(); }
+  [[nodiscard]] std::string failed_call() const { return read_text(log()); }
 
   /// Leaves these files in the output folder.
   void reset(const Files& files) const {
