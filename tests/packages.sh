@@ -1,25 +1,27 @@
 #!/bin/sh
 # packages.sh [BUILD]: makes the Debian packages of a finished build (default build/release),
 # examines them with lintian and the validators, and installs, uses and removes them in a fresh
-# Debian 12 below BUILD/clean (debootstrap, root). With DEV=1 also builds the consumer programs there
-# against libclaystack-dev. Takes some minutes.
+# Debian 12 below BUILD/clean (debootstrap, root): the programs, the types of files of the desktop,
+# the Python package, and the consumer programs against libclaystack-dev. Takes some minutes.
 set -eu
 cd "$(dirname "$0")/.."
 build=$(realpath "${1:-build/release}")
 clean=$build/clean
 . tests/clean_debian.sh
 sh samples/install_packages.sh lintian appstream desktop-file-utils debootstrap shared-mime-info mandoc \
-  libxml2-utils
+  libxml2-utils python3-dev pybind11-dev python3-numpy
 
 # Afterwards `cmake --install` must not write into /usr, unless it did before.
-prefix=$(sed -n 's/^CMAKE_INSTALL_PREFIX:PATH=//p' "$build/CMakeCache.txt")
+cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
+prefix=$(cached CMAKE_INSTALL_PREFIX) python=$(cached CLAYSTACK_PYTHON)
 finish() {
   umount "$clean/proc" 2>/dev/null || true
-  cmake -B "$build" -DCMAKE_INSTALL_PREFIX="$prefix" >/dev/null
+  cmake -B "$build" -DCMAKE_INSTALL_PREFIX="$prefix" -DCLAYSTACK_PYTHON="$python" >/dev/null
 }
 trap finish EXIT
-cmake -B "$build" -DCMAKE_INSTALL_PREFIX=/usr >/dev/null
-cmake --build "$build" --target claystack claystack-studio manual
+cmake -B "$build" -DCMAKE_INSTALL_PREFIX=/usr -DCLAYSTACK_PYTHON=ON \
+  -DPython3_EXECUTABLE=/usr/bin/python3 >/dev/null
+cmake --build "$build" --target claystack claystack-studio manual python_package
 rm -rf "$build/packages"
 (cd "$build" && cpack -B packages >/dev/null)
 packages=$(find "$build/packages" -maxdepth 1 -name '*.deb' | sort)
@@ -80,17 +82,41 @@ cp "$clean/opt/work/out/vase.stl" "$build/clean-vase.stl"
 "$build/app/claystack" export -q "$build/vase.pot.json" "$build/vase.stl"
 cmp "$build/vase.stl" "$build/clean-vase.stl"
 
-if [ "${DEV:-0}" = 1 ]; then
-  echo "== libclaystack-dev"
-  inside "$clean" sh -c 'apt-get install -y -qq --no-install-recommends /opt/libclaystack-dev_*.deb cmake ninja-build g++ pkg-config >/dev/null
-    cmake -S /usr/share/doc/libclaystack-dev/examples -B /opt/consumer -G Ninja >/dev/null
-    cmake --build /opt/consumer >/dev/null
-    /opt/consumer/press_once && /opt/consumer/press_and_export
-    apt-get purge -y -qq libclaystack-dev >/dev/null'
-fi
+echo "== the desktop"
+cat >"$clean/opt/desktop.sh" <<'DESKTOP'
+set -eu
+apt-get install -y -qq --no-install-recommends shared-mime-info desktop-file-utils libglib2.0-bin >/dev/null
+cd /opt/work
+claystack export -q out/vase.pot.json out/vase.pot.cbor
+cp samples/mouse.work samples/vase.scene.json out/
+for file in vase.pot.json:pot+json vase.pot.cbor:pot+cbor vase.scene.json:scene+json mouse.work:work; do
+  type=application/x-claystack-${file#*:}
+  gio info -a standard::content-type "out/${file%:*}" | grep -qF " $type" ||
+    { echo "${file%:*}: expected the type $type"; exit 1; }
+  gio mime "$type" | grep -q org.claystack.Claystack.desktop ||
+    { echo "$type: expected Claystack to open it"; exit 1; }
+done
+DESKTOP
+inside "$clean" sh /opt/desktop.sh
+
+echo "== python3-claystack"
+cp tests/app/python/claystack_test.py "$clean/opt/"
+inside "$clean" sh -c 'set -e
+  apt-get install -y -qq --no-install-recommends /opt/python3-claystack_*.deb >/dev/null
+  python3 /opt/claystack_test.py /usr/bin/claystack /usr/share/claystack/samples 2>&1 | tail -3
+  python3 /usr/share/claystack/samples/python/sweep.py /opt/sweep.csv /opt/sweep.svg'
+
+echo "== libclaystack-dev"
+inside "$clean" sh -c 'set -e
+  apt-get install -y -qq --no-install-recommends /opt/libclaystack-dev_*.deb cmake ninja-build g++ pkg-config >/dev/null
+  cmake -S /usr/share/doc/libclaystack-dev/examples -B /opt/consumer -G Ninja >/dev/null
+  cmake --build /opt/consumer >/dev/null
+  /opt/consumer/press_once && /opt/consumer/press_and_export'
 
 echo "== remove"
-inside "$clean" sh -c 'apt-get purge -y -qq claystack claystack-studio >/dev/null && apt-get autoremove -y -qq >/dev/null; rm -rf /opt/*'
+inside "$clean" sh -c 'set -e
+  apt-get purge -y -qq claystack claystack-studio python3-claystack libclaystack-dev >/dev/null
+  rm -rf /opt/*'
 find "$clean" -xdev | sed "s|^$clean||" | sort >"$build/after.txt"
 left=$(comm -13 "$build/before.txt" "$build/after.txt" | grep -i claystack |
   grep -v -e '^/var/lib/dpkg' -e '^/var/cache' -e '^/var/log' || true)
