@@ -84,6 +84,15 @@ if(CLAYSTACK_PYTHON)
  show the memory of the library without a copy.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy")
+  # Python leaves compiled files, which dpkg does not know.
+  set(scripts ${PROJECT_BINARY_DIR}/package/python)
+  file(WRITE ${scripts}/postinst "#!/bin/sh\nset -e\nif command -v py3compile >/dev/null; then\n"
+    "  py3compile -p python3-claystack\nfi\n")
+  file(WRITE ${scripts}/prerm "#!/bin/sh\nset -e\nif command -v py3clean >/dev/null; then\n"
+    "  py3clean -p python3-claystack\nfi\n")
+  file(CHMOD ${scripts}/postinst ${scripts}/prerm PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${scripts}/postinst ${scripts}/prerm)
 endif()
 
 # Each package has its own copyright and changelog, as Debian's policy requires.

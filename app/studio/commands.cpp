@@ -1,6 +1,7 @@
 #include "app/studio/commands.hpp"
 
 #include "app/studio/app_state.hpp"
+#include "app/studio/page.hpp"
 #include "app/studio/panels/panels.hpp"
 
 #define GLFW_INCLUDE_NONE
@@ -105,6 +106,11 @@ const char* why_no_pictures(View view) {
                                     : "a web page cannot write pictures; open the pot in the "
                                       "program for the desktop";
 }
+/// The frames of a page go on.
+bool can_quit(View) { return !kInPage; }
+const char* why_no_quit(View view) {
+  return can_quit(view) ? nullptr : "a page ends when its tab is closed";
+}
 const char* why_no_show(View view) {
   return can_show_step(view)        ? nullptr
          : view.stroke.has_device() ? "an arm holds the tool"
@@ -188,7 +194,7 @@ const std::array kCommands = {
     C{"file.picture", "Export picture...", key(GLFW_KEY_E, kCtrlShift), kNone, ShowDialog{Kind::picture}, can_draw, nullptr, why_no_pictures},
     C{"file.turntable", "Export turntable...", kNone, kNone, ShowDialog{Kind::turntable}, can_draw, nullptr, why_no_pictures},
     C{"file.settings", "Settings...", key(GLFW_KEY_COMMA, kCtrl), kNone, ShowDialog{Kind::settings}, always},
-    C{"file.quit", "Quit", key(GLFW_KEY_Q, kCtrl), kNone, Quit{}, always},
+    C{"file.quit", "Quit", key(GLFW_KEY_Q, kCtrl), kNone, Quit{}, can_quit, nullptr, why_no_quit},
 
     C{"edit.undo", "Undo stroke", key(GLFW_KEY_Z, kCtrl), kNone, Undo{}, can_undo, nullptr, why_no_undo},
     C{"edit.redo", "Redo stroke", key(GLFW_KEY_Z, kCtrlShift), key(GLFW_KEY_Y, kCtrl), Redo{}, can_redo, nullptr, why_no_redo},

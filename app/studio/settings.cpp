@@ -51,6 +51,7 @@ void choice(PlainFields& io, std::string_view name, E& value,
 /// The fields of the file in their order, for both reader and writer.
 void describe(PlainFields& io, Settings& s) {
   choice(io, "theme", s.theme, kThemes, kThemeValues);
+  io.flag("theme_chosen", s.theme_chosen);
   double scale = static_cast<double>(s.scale);
   io.number("scale", scale, kSmallestScale, kLargestScale);
   s.scale = static_cast<float>(scale);

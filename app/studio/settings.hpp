@@ -28,6 +28,7 @@ inline constexpr double kSlowestRpm = 20.0, kFastestRpm = 240.0;
 
 struct Settings {
   Theme theme = Theme::dark;
+  bool theme_chosen = false;  ///< by the user; until then a page follows its browser
   float scale = 1.0f;  ///< multiplies the scale of the screen; kSmallestScale to kLargestScale
   LengthUnit unit = LengthUnit::mm;
   double wheel_rpm = 120.0;  ///< kSlowestRpm to kFastestRpm

@@ -66,6 +66,7 @@ void Performer::operator()(const SetProcess& set) const {
 
 void Performer::operator()(const SetTheme& set) const {
   state.settings.theme = set.value;
+  state.settings.theme_chosen = true;
   state.ui.restyle = true;
 }
 

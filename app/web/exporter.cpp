@@ -1,28 +1,30 @@
-// Replaces app/studio/exporter.cpp in a page: the worker exports, and the window puts the files
-// where file_written offers them as downloads.
+// Replaces app/studio/exporter.cpp in a page: the worker exports, and the page keeps the files
+// until file_written offers them as downloads.
 
 #include "app/studio/exporter.hpp"
 
 #include "app/web/job_message.hpp"
 #include "app/web/page_worker.hpp"
-#include "claystack/core/atomic_file.hpp"
 
+#include <emscripten.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace clay::studio {
 namespace {
 
-Result<ExportFigures> store(web::ExportAnswer answer, const std::vector<std::string>& paths) {
-  for (std::size_t i = 0; i < answer.files.size() && i < paths.size(); ++i)
-    if (auto stored = publish(paths[i], answer.files[i]); !stored)
-      return tl::make_unexpected(stored.error());
-  return std::move(answer.done);
-}
+EM_JS(bool, page_has, (const char* path), { return Module["page"].has(UTF8ToString(path)); });
 
-Result<ExportFigures> result_in(const std::string& message, const std::vector<std::string>& paths) {
+/// The page has the files, and `file_written` offers them.
+Result<ExportFigures> result_in(const std::string& message, Exporter::Kind kind,
+                                const std::vector<std::string>& paths) {
   std::optional<web::ExportAnswer> answer;
   if (!message.empty()) answer = web::export_in(message);
-  if (answer) return store(std::move(*answer), paths);
+  const bool whole =
+      kind == Exporter::Kind::preview ||
+      std::ranges::all_of(paths, [](const auto& path) { return page_has(path.c_str()); });
+  if (answer && (!*answer || whole)) return std::move(*answer);
   return failure(ErrorKind::io,
                  "The export stopped: the browser may have too little memory, or lacks a file");
 }
@@ -38,15 +40,22 @@ struct Exporter::State {
   web::PageWorker worker{web::PageWorker::Slot::exporting};
   std::optional<Job> running, next;
   std::optional<Outcome> outcome;
+  double posted_ms = 0.0;  ///< time of the page when `running` began
 
   [[nodiscard]] std::optional<Kind> at_work() const {
     const auto writes = [](const auto& job) { return job && job->kind == Kind::files; };
     if (writes(running) || writes(next) || writes(outcome)) return Kind::files;
     return running || next ? std::optional(Kind::preview) : std::nullopt;
   }
-  /// A preview neither cancels a job that writes files nor drops its outcome.
+  /// A preview neither cancels a job that writes files nor drops its outcome. One that takes long
+  /// is cancelled by the next job: the worker that replaces it starts in less time.
   void put(Job job) {
+    constexpr double kLongMs = 500.0;
     if (job.kind == Kind::preview && at_work() == Kind::files) return;
+    if (running && running->kind == Kind::preview && emscripten_get_now() - posted_ms > kLongMs) {
+      worker.stop();
+      running.reset();
+    }
     outcome.reset();
     next = std::move(job);
     post_next();
@@ -54,6 +63,7 @@ struct Exporter::State {
   void post_next() {
     if (running || !next) return;
     running = std::exchange(next, std::nullopt);
+    posted_ms = emscripten_get_now();
     worker.post(web::message_of({running->kind, running->choices, *running->pot}));
   }
   void receive() {
@@ -62,7 +72,8 @@ struct Exporter::State {
     const Job job = *std::exchange(running, std::nullopt);
     const auto paths = paths_of(job.choices);
     if (job.kind == Kind::files || !next)
-      outcome = Outcome{job.kind, job.pot, job.choices, result_in(*message, paths), false, paths};
+      outcome = Outcome{job.kind, job.pot, job.choices, result_in(*message, job.kind, paths),
+                        false,    paths};
     post_next();
   }
 };

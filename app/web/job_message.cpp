@@ -300,27 +300,14 @@ std::optional<studio::LessonPlan> plan_in(std::string_view message) {
 }
 
 std::string message_of(const ExportAnswer& answer) {
-  json value = {{"files", json::array()}};
-  for (const std::string& file : answer.files) value["files"].push_back(Bytes::of(file));
-  if (answer.done)
-    value["done"] = Cbor<studio::ExportFigures>::of(*answer.done);
-  else
-    value["error"] = Cbor<Error>::of(answer.done.error());
-  std::string bytes;
-  json::to_cbor(value, bytes);
-  return bytes;
+  return answer ? message("exported", *answer) : message("error", answer.error());
 }
 
 std::optional<ExportAnswer> export_in(std::string_view message) {
   const json value = value_in(message);
-  if (!value.contains("files")) return std::nullopt;
-  ExportAnswer answer{tl::make_unexpected(Error{}), {}};
-  if (auto done = member<studio::ExportFigures>(value, "done"))
-    answer.done = std::move(*done);
-  else if (auto error = member<Error>(value, "error"))
-    answer.done = tl::make_unexpected(std::move(*error));
-  for (const json& file : value["files"]) answer.files.push_back(Bytes::in(file));
-  return answer;
+  if (auto done = member<studio::ExportFigures>(value, "exported")) return std::move(*done);
+  if (auto error = member<Error>(value, "error")) return tl::make_unexpected(std::move(*error));
+  return std::nullopt;
 }
 
 }  // namespace clay::web

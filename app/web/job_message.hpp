@@ -18,10 +18,8 @@ struct ExportQuestion {
   studio::ExportChoices choices;
   Pot pot;
 };
-struct ExportAnswer {
-  Result<studio::ExportFigures> done;
-  std::vector<std::string> files;  ///< contents, in the order of studio::paths_of
-};
+/// The files go beside the message, without a way through the memory of the window.
+using ExportAnswer = Result<studio::ExportFigures>;
 
 [[nodiscard]] std::string message_of(const studio::PotQuestion& question);
 [[nodiscard]] std::string message_of(const ExportQuestion& question);

@@ -17,6 +17,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,7 @@ EM_JS(void, page_log, (const char* text, int size),
       { Module["page"].log(UTF8ToString(text, size)); });
 EM_JS(void, page_fail, (const char* text), { Module["page"].fail(UTF8ToString(text)); });
 EM_JS(bool, page_stores, (), { return Module["page"].stores(); });
+EM_JS(void, page_theme, (const char* name), { Module["page"].setTheme(UTF8ToString(name)); });
 EM_JS(void, page_announce, (const char* text), { Module["page"].announce(UTF8ToString(text)); });
 
 constexpr const char* kCanvas = "#canvas";
@@ -37,8 +39,9 @@ std::unique_ptr<WebHost> host;
 std::unique_ptr<studio::Studio> window;
 int frames_wanted = kFramesAfterEvent;
 bool damaged = true;
-std::string announced;  // by page_announce
-std::string report;     // of claystack_report
+std::string announced;                     // by page_announce
+std::optional<studio::Theme> shown_theme;  // by page_theme
+std::string report;                        // of claystack_report
 
 void take(studio::Input input) {
   if (!window) return;
@@ -53,6 +56,16 @@ void announce() {
   announced = std::move(*summary);
   page_announce(announced.c_str());
 }
+
+/// The rest of the page has the theme of the window.
+void show_theme() {
+  const studio::Theme theme = window->state().settings.theme;
+  if (shown_theme == theme) return;
+  shown_theme = theme;
+  page_theme(theme == studio::Theme::light ? "light" : "dark");
+}
+
+studio::Theme theme_of(bool light) { return light ? studio::Theme::light : studio::Theme::dark; }
 
 /// The studio draws into separate canvases, so the page needs neither samples nor depth.
 bool create_context() {
@@ -77,13 +90,11 @@ void forget_missing(studio::Settings& settings) {
   if (settings.process.ends_with(".json") && missing(settings.process)) settings.process.clear();
 }
 
-void begin(std::string_view theme, bool fingers) {
+void begin(bool light, bool fingers) {
   if (!create_context()) return page_fail("This browser does not offer WebGL 2");
   host = std::make_unique<WebHost>(fingers);
   auto loaded = studio::load_settings(studio::settings_path());
-  std::error_code ignored;
-  if (!std::filesystem::exists(studio::settings_path(), ignored))
-    loaded.settings.theme = theme == "light" ? studio::Theme::light : studio::Theme::dark;
+  if (!loaded.settings.theme_chosen) loaded.settings.theme = theme_of(light);
   loaded.settings.folder =
       std::filesystem::path(studio::settings_path().root_path() / "home" / "web_user").string();
   forget_missing(loaded.settings);
@@ -120,8 +131,16 @@ EMSCRIPTEN_KEEPALIVE bool claystack_frame(double page_ms) {
   window->frame(std::exchange(damaged, false) ? studio::Painting::always
                                               : studio::Painting::if_changed);
   announce();
+  show_theme();
   if (frames_wanted > 0) --frames_wanted;
   return frames_wanted > 0 || window->wakeful();
+}
+/// The browser prefers another theme now: the window follows, unless its user has chosen one.
+EMSCRIPTEN_KEEPALIVE void claystack_prefers(bool light) {
+  if (!window || window->state().settings.theme_chosen) return;
+  window->state().settings.theme = theme_of(light);
+  window->state().ui.restyle = true;
+  frames_wanted = kFramesAfterEvent;
 }
 EMSCRIPTEN_KEEPALIVE void claystack_resize(int width_px, int height_px, float scale) {
   if (!window) return;
@@ -204,6 +223,7 @@ EMSCRIPTEN_KEEPALIVE void claystack_stage(int worker, const char* text) {
 }
 
 int main(int argc, char** argv) {
-  begin(argc > 1 ? argv[1] : "dark", argc > 2 && argv[2] == std::string_view("fingers"));
+  begin(argc > 1 && argv[1] == std::string_view("light"),
+        argc > 2 && argv[2] == std::string_view("fingers"));
   return 0;
 }

@@ -3,8 +3,6 @@
 
 #include "app/web/job_message.hpp"
 
-#include "claystack/core/atomic_file.hpp"
-
 #include <emscripten.h>
 
 #include <filesystem>
@@ -18,6 +16,7 @@ EM_JS(void, show_stage, (const char* text, int size), {
   if (Module["onStage"]) Module["onStage"](UTF8ToString(text, size));
 });
 
+/// Leaves the files in the folder `/exported`, where worker.js takes them.
 ExportAnswer run(ExportQuestion question) {
   namespace fs = std::filesystem;
   const fs::path folder = "/exported";
@@ -26,18 +25,9 @@ ExportAnswer run(ExportQuestion question) {
   fs::create_directory(folder, ignored);
   question.choices.folder = folder.string();
   cli::Thumbnail thumbnail;
-  ExportAnswer answer{
-      studio::run_export(
-          question.pot, question.choices, question.kind, thumbnail, [] { return false; },
-          [](std::string_view stage) { show_stage(stage.data(), static_cast<int>(stage.size())); }),
-      {}};
-  if (!answer.done || question.kind == studio::ExportKind::preview) return answer;
-  for (const std::string& path : studio::paths_of(question.choices)) {
-    auto bytes = read_file(path);
-    if (!bytes) return {tl::make_unexpected(bytes.error()), {}};
-    answer.files.push_back(std::move(*bytes));
-  }
-  return answer;
+  return studio::run_export(
+      question.pot, question.choices, question.kind, thumbnail, [] { return false; },
+      [](std::string_view stage) { show_stage(stage.data(), static_cast<int>(stage.size())); });
 }
 
 std::string answer_to(std::string_view message) {

@@ -60,6 +60,21 @@ void add_clay(Report& report, const studio::ClayAccount& account) {
   report.row("Unaccounted for", account.unaccounted);
 }
 
+/// What to do in the present step of a lesson; empty without one.
+std::string step_text(const studio::Guide& guide) {
+  if (!guide.active()) return {};
+  if (guide.finished()) return "The lesson is done";
+  const strokes::Stroke& stroke = guide.stroke(guide.step());
+  return fmt::format("Step {} of {}: {}. {}", guide.step() + 1, guide.steps(), stroke.name,
+                     stroke.hint);
+}
+
+void add_lesson(Report& report, const studio::AppState& state) {
+  if (!state.guide.active()) return;
+  report.section(fmt::format("Lesson: {}", state.guide.title()));
+  report.line(step_text(state.guide));
+}
+
 }  // namespace
 
 std::optional<std::string> summary_of(const studio::AppState& state) {
@@ -71,18 +86,21 @@ std::optional<std::string> summary_of(const studio::AppState& state) {
       state.guide.demonstration() != studio::Demonstration::none || !check)
     return std::nullopt;
   const studio::LengthUnit unit = state.settings.unit;
+  const std::string step = step_text(state.guide);
   return fmt::format(
-      "{}: {} high, {} wide, {}. {}", state.document.name(),
+      "{}: {} high, {} wide, {}. {}{}{}", state.document.name(),
       length_text(state.stroke.view().height_mm, unit),
       length_text(state.readings.diameter_mm(), unit),
       studio::mass_text(state.readings.account().in_stack_g),
-      state.readings.fallen() ? "Fallen: undo removes the last stroke" : ready_text(*check, unit));
+      state.readings.fallen() ? "Fallen: undo removes the last stroke" : ready_text(*check, unit),
+      step.empty() ? "" : ". ", step);
 }
 
 std::string report_of(const studio::AppState& state) {
   if (!state.document.has_work() || state.readings.stack() == nullptr)
     return "No clay on the wheel\n";
   Report report;
+  add_lesson(report, state);
   add_pot(report, state);
   if (state.readings.check()) add_check(report, *state.readings.check(), state.settings.unit);
   add_clay(report, state.readings.account());

@@ -1,6 +1,6 @@
 # cmake -DSITE=FOLDER "-DNOTICES=A|B" -P site.cmake: completes the folder of static files. One file
-# with all notices, and in the service worker the names of the files and the version of the page, a
-# hash of them.
+# with all notices; the version of the page, a hash of its files, in the scripts that compare it; and
+# in the service worker the names of the files with their hashes.
 string(REPLACE "|" ";" NOTICES "${NOTICES}")
 set(whole "")
 foreach(notice IN LISTS NOTICES)
@@ -9,18 +9,27 @@ foreach(notice IN LISTS NOTICES)
 endforeach()
 file(WRITE ${SITE}/licences.txt "${whole}")
 
-set(hashes "")
-set(FILES "./")  # index.html
 file(GLOB names RELATIVE ${SITE} ${SITE}/*)
-list(REMOVE_ITEM names offline.js)
 list(SORT names)
+set(hashes "")
 foreach(name IN LISTS names)
   file(SHA256 ${SITE}/${name} hash)
   string(APPEND hashes ${hash})
-  if(NOT name STREQUAL index.html)
-    string(APPEND FILES " ${name}")
-  endif()
 endforeach()
 string(SHA256 version "${hashes}")
 string(SUBSTRING ${version} 0 16 VERSION)
+foreach(name page.js worker.js)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/page/${name} ${SITE}/${name} @ONLY)
+endforeach()
+
+list(REMOVE_ITEM names offline.js)
+set(FILES "")
+foreach(name IN LISTS names)
+  file(SHA256 ${SITE}/${name} hash)
+  if(name STREQUAL index.html)
+    set(name ./)
+  endif()
+  list(APPEND FILES ${name}=${hash})
+endforeach()
+list(JOIN FILES " " FILES)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/page/offline.js ${SITE}/offline.js @ONLY)

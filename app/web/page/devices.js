@@ -63,7 +63,7 @@ async function connectHid(device) {
   }
   device.oninputreport = ({reportId, data}) => {
     const report = Uint8Array.of(reportId, ...new Uint8Array(data.buffer, data.byteOffset, data.byteLength));
-    const place = studio._malloc(report.length);
+    const place = room(report.length);
     studio.HEAPU8.set(report, place);
     studio._claystack_hid_report(place, report.length);
     studio._free(place);

@@ -44,16 +44,16 @@ function listenToKeys() {
     // Tab goes on to the buttons of the page, unless a dialog or menu uses it.
     if (event.key === 'Tab' && (event.shiftKey || !studio._claystack_dialog_open())) return;
     if (control && code === 86) return;  // the event `paste` follows
-    const inDialog = studio._claystack_dialog_open();  // before the key closes it
+    // Leaves the page's own keys to the browser: reload, developer tools, tabs. In a dialog Ctrl+R
+    // recovers or replaces.
+    if (control && (/^[tnwl]$/i.test(event.key) || (/^r$/i.test(event.key) && !studio._claystack_dialog_open())))
+      return;
     if (code >= 0) key(code, true, event.repeat, mods(event));
     const character = writes(event) && event.key.length === 1;
     if (character) studio._claystack_text(event.key.codePointAt(0));
     ask();
-    // Leaves the page's own keys to the browser: reload, developer tools, tabs. In a dialog Ctrl+R
-    // recovers or replaces.
-    const browsers = control && (/^[tnwl]$/i.test(event.key) || (/^r$/i.test(event.key) && !inDialog));
     const taken = character || (code >= 0 && !/^F(5|11|12)$/.test(event.key));
-    if (taken && !browsers) event.preventDefault();
+    if (taken) event.preventDefault();
   };
   const keyUp = event => {
     const code = codeOf(event);

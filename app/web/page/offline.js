@@ -1,21 +1,36 @@
 // Service worker: keeps the files of the page, so that it also starts without its server. A new
-// version of the page is installed beside the old one and serves once no page is open: the files of
-// two versions never mix.
+// version of the page is installed beside the old one, whole or not at all, and serves once no page
+// of the old one is open: the files of two versions never mix.
 'use strict';
 
 const kPage = `claystack ${registration.scope} `;  // another folder of this server has its own page
 const kCache = kPage + '@VERSION@';  // of all files: app/web/site.cmake
-const kFiles = '@FILES@'.split(' ');
+const kFiles = '@FILES@'.split(' ').map(file => file.split('='));  // names and their SHA-256
+
+/// While the server gets another version, it may give files of both.
+async function verified(name, hash) {
+  const answer = await fetch(new Request(name, {cache: 'no-cache'}));
+  const found = await crypto.subtle.digest('SHA-256', await answer.clone().arrayBuffer());
+  const code = [...new Uint8Array(found)].map(byte => byte.toString(16).padStart(2, '0')).join('');
+  if (!answer.ok || code !== hash) throw new Error(`${name}: expected the file of this version`);
+  return answer;
+}
 
 async function install() {
   const cache = await caches.open(kCache);
-  await cache.addAll(kFiles.map(file => new Request(file, {cache: 'no-cache'})));
+  try {
+    for (const [name, hash] of kFiles) await cache.put(name, await verified(name, hash));
+  } catch (error) {
+    await caches.delete(kCache);
+    throw error;
+  }
 }
 
 async function activate() {
   for (const name of await caches.keys())
     if (name.startsWith(kPage) && name !== kCache) await caches.delete(name);
-  await self.clients.claim();
+  // A page that got its files from the server, of another version, keeps getting them there.
+  if (location.search === '?@VERSION@') await self.clients.claim();
 }
 
 async function answer(request) {

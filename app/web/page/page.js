@@ -6,6 +6,8 @@ const kMostLinkBytes = 8192;
 const kZipEnd = 70000;     // bytes; its comment takes up to 65535
 const kMeshes = /\.(stl|obj|ply|off|glb|drc|3mf|step|stp)$/i;
 
+const kVersion = '@VERSION@';  // of the page: app/web/site.cmake
+
 const by = id => document.getElementById(id);
 const canvas = by('canvas');
 let studio = null;
@@ -15,9 +17,9 @@ function status(text) { by('status').textContent = text; }
 
 // ---- frames ------------------------------------------------------------------------------------
 
-let asked = false, idle = 0;
+let asked = false, idle = 0, halted = false;
 function ask() {
-  if (asked || !studio || document.hidden) return;
+  if (asked || halted || !studio || document.hidden) return;
   asked = true;
   clearTimeout(idle);
   requestAnimationFrame(now => {
@@ -28,18 +30,42 @@ function ask() {
 }
 
 function frame(now) {
+  if (halted) return;
   let more = false;
   try {
     if (window.devicePixelRatio !== ratio) resize();  // on another screen; few browsers report it
     more = studio._claystack_frame(now);
   } catch (error) {
-    asked = true;  // draws no more
-    return say(`Claystack has stopped: ${error.message ?? error}. Reload the page` +
-      (kept() ? ': it offers the work again.' : '. The work was not stored.'));
+    return stop(error);
   }
   changed = true;
+  markLink();
   if (more) ask();
   else idle = setTimeout(ask, kIdleMs);
+}
+
+/// A fault of the program. The work is stored, and no frame follows.
+function stop(error) {
+  if (halted) return;
+  halted = true;
+  changed = true;
+  store();
+  const why = error instanceof WebAssembly.Exception ? 'the browser may have too little memory'
+    : error?.message ?? error;
+  say(`Claystack has stopped: ${why}. Reload the page` +
+    (kept() ? ': it offers the work again.' : '. The work was not stored.'));
+}
+
+/// Faults of the program outside of a frame: in an event, or in an answer of a worker.
+function isFault(error) {
+  return error instanceof WebAssembly.Exception || error instanceof WebAssembly.RuntimeError;
+}
+
+/// A place for this number of bytes in the memory of the program.
+function room(bytes) {
+  const place = studio._malloc(bytes || 1);
+  if (!place) throw new WebAssembly.RuntimeError('the browser has too little memory');
+  return place;
 }
 
 let ratio = 0;  // of the canvas: pixels of the screen per px of the page
@@ -56,6 +82,7 @@ function resize() {
 
 function withText(text, use) {
   const place = studio.stringToNewUTF8(text);
+  if (!place) throw new WebAssembly.RuntimeError('the browser has too little memory');
   try { return use(place); } finally { studio._free(place); }
 }
 
@@ -100,6 +127,8 @@ function open({name, bytes}) {
   ask();
 }
 
+function nameOf(path) { return path.slice(path.lastIndexOf('/') + 1); }
+
 function save(name, bytes) {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(new Blob([bytes]));
@@ -122,11 +151,15 @@ const page = {
   /// For people who do not see the picture.
   announce(text) { by('pot').textContent = text; },
   copy(text) { navigator.clipboard?.writeText(text).catch(() => {}); },
-  /// Works stay in the storage of the browser too; exports do not.
+  /// Whether the worker has sent this file of an export.
+  has(path) { return exported.has(nameOf(path)); },
+  /// Works stay in the storage of the browser too.
   download(path) {
-    save(path.slice(path.lastIndexOf('/') + 1), studio.FS.readFile(path));
-    if (!/\.work$/i.test(path)) studio.FS.unlink(path);
+    const name = nameOf(path);
+    save(name, exported.get(name) ?? studio.FS.readFile(path));
+    exported.delete(name);
   },
+  setTheme(name) { document.documentElement.dataset.theme = name; },
   pick() {
     pickFile(file => withText(file ? storeIn(file.name, file.bytes) : '', path => {
       studio._claystack_picked(path);
@@ -134,21 +167,29 @@ const page = {
     }));
   },
   sendReport(number, data) { mouse3d?.sendReport(number, data).catch(() => {}); },
-  post(slot, question) { worker(slot).postMessage({question}, [question.buffer]); },
+  post(slot, question) { worker(slot).post({question}, [question.buffer]); },
   stop: stopWorker,
 };
 
 // ---- links -------------------------------------------------------------------------------------
 
-/// Of an entry of the browser's history whose pot is a work of this tab: after a reload the program
-/// offers that work, with the strokes since then.
+/// Of an entry of the browser's history whose pot is an unsaved work of this tab: after a reload the
+/// program offers that work, with the strokes since then. Without strokes the link opens again.
 const kOpened = {opened: true};
+
+/// After each frame. The title of an unsaved work begins with a star.
+function markLink() {
+  const unsaved = document.title.startsWith('*');
+  if (location.hash.startsWith('#pot=') && Boolean(history.state?.opened) !== unsaved)
+    history.replaceState(unsaved ? kOpened : null, '');
+}
 
 async function through(stream, bytes) {
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 }
 
 async function copyLink() {
+  if (!window.CompressionStream) return status('This browser cannot make links: save the pot as a file');
   const path = '/link.pot.cbor';
   if (!withText(path, place => studio._claystack_write_pot(place)))
     return status('There is no pot on the wheel');
@@ -159,7 +200,8 @@ async function copyLink() {
   if (characters > kMostLinkBytes)
     return status(`The pot takes ${characters} characters; a link holds ${kMostLinkBytes}. Save it instead.`);
   const code = btoa(String.fromCharCode(...packed)).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
-  history.replaceState(kOpened, '', '#pot=' + code);
+  history.replaceState(null, '', '#pot=' + code);
+  markLink();
   const copied = await navigator.clipboard?.writeText(location.href).then(() => true, () => false);
   status('The address of this page now holds the pot; ' + (copied ? 'it is copied' : 'copy it from the address bar'));
 }
@@ -167,11 +209,11 @@ async function copyLink() {
 async function openLink() {
   if (!location.hash.startsWith('#pot=')) return;
   const code = location.hash.slice('#pot='.length);
+  if (!window.DecompressionStream) return status('This browser cannot read links; a recent one can');
   try {
     if (code.length > kMostLinkBytes) throw new Error('too long');
     const packed = Uint8Array.from(atob(code.replace(/-/g, '+').replace(/_/g, '/')), c => c.charCodeAt(0));
     open({name: 'link.pot.cbor', bytes: await through(new DecompressionStream('deflate-raw'), packed)});
-    history.replaceState(kOpened, '');
     const works = studio._claystack_recoverable();
     if (works > 0) status(`Unsaved works from before: ${works}. File > New offers them.`);
   } catch (error) {
@@ -194,14 +236,22 @@ function missing() {
   return null;
 }
 
+/// A stroke under way ends, and is stored.
+function hide() {
+  if (halted) return;
+  studio._claystack_hide();
+  changed = true;
+  store();
+}
+
 async function start() {
   const lack = missing();
   if (lack) return say(`This browser does not offer ${lack}. Claystack needs a recent Chromium, Firefox or Safari.`);
   const claimed = claimStorage();
-  const light = matchMedia('(prefers-color-scheme: light)').matches;
+  const light = matchMedia('(prefers-color-scheme: light)');
   const coarse = matchMedia('(pointer: coarse)').matches;
   const made = await claystackPage({
-    canvas, page, arguments: [light ? 'light' : 'dark', coarse ? 'fingers' : 'mouse'],
+    canvas, page, arguments: [light.matches ? 'light' : 'dark', coarse ? 'fingers' : 'mouse'],
     preRun: [module => prepareFiles(module, claimed)],
     print: line => page.log(line), printErr: line => console.warn(line),
   });
@@ -215,14 +265,15 @@ async function start() {
   new ResizeObserver(resize).observe(canvas);
   window.addEventListener('resize', resize);
   resize();
+  light.onchange = () => {
+    studio._claystack_prefers(light.matches);
+    ask();
+  };
   document.addEventListener('visibilitychange', () => {
-    if (document.hidden) {
-      studio._claystack_hide();
-      changed = true;
-      store();
-    }
+    if (document.hidden) hide();
     ask();
   });
+  window.addEventListener('pagehide', hide);
   window.addEventListener('dragover', event => event.preventDefault());
   window.addEventListener('drop', async event => {
     event.preventDefault();
@@ -258,5 +309,9 @@ function notStarted(error) {
   say('Claystack could not start: ' + why);
 }
 
-window.addEventListener('unhandledrejection', event => { if (!studio) notStarted(event.reason); });
+window.addEventListener('error', event => { if (studio && isFault(event.error)) stop(event.error); });
+window.addEventListener('unhandledrejection', event => {
+  if (!studio) notStarted(event.reason);
+  else if (isFault(event.reason)) stop(event.reason);
+});
 start().catch(notStarted);

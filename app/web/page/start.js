@@ -1,6 +1,10 @@
-// The first script of the page: reports a script that the browser did not get or cannot read. Old
-// browsers run it too, so it is in their JavaScript.
+// The first script of the page: sets the first colours, and reports a script that the browser did not
+// get or cannot read. Old browsers run it too, so it is in their JavaScript.
 'use strict';
+
+// Until the program sets its theme.
+document.documentElement.setAttribute('data-theme',
+  window.matchMedia && matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
 
 window.addEventListener('error', function (event) {
   var message = document.getElementById('message');

@@ -3,7 +3,8 @@
 'use strict';
 
 const kHome = '/home/web_user';
-const kStoreMs = 400;      // interval at which changes are stored
+const kStoreMs = 200;      // interval at which changes are stored
+const kAskMs = 300;        // another tab answers within this time
 const kClaimMs = 2000;     // a page that was reloaded leaves the storage within this time
 
 /// Shown in the window too.
@@ -23,12 +24,11 @@ let stores = false, unread = null;  // this tab; why it could not read what was 
 /// Whether the work survives a reload.
 function kept() { return stores && !failing(); }
 
-/// One tab alone stores: another one would replace the works by its own. Where browsers have no locks,
-/// which need https or localhost, each tab stores. A promise: it is decided.
+/// One tab alone stores: another one would replace the works by its own. A promise: it is decided.
 function claimStorage() {
   return new Promise(decided => {
     const decide = own => { stores = own; decided(); };
-    if (!navigator.locks) return decide(true);
+    if (!navigator.locks) return askTabs(decide);
     const late = new AbortController();
     setTimeout(() => late.abort(), kClaimMs);
     navigator.locks.request('claystack storage', {signal: late.signal}, () => {
@@ -36,6 +36,26 @@ function claimStorage() {
       return new Promise(() => {});  // as long as the page is open
     }).catch(() => decide(!late.signal.aborted));
   });
+}
+
+/// Browsers have locks on https and localhost alone. Elsewhere the tabs ask each other; of two that
+/// open within the same moment both store.
+function askTabs(decide) {
+  if (!window.BroadcastChannel) return decide(true);
+  const tabs = new BroadcastChannel('claystack storage');
+  let waiting = true;
+  tabs.onmessage = ({data}) => {
+    if (data === 'asks' && stores) tabs.postMessage('stores');
+    if (data !== 'stores' || !waiting) return;
+    waiting = false;
+    decide(false);
+  };
+  tabs.postMessage('asks');
+  setTimeout(() => {
+    if (!waiting) return;
+    waiting = false;
+    decide(true);
+  }, kAskMs);
 }
 
 /// Before the program starts: what was stored, and the folder of files that are opened. The program
@@ -83,6 +103,7 @@ function store() {
     if (error) return notStored(error);
     if (failing()) status('The work is stored again');
     failures = 0;
+    if (document.hidden) store();  // what came meanwhile: a hidden page may be frozen soon
   });
 }
 
@@ -97,7 +118,7 @@ function notStored(error) {
 /// The next start needs no server. Browsers offer this on https and localhost alone.
 async function keepOffline() {
   try {
-    await navigator.serviceWorker?.register('offline.js');
+    await navigator.serviceWorker?.register('offline.js?' + kVersion);
     if (await navigator.serviceWorker?.ready) page.log('ready offline');
   } catch (error) {
     page.log('not ready offline: ' + error.message);

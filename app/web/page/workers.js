@@ -2,13 +2,18 @@
 'use strict';
 
 const workers = [];  // by slot, see PageWorker; each begins with its first question
-function answered(slot, bytes) {
-  const place = studio._malloc(bytes.length || 1);
+function answered(slot, bytes, files) {
+  for (const {name, bytes} of files) exported.set(name, bytes);
+  const place = room(bytes.length);
   studio.HEAPU8.set(bytes, place);
   studio._claystack_answered(slot, place, bytes.length);
   studio._free(place);
   ask();
 }
+
+/// Files of an export by their names, until they are offered as downloads: they do not pass through
+/// the memory of the window, which would stop its picture.
+const exported = new Map();
 
 /// The module `claystack`, compiled once for all workers: a promise.
 let code = null;
@@ -23,31 +28,40 @@ function compiled() {
   return code;
 }
 
-function newWorker(take, fail) {
-  const made = new Worker('worker.js');
-  made.onmessage = ({data}) => { if (data.failure) fail(data.failure); else take(data); };
-  made.onerror = event => {
-    event.preventDefault();
-    fail(event.message || 'worker.js could not be loaded');
-  };
-  compiled().then(code => made.postMessage({code}), error => fail(error.message));
-  return made;
+/// It may be stopped: a late message of it is then no answer to a later question.
+class PageWorker {
+  constructor(take, fail) {
+    const unless_stopped = use => (...all) => { if (this.worker) use(...all); };
+    this.worker = new Worker('worker.js?' + kVersion);
+    this.worker.onmessage = unless_stopped(({data}) => { if (data.failure) fail(data.failure); else take(data); });
+    this.worker.onerror = event => {
+      event.preventDefault();
+      unless_stopped(fail)(event.message || 'worker.js could not be loaded');
+    };
+    compiled().then(unless_stopped(code => this.post({code, version: kVersion})),
+      unless_stopped(error => fail(error.message)));
+  }
+  post(message, parts = []) { this.worker.postMessage(message, parts); }
+  stop() {
+    this.worker?.terminate();
+    this.worker = null;
+  }
 }
 
 function stopWorker(slot) {
-  workers[slot]?.terminate();
+  workers[slot]?.stop();
   workers[slot] = null;
 }
 
 function worker(slot) {
-  workers[slot] ??= newWorker(data => {
-    if (data.answer) answered(slot, data.answer);
+  workers[slot] ??= new PageWorker(data => {
+    if (data.answer) answered(slot, data.answer, data.files);
     else if (data.stage) withText(data.stage, text => studio._claystack_stage(slot, text));
     ask();
   }, failure => {
     page.log('error: worker: ' + failure);
     stopWorker(slot);
-    answered(slot, new Uint8Array());
+    answered(slot, new Uint8Array(), []);
   });
   return workers[slot];
 }
@@ -55,7 +69,7 @@ function worker(slot) {
 let checker = null;  // of the report on screen
 
 function stopChecker() {
-  checker?.terminate();
+  checker?.stop();
   checker = null;
 }
 
@@ -65,7 +79,7 @@ function showReport(title, verdict, text) {
   by('report-verdict').textContent = verdict;
   by('report-text').textContent = text;
   by('report').onclose = stopChecker;
-  by('report').showModal();
+  if (!by('report').open) by('report').showModal();
 }
 
 function checkMesh(file) {
@@ -75,10 +89,10 @@ function checkMesh(file) {
     by('report-verdict').textContent = verdict;
     by('report-text').textContent = text;
   };
-  checker = newWorker(data => done(
+  checker = new PageWorker(data => done(
     data.status === 0 ? 'Sound: one closed solid without self-intersections'
       : data.status === 1 ? 'Not sound: the report says why' : 'The file could not be read',
     data.out || data.err),
   failure => done('The check stopped: the browser may have too little memory, or lacks a file', failure));
-  checker.postMessage({words: ['check', '--json', '--', file.name], files: [file]}, [file.bytes.buffer]);
+  checker.post({words: ['check', '--json', '--', file.name], files: [file]}, [file.bytes.buffer]);
 }

@@ -148,28 +148,27 @@ TEST(JobMessage, CarriesTheWholeExport) {
   EXPECT_EQ(received.exporting->pot.stack.volume(), asked.pot.stack.volume());
 }
 
-TEST(JobMessage, CarriesFiguresFilesAndErrors) {
-  ExportAnswer answer{studio::ExportFigures{.has_solid = true,
-                                            .triangles = 7,
-                                            .meshes = {{solid::MeshFormat::obj, 5'000'000'000}},
-                                            .diameter_mm = 0.1,
-                                            .height_mm = 0.2,
-                                            .shrinkage = 0.3,
-                                            .capacity_ml = 0.8,
-                                            .weight_g = 0.9,
-                                            .fallen = true,
-                                            .thinnest_mm = 0.4,
-                                            .thinnest_at_mm = 0.5,
-                                            .thinnest_in_floor = true,
-                                            .closed_cavity = true,
-                                            .problems = {"thin"},
-                                            .failed = 1,
-                                            .marks = {{{0.6, 0.7}, "here"}}},
-                      {std::string("a\0b", 3), ""}};
+TEST(JobMessage, CarriesFiguresAndErrors) {
+  const ExportAnswer answer{
+      studio::ExportFigures{.has_solid = true,
+                            .triangles = 7,
+                            .meshes = {{solid::MeshFormat::obj, 5'000'000'000}},
+                            .diameter_mm = 0.1,
+                            .height_mm = 0.2,
+                            .shrinkage = 0.3,
+                            .capacity_ml = 0.8,
+                            .weight_g = 0.9,
+                            .fallen = true,
+                            .thinnest_mm = 0.4,
+                            .thinnest_at_mm = 0.5,
+                            .thinnest_in_floor = true,
+                            .closed_cavity = true,
+                            .problems = {"thin"},
+                            .failed = 1,
+                            .marks = {{{0.6, 0.7}, "here"}}}};
   const auto found = export_in(message_of(answer));
-  ASSERT_TRUE(found && found->done);
-  EXPECT_EQ(found->files, answer.files);
-  const studio::ExportFigures& figures = *found->done;
+  ASSERT_TRUE(found && *found);
+  const studio::ExportFigures& figures = **found;
   EXPECT_TRUE(figures.has_solid && figures.fallen && figures.thinnest_in_floor &&
               figures.closed_cavity);
   EXPECT_EQ(figures.failed, 1u);
@@ -185,10 +184,10 @@ TEST(JobMessage, CarriesFiguresFilesAndErrors) {
   ASSERT_EQ(figures.marks.size(), 1u);
   EXPECT_EQ(figures.marks[0].place_mm, glm::dvec2(0.6, 0.7));
   EXPECT_EQ(figures.marks[0].text, "here");
-  const auto failed = export_in(message_of({failure(ErrorKind::io, "full"), {}}));
-  ASSERT_TRUE(failed && !failed->done);
-  EXPECT_EQ(failed->done.error().kind, ErrorKind::io);
-  EXPECT_EQ(failed->done.error().message, "full");
+  const auto failed = export_in(message_of(ExportAnswer(failure(ErrorKind::io, "full"))));
+  ASSERT_TRUE(failed && !*failed);
+  EXPECT_EQ(failed->error().kind, ErrorKind::io);
+  EXPECT_EQ(failed->error().message, "full");
 }
 
 TEST(JobMessage, CarriesTheQuestionForALesson) {
