@@ -190,11 +190,18 @@ export async function typedByFinger(page, tap) {
   await page.waitForFunction(() => document.activeElement.id === 'canvas');  // the keyboard goes
 }
 
-/// A fault of the program: the page reports that it has stopped.
+/// A fault of the program, in a frame or in an event: the page reports that it has stopped.
 export async function failing({open}) {
   const page = await open();
   await page.evaluate(() => { studio._claystack_frame = () => { throw new Error('planted'); }; });
   await page.shows('message', /^Claystack has stopped: planted\. Reload the page/);
   assert.deepEqual(page.problems, []);
   await page.browserContext().close();
+  const full = await open();
+  await full.evaluate(() => {
+    studio._malloc = () => 0;
+    setTimeout(() => answered(0, new Uint8Array(8), []));
+  });
+  await full.shows('message', /^Claystack has stopped: the browser has too little memory\. Reload the page/);
+  await full.browserContext().close();
 }

@@ -9,6 +9,7 @@ import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import {inflateRawSync} from 'node:zlib';
 import {beginBowl, choose, chord, downloaded as downloadedIn, drag, drop, launch as launchIn, openPage as openPageIn, pause} from './browser.mjs';
+import {browsersKeys, clipboard, followedTheme, hiddenTab, untouchedLink, versions} from './browsing.mjs';
 import {gamepad, partsOfOneController, pen, saved, spaceMouse} from './devices.mjs';
 import {failing, keysAndButtons, oddFiles, oddLinks, otherScreen, palms, typedByFinger} from './odd_input.mjs';
 import {serve} from './server.mjs';
@@ -132,6 +133,13 @@ async function files(browser) {
   await shows(report);
   await picture(page, 'report');
   await page.keyboard.press('Enter');  // Close
+  native('throw', '-q', 'bowl.work', '-o', 'formats.pot.json');
+  for (const ending of ['obj', 'drc', 'ply', '3mf', 'glb']) {
+    native('export', '-q', 'formats.pot.json', 'formats.' + ending);
+    await choose(page, '#check', join(folder, 'formats.' + ending));
+    await shows(native('check', '--json', 'formats.' + ending));
+    await page.keyboard.press('Escape');
+  }
   const open = readFileSync(join(folder, 'bowl.stl')).subarray(0, -50);  // lacks a triangle
   open.writeUInt32LE(open.readUInt32LE(80) - 1, 80);
   writeFileSync(join(folder, 'open.stl'), open);
@@ -465,7 +473,7 @@ async function lesson(browser) {
   await pause(1500);
   await page.mouse.click(302, 300);  // the card of the bowl
   await page.says('step: Open');
-  await pause(500);
+  await page.shows('pot', /\. Step 1 of \d+: Open\. ./);  // for people who do not see the picture
   const gaps = [await page.lastLine('work started')];
   await picture(page, 'lesson');  // no frame meanwhile
   await page.keyboard.press('KeyG');
@@ -505,13 +513,21 @@ async function odd(browser) {
   console.log('unusual files, links, keys and fingers: a message, and no harm');
 }
 
+/// Themes, hidden tabs, keys, links and versions, see browsing.mjs.
+async function browsing(browser) {
+  await each(browser, followedTheme, hiddenTab, clipboard, browsersKeys, untouchedLink);
+  const openAt = async address => openPageIn(await browser.createBrowserContext(), folder, address, kDesktop, () => {});
+  await versions({openAt, folder, site});
+  console.log('theme, hidden tab, clipboard, keys, links and versions of the browser');
+}
+
 /// What becomes of the works, see storage.mjs.
 async function storage(browser) {
   await each(browser, twoTabs, closedWithoutStorage, clearedStorage, unreadStorage, lostGraphics, pickedAgain, listedWorks, reloadedLink);
   console.log('a second tab, a reload, cleared or unreadable storage: no work is lost');
 }
 
-const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, odd, storage, offline, offlineBeside, incomplete, repeated, looks};
+const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, odd, browsing, storage, offline, offlineBeside, incomplete, repeated, looks};
 let failed = 0;
 const only = process.env.ONLY?.split(',');  // some tests, by name
 try {

@@ -320,6 +320,7 @@ TEST_F(ActionsTest, ActionsChangeSettings) {
   EXPECT_EQ(state.document.scene_with({}, 90.0).removal.rate_per_s, 0.75 * rate);
   apply(state, ToggleTheme{});
   EXPECT_EQ(state.settings.theme, Theme::light);
+  EXPECT_TRUE(state.settings.theme_chosen);
   EXPECT_TRUE(state.ui.restyle);
   apply(state, ScaleText{1000.0f});
   EXPECT_EQ(state.settings.scale, kLargestScale);

@@ -17,6 +17,7 @@ namespace {
 Settings changed() {
   Settings settings;
   settings.theme = Theme::light;
+  settings.theme_chosen = true;
   settings.scale = 1.5f;
   settings.unit = LengthUnit::in;
   settings.wheel_rpm = 90.0;
@@ -40,6 +41,7 @@ TEST(Settings, RoundTrip) {
   EXPECT_EQ(write_settings(*back), text);
   EXPECT_EQ(back->tool.rib, changed().tool.rib);
   EXPECT_EQ(back->theme, Theme::light);
+  EXPECT_TRUE(back->theme_chosen);
   EXPECT_EQ(back->material.id, "tenmoku");
   EXPECT_FALSE(back->throwing_lines);
 }
