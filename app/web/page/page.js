@@ -127,7 +127,7 @@ function open({name, bytes}) {
   ask();
 }
 
-function nameOf(path) { return path.slice(path.lastIndexOf('/') + 1); }
+function baseName(path) { return path.slice(path.lastIndexOf('/') + 1); }
 
 function save(name, bytes) {
   const link = document.createElement('a');
@@ -152,10 +152,10 @@ const page = {
   announce(text) { by('pot').textContent = text; },
   copy(text) { navigator.clipboard?.writeText(text).catch(() => {}); },
   /// Whether the worker has sent this file of an export.
-  has(path) { return exported.has(nameOf(path)); },
+  has(path) { return exported.has(baseName(path)); },
   /// Works stay in the storage of the browser too.
   download(path) {
-    const name = nameOf(path);
+    const name = baseName(path);
     save(name, exported.get(name) ?? studio.FS.readFile(path));
     exported.delete(name);
   },
