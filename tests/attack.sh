@@ -25,6 +25,8 @@ commands="
 throw|a.pot.json|throw $samples/cylinder.scene.json -o a.pot.json
 trace|b.pot.json t.csv|throw $samples/cylinder.scene.json -o b.pot.json --trace t.csv
 json|c.pot.json|throw $samples/cylinder.scene.json -o c.pot.json --json
+live||throw $samples/cylinder.scene.json --device simulated --seconds 0.3 --record l.session -o l.pot.json
+studio|w.png|studio in.pot.json --script $samples/window/plain.script --screenshot w.png --size 320x240
 strokes|d.session|strokes $samples/cylinder.scene.json $samples/strokes/cylinder.strokes.json -o d.session
 plan||plan $samples/bowl.scene.json
 export|e.stl e.stl.certificate.json|export in.pot.json e.stl --certificate

@@ -191,6 +191,8 @@ const std::string kDecimate = "check -q --max-triangles 1000 @/whole.stl -o #/a.
 const std::string kStrokes = "strokes -q --from @/a.pot.json @/a.strokes.json -o #/a.session";
 const std::string kDrawing = "import -q @/a.csv -o #/a.pot.json";
 const std::string kMesh = "import -q @/whole.stl -o #/a.pot.cbor";
+const std::string kRender =
+    "render -q @/a.pot.json -o #/a.png --turntable #/a.gif --frames 2 --size 64x64";
 const std::string kCopy = "throw -q --from @/a.pot.json -s @/a.session -o #/a.pot.cbor";
 const std::string kStick = "tmpfile,links";  // FAT, as on USB drives
 
@@ -213,6 +215,9 @@ INSTANTIATE_TEST_SUITE_P(
         FailingCall{"ThrowOnAPot", kCopy, {"a.pot.cbor"}, true},
         FailingCall{"Strokes", kStrokes, {"a.session"}, true},
         FailingCall{"StrokesToAStick", kStrokes, {"a.session"}, true, kStick, SIGTERM},
+#ifdef CLAYSTACK_WINDOW
+        FailingCall{"Render", kRender, {"a.png", "a.gif"}, true},
+#endif
         FailingCall{"ImportOfADrawing", kDrawing, {"a.pot.json"}, true},
         FailingCall{"ImportOfAMesh", kMesh, {"a.pot.cbor"}, true}),
     [](const auto& test) { return test.param.name; });
@@ -291,6 +296,43 @@ TEST(WriteFaultsOfABatch, LeaveWholeResultsAndTheNextRunAddsTheRest) {
     EXPECT_EQ(std::ranges::count(all, '\n'), 2) << all;
   }
 }
+
+#ifdef CLAYSTACK_STUDIO
+TEST(WriteFaultsOfAWindow, LeaveTheOldFileOrTheNewOne) {
+  const Folders folders;
+  write_text(folders.in.file("save.script"), "open \"" + sample("cylinder.scene.json") +
+                                                 "\"\nwait 0.1\nsave \"" +
+                                                 folders.out.file("a.work") + "\"\n");
+  const std::string window = "studio --script @/save.script --screenshot #/a.png --size 160x120";
+  const Files before{{"a.work", "old work"}, {"a.png", "old picture"}};
+  folders.reset(before);
+  ASSERT_EQ(folders.run(window).status, 0);
+  const Files whole = files_in(folders.out.path());
+  for (int at = 1;; ++at) {
+    ASSERT_LT(at, kMostCalls);
+    folders.reset(before);
+    const int error = kErrors[at % 3];
+    const Ran ran = folders.run(window, {at, error});
+    const std::string call = folders.failed_call();
+    if (call.empty()) {
+      EXPECT_GT(at, kFewestCalls);
+      EXPECT_EQ(ran.status, 0) << ran.err;
+      break;
+    }
+    SCOPED_TRACE(call + ", call " + std::to_string(at) + ": " + ran.err);
+    const Files after = files_in(folders.out.path());
+    EXPECT_EQ(after.size(), 2u);
+    bool new_files = true;
+    for (const auto& [name, bytes] : before) {
+      const bool is_new = after.at(name) == whole.at(name);
+      EXPECT_TRUE(is_new || after.at(name) == bytes) << name;
+      new_files = new_files && is_new;
+    }
+    EXPECT_EQ(ran.status == 0, new_files) << ran.status;
+    if (!new_files) EXPECT_NE(ran.err.find(std::strerror(error)), std::string::npos);
+  }
+}
+#endif
 
 TEST(WriteLimits, ReportsAFileAboveItsSizeLimit) {
   const ScratchFolder folder;
