@@ -303,7 +303,7 @@ TEST(WriteFaultsOfAWindow, LeaveTheOldFileOrTheNewOne) {
   write_text(folders.in.file("save.script"), "open \"" + sample("cylinder.scene.json") +
                                                  "\"\nwait 0.1\nsave \"" +
                                                  folders.out.file("a.work") + "\"\n");
-  const std::string window = "studio --script @/save.script --screenshot #/a.png --size 160x120";
+  const std::string window = "studio --script @/save.script --screenshot #/a.png --size 320x240";
   const Files before{{"a.work", "old work"}, {"a.png", "old picture"}};
   folders.reset(before);
   ASSERT_EQ(folders.run(window).status, 0);
