@@ -73,6 +73,11 @@ def slower(rounds: list) -> list:
     return rows
 
 
+def too_slow(rows: list) -> list:
+    """The rows of `slower` that fail: above the limit, and slower in every round."""
+    return [row for row in rows if row[1] > LIMIT and row[2] > 1.0]
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -95,7 +100,7 @@ def main() -> int:
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
         subprocess.run(["git", "worktree", "prune"], check=False)
-    failed = [row for row in rows if row[1] > LIMIT and row[2] > 1.0]
+    failed = too_slow(rows)
     for place, median, least, largest in rows:
         mark = "SLOWER" if (place, median, least, largest) in failed else ""
         print(f"{place:40} {median:6.3f}  ({least:.3f} to {largest:.3f}) {mark}")
