@@ -78,8 +78,12 @@ if(CLAYSTACK_EXPORT)
   if(CLAYSTACK_MESHOPT)
     set(meshopt -lmeshoptimizer)
   endif()
+  set(openmesh "")
+  if(CLAYSTACK_OPENMESH)
+    set(openmesh openmesh)
+  endif()
   claystack_pkg_config(export DESCRIPTION "certified solids and mesh checks"
-    REQUIRES claystack-engine REQUIRES_PRIVATE "openmesh gmp mpfr ${draco}" CFLAGS "${draco_flag}"
+    REQUIRES claystack-engine REQUIRES_PRIVATE "${openmesh} gmp mpfr ${draco}" CFLAGS "${draco_flag}"
     LIBS -lclaystack_export LIBS_PRIVATE "-lclaystack_core_json -lzip -lxml2 -lcairo ${meshopt} -pthread")
 endif()
 if(CLAYSTACK_FALCON)

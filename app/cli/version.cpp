@@ -8,6 +8,9 @@ std::string version_text() {
 #ifdef CLAYSTACK_EXPORT
   parts += " export";
 #endif
+#ifdef CLAYSTACK_OPENMESH
+  parts += " openmesh";
+#endif
 #ifdef CLAYSTACK_DRACO
   parts += " draco";
 #endif
