@@ -10,10 +10,13 @@ namespace clay::history {
 
 /// The usual length of a finger, for `ClaySpec::finger_mm`.
 inline constexpr double kFingerMm = 90.0;
+/// For `ClaySpec::finger_behind`: a lump that is opened at its bottom has a wide mouth.
+inline constexpr double kFingerBehind = 0.5;
 
 /// These rules with all options, as new works have them.
 [[nodiscard]] inline ClaySpec with_all_options(ClaySpec clay) {
   clay.finger_mm = kFingerMm;
+  clay.finger_behind = kFingerBehind;
   clay.thin_wall_yields = clay.rim_sinks = true;
   clay.narrow_rim_closes = clay.lifted_wall_stretches = true;
   return clay;

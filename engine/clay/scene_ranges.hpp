@@ -32,5 +32,6 @@ inline constexpr Range kMaxStressKpa = above(0).to(1e6);
 inline constexpr Range kWheelRpm = from(0).to(1e3);
 inline constexpr Range kFloorMm = from(0).to(1e6);
 inline constexpr Range kFingerMm = from(0).to(200);
+inline constexpr Range kFingerBehind = from(0).to(4);
 
 }  // namespace clay::ranges

@@ -101,6 +101,7 @@ void describe(auto& io, Is<ClaySpec> auto& clay) {
   io.number("wheel_rpm", clay.wheel_rpm, ranges::kWheelRpm);
   io.number("floor_mm", clay.floor_mm, ranges::kFloorMm);
   io.number("finger_mm", clay.finger_mm, ranges::kFingerMm);
+  io.number("finger_behind", clay.finger_behind, ranges::kFingerBehind);
   io.choice_unless(false, "thin_wall", clay.thin_wall_yields, files::kThinWallNames);
   io.choice_unless(false, "pressed_rim", clay.rim_sinks, files::kPressedRimNames);
   io.choice_unless(false, "narrow_rim", clay.narrow_rim_closes, files::kNarrowRimNames);

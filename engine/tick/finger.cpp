@@ -12,7 +12,7 @@ Finger finger_of(const StepPlan& plan, const ToolState& tool, const ClayStack& s
   if (!(plan.clay.finger_mm > 0.0) || contact.side != Side::expansive) return {};
   const double from = tool.hip_mm.y, to = from + plan.clay.finger_mm;
   const double widest = plan.tool.widest();
-  const double bore = contact.axis_distance_mm - Finger::kBehind * widest;
+  const double bore = contact.axis_distance_mm - plan.clay.finger_behind * widest;
   if (!(bore > 0.0)) return {};
   // A hand's tick lays far less on a wall than this, so most bores are clear of the finger. The
   // next tick removes what a longer tick lays into it.

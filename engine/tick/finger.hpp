@@ -17,7 +17,6 @@ namespace clay {
 /// thick as its radius does not yield: a belly may be wider than the neck over it.
 struct Finger {
   static constexpr double kLean = 0.125;  ///< radius over height
-  static constexpr double kBehind = 2.0;  ///< distance from the tool's middle, in its radii
   double from_mm = 0.0, to_mm = 0.0;      ///< heights of its ends above the wheel head
   double bore_mm = 0.0;                   ///< least radius of the bore at its lower end
   double tool_mm = 1.0;                   ///< greatest radius of the tool

@@ -46,11 +46,9 @@ TEST(Plan, KeepsAllNeededStages) {
   scene["force"]["friction"] = 0.2;
   scene["stability"]["max_stress_kpa"] = 10;
   scene["tool"]["gap_mm"] = 5;
-  scene["clay"] = {{"finger_mm", 90},
-                   {"thin_wall", "yields"},
-                   {"pressed_rim", "sinks"},
-                   {"narrow_rim", "closes"},
-                   {"lifted_wall", "stretches"}};
+  scene["clay"] = {{"finger_mm", 90},        {"finger_behind", 0.5},
+                   {"thin_wall", "yields"},  {"pressed_rim", "sinks"},
+                   {"narrow_rim", "closes"}, {"lifted_wall", "stretches"}};
   write_text(folder.file("s.scene.json"), scene.dump());
   EXPECT_TRUE(
       claystack("plan --json " + folder.file("s.scene.json")).json().at("left_out").empty());

@@ -57,6 +57,7 @@ constexpr std::string_view kText = R"({
     "wheel_rpm": 90,
     "floor_mm": 7,
     "finger_mm": 80,
+    "finger_behind": 0.75,
     "thin_wall": "yields",
     "pressed_rim": "sinks",
     "narrow_rim": "closes",

@@ -30,6 +30,7 @@ TEST(SceneHash, IgnoresTheWritingVersion) {
 TEST(SceneHash, OmitsAWallAndARimThatStay) {
   SceneSpec scene;
   scene.clay = ClaySpec{};
+  EXPECT_EQ(write_scene(scene).find("finger"), std::string::npos);
   EXPECT_EQ(write_scene(scene).find("thin_wall"), std::string::npos);
   EXPECT_EQ(write_scene(scene).find("pressed_rim"), std::string::npos);
   EXPECT_EQ(write_scene(scene).find("narrow_rim"), std::string::npos);

@@ -198,6 +198,7 @@ TEST(ClayAudit, ClayNeverMovesIntoTheTool) {
   scene.clay = ClaySpec{};
   expect_no_gain_of_energy(scene);
   scene.clay->finger_mm = 90.0;
+  scene.clay->finger_behind = 0.5;
   expect_no_gain_of_energy(scene);
   scene.clay->thin_wall_yields = true;
   expect_no_gain_of_energy(scene);

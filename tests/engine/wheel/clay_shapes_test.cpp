@@ -137,8 +137,10 @@ TEST(ClayShapes, ARibLeavesNoLedgeAtItsEnds) {
 }
 
 /// A solid lump, opened by a ball that goes down the axis to 15 mm, and out.
-Wheel opened_lump(double out_mm, std::optional<double> finger_mm) {
-  SceneSpec scene = cylinder_scene({.floor_mm = 5.0, .finger_mm = finger_mm});
+Wheel opened_lump(double out_mm, std::optional<double> finger_mm,
+                  std::optional<double> finger_behind = {}) {
+  SceneSpec scene =
+      cylinder_scene({.floor_mm = 5.0, .finger_mm = finger_mm, .finger_behind = finger_behind});
   scene.lump.rings = 200;
   scene.lump.outer_radius_mm = 48.0;
   scene.lump.inner_radius_mm = 0.0;
@@ -159,17 +161,30 @@ double narrowest_bore(const Wheel& wheel) {
   return least;
 }
 
-/// The rest of the finger stands two radii of the ball nearer to the axis, and leans away by 1 : 8.
+/// The rest of the finger stands nearer to the axis than the ball, by two radii of it or as many as
+/// the scene says, and leans away by 1 : 8.
 TEST(ClayShapes, AFingerKeepsTheBoreOpen) {
-  constexpr double kHip = 15.0;
-  const Wheel wheel = opened_lump(36.0, 90.0);
-  const auto rings = wheel.stack().rings();
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    const double up = (static_cast<double>(i) + 0.5) * kH;
-    if (up > kHip + 10.0) {
-      EXPECT_GT(rings[i].inner_mm(), 36.0 - 20.0 - (up - kHip) / 8.0 - 0.2) << up;
+  constexpr double kHip = 15.0, kRadius = 10.0;
+  for (const std::optional<double> behind : {std::optional<double>(), {2.0}, {1.0}, {0.5}}) {
+    const Wheel wheel = opened_lump(36.0, 90.0, behind);
+    const auto rings = wheel.stack().rings();
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+      const double up = (static_cast<double>(i) + 0.5) * kH;
+      const double finger = 36.0 - kRadius * behind.value_or(2.0) - (up - kHip) / 8.0;
+      if (up > kHip + kRadius) {
+        EXPECT_GT(rings[i].inner_mm(), finger - 0.2) << up << ", " << behind.value_or(2.0);
+      }
     }
   }
+}
+
+/// A lump opened at its bottom becomes a bowl, not a bottle.
+TEST(ClayShapes, AFingerCloseBehindTheToolLeavesAWideMouth) {
+  const auto mouth = [](std::optional<double> behind) {
+    return opened_lump(28.0, 90.0, behind).stack().rings().back().inner_mm();
+  };
+  EXPECT_LT(mouth({}), 10.0);
+  EXPECT_GT(mouth(0.5), 17.0);
 }
 
 TEST(ClayShapes, ClayClosesOverABallAloneButNotOverAFinger) {

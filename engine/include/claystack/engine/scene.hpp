@@ -127,6 +127,9 @@ struct ClaySpec {
   double floor_mm = 0.0;     ///< no tool opens the solid bottom below this height; 0: no stop
   /// Length of the finger in a bore; no thick wall closes behind it. Absent: the tool alone.
   std::optional<double> finger_mm = std::nullopt;
+  /// How far from the tool's middle, toward the axis, the finger stands, in radii of the tool.
+  /// Absent: 2. A finger close behind the tool leaves a mouth as wide as the bottom.
+  std::optional<double> finger_behind = std::nullopt;
   /// At the minimum wall. False: a tool from inside goes through the wall, and two tools that go
   /// out leave it behind. True: they bend it (needs `shift`), and the rim sinks to supply the clay;
   /// a cut removes a tip of the rim that would project as a ledge. A press from outside always
