@@ -98,6 +98,7 @@ inline SceneSpec arbitrary_scene() {
                     *number_in(0, 1e3),
                     *number_in(0, 1e6),
                     maybe<double>([] { return *number_in(0, 200); }),
+                    maybe<double>([] { return *number_in(0, 4); }),
                     on(),
                     on(),
                     on(),

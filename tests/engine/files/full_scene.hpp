@@ -15,7 +15,7 @@ inline SceneSpec full_scene() {
   scene.force = ForceSpec{0.1, 4, 0.3, false, 0.75};
   scene.stability = StabilitySpec{8};
   scene.clay =
-      ClaySpec{false, false, false, false, false, false, 90, 7, 80, true, true, true, true};
+      ClaySpec{false, false, false, false, false, false, 90, 7, 80, 0.75, true, true, true, true};
   return scene;
 }
 
