@@ -88,10 +88,11 @@ function listenToStorage() {
   });
 }
 
-// Failures in a row. A first one may be a file that the program has just deleted, so it is no problem
-// before the second one.
-let failures = 0;
-const failing = () => failures > 1;
+// Since when it fails, and whether the user knows. A first failure may be a file that the program has
+// just deleted, or a storage that the user has just cleared, so it is no problem for a moment.
+const kTroubleMs = 500;
+let failedAt = null, warned = false;
+const failing = () => warned;
 
 let changed = false, storing = false;
 function store() {
@@ -101,8 +102,8 @@ function store() {
   studio.FS.syncfs(false, error => {
     storing = false;
     if (error) return notStored(error);
-    if (failing()) status('The work is stored again');
-    failures = 0;
+    if (warned) status('The work is stored again');
+    [failedAt, warned] = [null, false];
     if (document.hidden) store();  // what came meanwhile: a hidden page may be frozen soon
   });
 }
@@ -110,7 +111,9 @@ function store() {
 function notStored(error) {
   changed = true;
   studio.IDBFS.quit();  // opened anew next time: somebody may have cleared the storage
-  if (++failures !== 2) return;
+  failedAt ??= performance.now();
+  if (warned || performance.now() - failedAt < kTroubleMs) return;
+  warned = true;
   warn(`The browser cannot store the work: ${reason(error)}. What it stored before remains. ` +
     'Save the work as a file (Ctrl+S).');
 }
