@@ -2,11 +2,11 @@
 # sh tests/bench/window_soak.sh PROGRAM [CYCLES]: checks that the window neither grows nor slows down.
 # Repeats a scripted throw on a new lump CYCLES times (default 400, some minutes): two strokes,
 # undo, redo, trimming, a save. Samples the resident memory and the processor time of a cycle after
-# each save. Fails if the median memory of the last quarter is more than 5 % above that of the second,
-# if a cycle takes 25 % more processor time (of 400 cycles or more), if the clay's volume has an error, or if the program
-# ends before its script. PROGRAM is claystack-studio; no screen is needed.
+# each save. Fails if the median memory of the last quarter is more than 5 % above that of the second;
+# if, of 400 cycles or more, a cycle takes 25 % more processor time; if the clay's volume has an error;
+# or if the program ends before its script. PROGRAM is claystack-studio; no screen is needed.
 set -eu
-[ $# -ge 1 ] || { sed -n '2,8s/^# //p' "$0" >&2; exit 2; }
+[ $# -ge 1 ] || { sed -n '2,7s/^# //p' "$0" >&2; exit 2; }
 program=$(realpath "$1") cycles=${2:-400}
 scene=$(realpath "$(dirname "$0")/../../samples/bowl.scene.json")
 [ "$cycles" -ge 8 ] || { echo "$0: expected at least 8 cycles, found $cycles" >&2; exit 2; }
