@@ -1,5 +1,6 @@
 #!/bin/sh
 # Sizes of the files of the page [bytes], raw and by brotli: tests/web_sizes.sh build/web/site
+# Exit status 1 if a browser loads more than 2.5 MB up to the first picture.
 set -eu
 command -v brotli >/dev/null || sh "$(dirname "$0")/../samples/install_packages.sh" brotli
 cd "$1"
@@ -16,3 +17,4 @@ for file in *; do
 done
 printf '%-22s %10s %10d\n' 'up to the picture' '' "$first"
 printf '%-22s %10s %10d\n' all '' "$all"
+[ "$first" -le 2500000 ] || { echo "expected at most 2500000 bytes up to the picture" >&2; exit 1; }
