@@ -3,6 +3,7 @@
 
 #include "app/cli/console.hpp"
 #include "app/cli/device_choice.hpp"
+#include "app/cli/memory_room.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/cli/replay.hpp"
 #include "app/cli/studio_options.hpp"
@@ -16,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -49,6 +51,9 @@ Result<void> run_script(const StudioOptions& options, const LogLine& log) {
           cli::check_outputs({{options.screenshot, {".png"}}}, {options.file, options.script}, {});
       !free)
     return free;
+  const auto pixels =
+      static_cast<std::uint64_t>(options.size_px.x) * static_cast<std::uint64_t>(options.size_px.y);
+  if (auto room = cli::expect_room_to_draw(pixels); !room) return room;
   auto host = OffscreenHost::create(options.size_px,
                                     options.scale > 0.0 ? static_cast<float>(options.scale) : 1.0f);
   if (!host) return tl::make_unexpected(host.error());
