@@ -251,6 +251,18 @@ TEST(MemoryLimit, RefusesTheWheelAndThePotOfMoreRingsThanFit) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("tall.pot.json")));
 }
 
+#ifdef CLAYSTACK_STUDIO
+// Without memory, a driver of OpenGL crashes.
+TEST(MemoryLimit, RefusesAWindowWithoutRoomForOpenGl) {
+  const ScratchFolder folder;
+  const Ran run = with_megabytes(300, "studio --script " + sample("window/plain.script") +
+                                          " --screenshot " + folder.file("w.png"));
+  EXPECT_EQ(run.status, 3);
+  EXPECT_NE(run.err.find("drawing needs about 0."), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("w.png")));
+}
+#endif
+
 TEST(MemoryLimit, StatesTwoFiguresThatDiffer) {
   EXPECT_EQ(
       cli::lack_of_room("drawing", 3'000'000'000, {1'200'000'000, "the limit --memory"}),
