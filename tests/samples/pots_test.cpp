@@ -52,7 +52,7 @@ struct Played {
   double fastest_press_mm_s = 0.0;  ///< of the tool in the clay
 };
 
-const Played& played(const std::string& sample) {
+const Played& played(const char* sample) {
   static std::map<std::string, Played> all;
   if (const auto found = all.find(sample); found != all.end()) return found->second;
   Played play{Wheel::build(scene_of(sample)).value(),
