@@ -50,10 +50,10 @@ TEST(SolidCertificate, HoldsForEveryFormat) {
 
 TEST(SolidCertificate, ReportsEveryFalseClaim) {
   const auto [good, file] = certified(shapes::vase(60), MeshFormat::stl_binary);
-  const auto expect = [&, &good = good, &file = file](auto change, const std::string& says) {
-    SolidCertificate lie = good;
+  const auto expect = [&, &sound = good, &bytes = file](auto change, const std::string& says) {
+    SolidCertificate lie = sound;
     change(lie);
-    EXPECT_TRUE(refused(lie, file, says));
+    EXPECT_TRUE(refused(lie, bytes, says));
   };
   expect([](auto& c) { c.bytes += 1; }, "size");
   expect([](auto& c) { c.content_hash[5] ^= 1; }, "content hash");
@@ -72,11 +72,11 @@ TEST(SolidCertificate, ReportsEveryFalseClaim) {
 
 TEST(SolidCertificate, DetectsConsistentClaimsThatDoNotMatchTheFile) {
   const auto [good, file] = certified(shapes::vase(60), MeshFormat::stl_binary);
-  const auto with_claims_of = [&, &good = good](const SolidCertificate& claims) {
+  const auto with_claims_of = [&, &sound = good](const SolidCertificate& claims) {
     SolidCertificate lie = claims;
-    lie.format = good.format;
-    lie.bytes = good.bytes;
-    lie.content_hash = good.content_hash;
+    lie.format = sound.format;
+    lie.bytes = sound.bytes;
+    lie.content_hash = sound.content_hash;
     return lie;
   };
   EXPECT_TRUE(refused(with_claims_of(claims_of(good.profile, good.segments + 4, good.rounding_mm)),
