@@ -155,9 +155,10 @@ std::vector<BatchJob> runs_of(std::vector<BatchJob> jobs) {
         return word == option || (word.starts_with(option) && word[option.size()] == '=');
       });
     };
-    if (!has("--json")) job.words.emplace_back("--json");
+    // Behind the command: at the end they might follow "--", and be files.
+    if (!has("--json")) job.words.insert(job.words.begin() + 1, "--json");
     if (memory_limit() > 0 && !has("--memory"))
-      job.words.push_back(fmt::format("--memory={}", memory_limit()));
+      job.words.insert(job.words.begin() + 1, fmt::format("--memory={}", memory_limit()));
   }
   return jobs;
 }

@@ -14,7 +14,7 @@
 namespace clay {
 namespace {
 
-constexpr double kFingerBehind = 2.0;  // of a scene that does not set it
+constexpr double kDefaultFingerBehind = 2.0;  // of a scene that does not set it [radii of the tool]
 
 struct Setting {
   const char* name;
@@ -56,7 +56,8 @@ Result<void> check(const SceneSpec& s) {
       {"clay.wheel_rpm", clay.wheel_rpm, ranges::kWheelRpm},
       {"clay.floor_mm", clay.floor_mm, ranges::kFloorMm},
       {"clay.finger_mm", clay.finger_mm.value_or(0.0), ranges::kFingerMm},
-      {"clay.finger_behind", clay.finger_behind.value_or(kFingerBehind), ranges::kFingerBehind},
+      {"clay.finger_behind", clay.finger_behind.value_or(kDefaultFingerBehind),
+       ranges::kFingerBehind},
       {"stability.max_stress_kpa", stability.max_stress_kpa, ranges::kMaxStressKpa},
   });
 }
@@ -116,7 +117,7 @@ RulesPlan rules_plan(const SceneSpec& s) {
           static_cast<std::size_t>(std::fmin(rings, static_cast<double>(kMaxRings))),
           kTurn * s.clay->wheel_rpm / 60.0,
           finger_mm(s),
-          s.clay->finger_behind.value_or(kFingerBehind),
+          s.clay->finger_behind.value_or(kDefaultFingerBehind),
           s.clay->thin_wall_yields,
           sinks_rim(s),
           closes_rim(s),

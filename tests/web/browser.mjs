@@ -96,6 +96,21 @@ export async function beginBowl(page) {
   await page.says('work started: bowl');
 }
 
+/// A page of `open` with the lump of the bowl, checked.
+export async function openBowl(open, ...how) {
+  const page = await open(...how);
+  await page.says('window open');
+  await beginBowl(page);
+  await page.says('checked: proved');
+  return page;
+}
+
+/// Closes the page with its works. It had no problems.
+export async function closeClean(page) {
+  assert.deepEqual(page.problems, []);
+  await page.browserContext().close();
+}
+
 export async function chord(page, key, ...held) {
   for (const mod of held) await page.keyboard.down(mod);
   await page.keyboard.press(key);

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import {cpSync, readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {beginBowl, chord, drag, pause} from './browser.mjs';
+import {beginBowl, chord, closeClean, drag, openBowl, pause} from './browser.mjs';
 import {serve} from './server.mjs';
 
 const kStored = 1500;  // ms, until files are stored
@@ -35,18 +35,14 @@ export async function followedTheme({open}) {
   await page.says('window open');
   await prefer(page, 'light');
   await shows('light');
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
 }
 
 /// The tab is hidden in the middle of a stroke: the stroke ends and is stored at once, not with the
 /// next interval, which a hidden page may never have.
 export async function hiddenTab({open}) {
-  const page = await open('', null, () => { window.setInterval = () => 0; });
-  await page.says('window open');
+  const page = await openBowl(open, '', null, () => { window.setInterval = () => 0; });
   const context = page.browserContext();
-  await beginBowl(page);
-  await page.says('checked: proved');
   await drag(page);
   await page.evaluate(() => {
     Object.defineProperty(document, 'hidden', {value: true});
@@ -87,15 +83,12 @@ export async function clipboard({open}) {
   await page.waitForFunction(() => window.copied.includes('pasted.work'), {timeout: 10000});
   await page.keyboard.press('Enter');
   await page.says('saved: /home/web_user/pasted.work');
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
 }
 
 /// Ctrl+Q does not end the frames of a page. Keys of the browser do not reach the program.
 export async function browsersKeys({open}) {
-  const page = await open();
-  await beginBowl(page);
-  await page.says('checked: proved');
+  const page = await openBowl(open);
   const before = await theme(page);
   await page.evaluate(() => {  // real ones would leave the page
     for (const key of ['q', 'l', 'r'])
@@ -108,15 +101,12 @@ export async function browsersKeys({open}) {
   assert.deepEqual(actions.slice(-1), ['action: help.keys']);
   assert.ok(!actions.some(line => /quit|theme|recover/.test(line)), actions.join('; '));
   assert.equal(await theme(page), before);
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
 }
 
 /// A link without strokes since then opens again after a reload.
 export async function untouchedLink({open}) {
-  const first = await open();
-  await beginBowl(first);
-  await first.says('checked: proved');
+  const first = await openBowl(open);
   await first.click('#link');
   await first.waitForFunction(() => location.hash.startsWith('#pot='));
   const hash = await first.evaluate(() => location.hash);
@@ -126,8 +116,7 @@ export async function untouchedLink({open}) {
   await pause(kStored);
   await page.reload();
   await page.says('opened: ');
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
 }
 
 /// The server gets another version while the page is open, or while its files are being fetched.
@@ -140,7 +129,7 @@ export async function versions({openAt, folder, site}) {
   const page = await openAt(own.address);
   await page.says('window open');
   await beginBowl(page);
-  await page.says('error: worker: the server has another version of this page now: reload it');
+  await page.shows('status', /the server has another version of this page now: reload it$/);
   await pause(3000);
   assert.deepEqual(await page.evaluate(() => caches.keys()), [], 'expected no mixture of versions for offline use');
   assert.ok(!(await page.announced()).includes('ready offline'));

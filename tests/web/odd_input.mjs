@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import {copyFileSync, mkdirSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {beginBowl, choose, chord, drop, pause} from './browser.mjs';
+import {beginBowl, choose, chord, closeClean, drop, openBowl, pause} from './browser.mjs';
 
 const clearStatus = page => page.evaluate(() => { document.getElementById('status').textContent = ''; });
 
@@ -38,6 +38,15 @@ export async function oddFiles({open, folder, drawings, claystack}) {
     await drop(page, join(folder, name));
     await page.shows('pot', new RegExp(`^${name}(:\\d+)?: .`));
   }
+  // The second mesh replaces the first, whose late report is not shown.
+  await drop(page, join(folder, 'bowl.stl'));
+  writeFileSync(join(folder, 'second.stl'), 'solid second');
+  await drop(page, join(folder, 'second.stl'));
+  await page.shows('report-title', /^second\.stl$/);
+  await page.shows('report-verdict', /^The file could not be read$/);
+  await pause(2000);
+  assert.equal(await page.$eval('#report-verdict', e => e.textContent), 'The file could not be read');
+  await page.keyboard.press('Escape');
   for (const name of ['-x.stl', '--help.stl', 'dev']) {
     if (name === 'dev') writeFileSync(join(folder, name), '');
     else copyFileSync(join(folder, 'bowl.stl'), join(folder, name));
@@ -48,8 +57,7 @@ export async function oddFiles({open, folder, drawings, claystack}) {
       .catch(async () => assert.equal(await page.$eval('#report-text', e => e.textContent), stdout));
     await page.keyboard.press('Escape');
   }
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
 }
 
 /// Links that were cut off or changed; and links that are put into the address of an open page.
@@ -67,15 +75,12 @@ export async function oddLinks({open}) {
   }
   await page.evaluate(hash => { location.hash = hash; }, link);
   await page.says('opened: ');
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
 }
 
 /// Two buttons at once, keys of other layouts, a key that is held while the focus goes, touchpads.
 export async function keysAndButtons({open}) {
-  const page = await open();
-  await beginBowl(page);
-  await page.says('checked: proved');
+  const page = await openBowl(open);
   let calls = await noteCalls(page, '_claystack_button');
   await page.mouse.move(400, 300);
   for (const [way, button] of [['down', 'right'], ['down', 'left'], ['up', 'right'], ['up', 'left']])
@@ -108,8 +113,7 @@ export async function keysAndButtons({open}) {
   assert.ok(Math.abs(turned - 1) < 1e-6, `expected one step from 100 px of a touchpad, found ${turned}`);
   await page.mouse.wheel({deltaY: 120});
   assert.deepEqual(await calls(), [[-1]]);
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
 }
 
 /// A palm beside a pen, before it and after it, does nothing; nor does a finger that the system takes.
@@ -147,8 +151,7 @@ export async function palms({open}) {
   await palm('touchCancel');
   await pause(kLong);
   assert.deepEqual(await pressed(), [], 'expected no tap from a finger that the system has taken');
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
 }
 
 /// The window goes to a screen with more pixels; a file is asked for without a click.
@@ -165,8 +168,7 @@ export async function otherScreen({open}) {
   });
   await page.shows('status', /^The browser opens its file picker only after a click or key/);
   assert.equal((await sizes()).at(-1).length, 1, 'expected the answer that no file was picked');
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
 }
 
 /// On a phone a text field shows the keyboard of the screen: a field of the page has the focus. The
@@ -195,8 +197,7 @@ export async function failing({open}) {
   const page = await open();
   await page.evaluate(() => { studio._claystack_frame = () => { throw new Error('planted'); }; });
   await page.shows('message', /^Claystack has stopped: planted\. Reload the page/);
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
   const full = await open();
   await full.evaluate(() => {
     studio._malloc = () => 0;

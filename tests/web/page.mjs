@@ -13,7 +13,7 @@ import {browsersKeys, clipboard, followedTheme, hiddenTab, untouchedLink, versio
 import {gamepad, partsOfOneController, pen, saved, spaceMouse} from './devices.mjs';
 import {failing, keysAndButtons, oddFiles, oddLinks, otherScreen, palms, typedByFinger} from './odd_input.mjs';
 import {serve} from './server.mjs';
-import {clearedStorage, closedWithoutStorage, listedWorks, lostGraphics, pickedAgain, reloadedLink, twoTabs, unreadStorage} from './storage.mjs';
+import {clearedStorage, closedWithoutStorage, listedWorks, lostGraphics, pickedAgain, reloadedLink, savedPot, twoTabs, twoTabsWithoutLocks, unreadStorage} from './storage.mjs';
 
 const [site, claystack, pictures] = process.argv.slice(2, 5).map(path => resolve(path));
 const which = process.argv[5] ?? 'chromium';
@@ -523,7 +523,7 @@ async function browsing(browser) {
 
 /// What becomes of the works, see storage.mjs.
 async function storage(browser) {
-  await each(browser, twoTabs, closedWithoutStorage, clearedStorage, unreadStorage, lostGraphics, pickedAgain, listedWorks, reloadedLink);
+  await each(browser, twoTabs, twoTabsWithoutLocks, savedPot, closedWithoutStorage, clearedStorage, unreadStorage, lostGraphics, pickedAgain, listedWorks, reloadedLink);
   console.log('a second tab, a reload, cleared or unreadable storage: no work is lost');
 }
 

@@ -1,7 +1,7 @@
 // What becomes of the works: a second tab, a reload, storage that was cleared or cannot be read.
 import assert from 'node:assert/strict';
 import {join} from 'node:path';
-import {beginBowl, choose, chord, drag, pause} from './browser.mjs';
+import {beginBowl, choose, chord, closeClean, drag, openBowl, pause} from './browser.mjs';
 
 /// A second tab, for example a link that is opened, does not replace the works of the first one.
 export async function twoTabs({open}) {
@@ -36,6 +36,34 @@ export async function twoTabs({open}) {
   assert.match(await third.$eval('#report-text', element => element.textContent), /Strokes: 1\n/);
   assert.deepEqual([...first.problems, ...second.problems, ...late.problems, ...third.problems], []);
   await context.close();
+}
+
+/// Without https browsers have no locks: the second tab asks, and the first one answers.
+export async function twoTabsWithoutLocks({open}) {
+  const withoutLocks = () => Object.defineProperty(Navigator.prototype, 'locks', {value: undefined});
+  const first = await open('', null, withoutLocks);
+  await first.says('window open');
+  const second = await open('', first.browserContext(), withoutLocks);
+  await second.says('window open');
+  await second.shows('status', /^Claystack is open in another tab, so this tab stores no works\. /);
+  assert.equal(await first.evaluate(() => stores), true);
+  assert.equal(await second.evaluate(() => stores), false);
+  await first.browserContext().close();
+}
+
+/// A pot that is saved as a file does not stay in the storage, as a work does.
+export async function savedPot({open}) {
+  const page = await openBowl(open);
+  await chord(page, 'KeyS', 'Control');
+  await page.says('action: file.save');
+  await pause(1000);
+  await chord(page, 'KeyA', 'Control');
+  await page.keyboard.type('kept.pot.json');
+  await pause(500);
+  await page.keyboard.press('Enter');
+  await page.says('saved: /home/web_user/kept.pot.json');
+  assert.equal(await page.evaluate(() => studio.FS.analyzePath('/home/web_user/kept.pot.json').exists), false);
+  await closeClean(page);
 }
 
 /// A tab that stores nothing asks before it is closed with an unsaved work.
@@ -89,8 +117,7 @@ export async function clearedStorage({open}) {
   await page.reload();
   await page.says('window open');
   assert.deepEqual(await stored(page), ['test-1', 'test-2']);
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
 }
 
 /// A file that the browser cannot read at the start: the tab stores nothing, so that no file is lost.
@@ -142,8 +169,7 @@ export async function pickedAgain({open, folder}) {
   await page.focus('#canvas');
   await chord(page, 'KeyS', 'Control');
   await page.says('saved: /home/web_user/bowl.work');
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
 }
 
 /// The list has all works, more than the menu of recent files; one is deleted after a question.
@@ -179,15 +205,12 @@ export async function listedWorks({open, folder}) {
   await page.reload();
   await page.says('window open');
   assert.equal(await works(page), 9);
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
 }
 
 /// A reload of a page whose address holds a pot offers the work, with the strokes since then.
 export async function reloadedLink({open}) {
-  const page = await open();
-  await beginBowl(page);
-  await page.says('checked: proved');
+  const page = await openBowl(open);
   await page.click('#link');
   await page.shows('status', /^The address of this page now holds the pot/);
   await drag(page);
@@ -198,6 +221,5 @@ export async function reloadedLink({open}) {
   await page.says('recovery offered: 1');
   await pause(kStored);
   assert.deepEqual((await page.announced()).filter(line => line.startsWith('opened: ')), []);
-  assert.deepEqual(page.problems, []);
-  await page.browserContext().close();
+  await closeClean(page);
 }

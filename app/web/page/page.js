@@ -36,7 +36,7 @@ function frame(now) {
     if (window.devicePixelRatio !== ratio) resize();  // on another screen; few browsers report it
     more = studio._claystack_frame(now);
   } catch (error) {
-    return stop(error);
+    return halt(error);
   }
   changed = true;
   markLink();
@@ -45,7 +45,7 @@ function frame(now) {
 }
 
 /// A fault of the program. The work is stored, and no frame follows.
-function stop(error) {
+function halt(error) {
   if (halted) return;
   halted = true;
   changed = true;
@@ -153,11 +153,12 @@ const page = {
   copy(text) { navigator.clipboard?.writeText(text).catch(() => {}); },
   /// Whether the worker has sent this file of an export.
   has(path) { return exported.has(baseName(path)); },
-  /// Works stay in the storage of the browser too.
+  /// Works stay in the storage of the browser too; exports and saved pots do not.
   download(path) {
-    const name = baseName(path);
-    save(name, exported.get(name) ?? studio.FS.readFile(path));
-    exported.delete(name);
+    const name = baseName(path), sent = exported.get(name);
+    save(name, sent ?? studio.FS.readFile(path));
+    if (sent) exported.delete(name);
+    else if (!/\.work$/i.test(path)) studio.FS.unlink(path);
   },
   setTheme(name) { document.documentElement.dataset.theme = name; },
   pick() {
@@ -309,9 +310,9 @@ function notStarted(error) {
   say('Claystack could not start: ' + why);
 }
 
-window.addEventListener('error', event => { if (studio && isFault(event.error)) stop(event.error); });
+window.addEventListener('error', event => { if (studio && isFault(event.error)) halt(event.error); });
 window.addEventListener('unhandledrejection', event => {
   if (!studio) notStarted(event.reason);
-  else if (isFault(event.reason)) stop(event.reason);
+  else if (isFault(event.reason)) halt(event.reason);
 });
 start().catch(notStarted);

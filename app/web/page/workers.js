@@ -1,8 +1,13 @@
 // Workers: the jobs of the window, and the check of a mesh with its report.
 'use strict';
 
+/// Files of the last export by their names, until they are offered as downloads: they do not pass
+/// through the memory of the window, which would stop its picture.
+const exported = new Map();
+
 const workers = [];  // by slot, see PageWorker; each begins with its first question
 function answered(slot, bytes, files) {
+  if (files.length > 0) exported.clear();
   for (const {name, bytes} of files) exported.set(name, bytes);
   const place = room(bytes.length);
   studio.HEAPU8.set(bytes, place);
@@ -10,10 +15,6 @@ function answered(slot, bytes, files) {
   studio._free(place);
   ask();
 }
-
-/// Files of an export by their names, until they are offered as downloads: they do not pass through
-/// the memory of the window, which would stop its picture.
-const exported = new Map();
 
 /// The module `claystack`, compiled once for all workers: a promise.
 let code = null;
@@ -31,15 +32,15 @@ function compiled() {
 /// It may be stopped: a late message of it is then no answer to a later question.
 class PageWorker {
   constructor(take, fail) {
-    const unless_stopped = use => (...all) => { if (this.worker) use(...all); };
+    const unlessStopped = use => (...all) => { if (this.worker) use(...all); };
     this.worker = new Worker('worker.js?' + kVersion);
-    this.worker.onmessage = unless_stopped(({data}) => { if (data.failure) fail(data.failure); else take(data); });
+    this.worker.onmessage = unlessStopped(({data}) => { if (data.failure) fail(data.failure); else take(data); });
     this.worker.onerror = event => {
       event.preventDefault();
-      unless_stopped(fail)(event.message || 'worker.js could not be loaded');
+      unlessStopped(fail)(event.message || 'worker.js could not be loaded');
     };
-    compiled().then(unless_stopped(code => this.post({code, version: kVersion})),
-      unless_stopped(error => fail(error.message)));
+    compiled().then(unlessStopped(code => this.post({code, version: kVersion})),
+      unlessStopped(error => fail(error.message)));
   }
   post(message, parts = []) { this.worker.postMessage(message, parts); }
   stop() {
@@ -60,6 +61,7 @@ function worker(slot) {
     ask();
   }, failure => {
     page.log('error: worker: ' + failure);
+    status('A job of the page failed: ' + failure);
     stopWorker(slot);
     answered(slot, new Uint8Array(), []);
   });

@@ -141,6 +141,17 @@ TEST_F(Batch, LimitsTheMemoryOfItsJobs) {
   EXPECT_EQ(results.at("small").at("run"), plan) << "as in the file of jobs";
 }
 
+TEST_F(Batch, RunsAJobWhoseFilesFollowTwoDashes) {
+  ASSERT_EQ(
+      claystack("import -q " + sample("drawings/jug.svg") + " -o " + folder.file("a.pot.json"))
+          .status,
+      0);
+  write_jobs({job("a", {"check", "--", folder.file("a.pot.json")})});
+  const auto results = results_in(run("").out);
+  EXPECT_EQ(results.at("a").at("status"), 0) << results.at("a");
+  EXPECT_TRUE(results.at("a").contains("output"));
+}
+
 TEST_F(Batch, SplitsIntoPartsThatTogetherAreAll) {
   write_jobs({thrown("1.pot.json"), thrown("2.pot.json"), thrown("3.pot.json")});
   const auto first = results_in(run("--part 1/2").out), second = results_in(run("--part 2/2").out);

@@ -63,13 +63,32 @@ class Folders {
     return shell(line);
   }
 
-  /// The name of the call that failed; empty if there was none.
-  [[nodiscard]] std::string failed_call() const { return read_text(log()); }
-
   /// Leaves these files in the output folder.
   void reset(const Files& files) const {
     for (const auto& entry : fs::directory_iterator(out.path())) fs::remove(entry.path());
     for (const auto& [name, bytes] : files) write_text(out.file(name), bytes);
+  }
+
+  /// Runs the command with an error in its first write call, then in its second and so on, and
+  /// `use(ran, error)` after each run, until it makes no more calls; there are more than `fewest`.
+  template <class Use>
+  void fail_each_call(const std::string& arguments, const Files& before, Fault fault, int fewest,
+                      Use use) const {
+    for (fault.at = 1;; ++fault.at) {
+      ASSERT_LT(fault.at, kMostCalls);
+      fault.error = kErrors[fault.at % 3];
+      reset(before);
+      const Ran ran = run(arguments, fault);
+      const std::string call = read_text(log());
+      if (call.empty()) {
+        EXPECT_GT(fault.at, fewest);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return;
+      }
+      SCOPED_TRACE(call + ", call " + std::to_string(fault.at) + ": " + std::strerror(fault.error) +
+                   "\n" + ran.err);
+      use(ran, fault.error);
+    }
   }
 
   ScratchFolder in, out, state;
@@ -117,9 +136,9 @@ class WriteFaults : public testing::TestWithParam<FailingCall> {
       for (const std::string& name : GetParam().outputs) before[name] = "old " + name;
   }
 
-  /// `at` 0: without a fault.
-  [[nodiscard]] Ran run(int at, int error) const {
-    return folders.run(GetParam().arguments, {at, error, GetParam().signal, GetParam().without});
+  /// Without an error of a write call.
+  [[nodiscard]] Ran run() const {
+    return folders.run(GetParam().arguments, {0, 0, GetParam().signal, GetParam().without});
   }
 
   void expect_names_a_file(const std::string& message, int error) const {
@@ -135,42 +154,34 @@ class WriteFaults : public testing::TestWithParam<FailingCall> {
 };
 
 TEST_P(WriteFaults, WriteAllOrNothing) {
+  const FailingCall& call = GetParam();
   folders.reset(before);
-  ASSERT_EQ(run(0, 0).status, 0);
+  ASSERT_EQ(run().status, 0);
   whole = files_in(folders.out.path());
-  ASSERT_EQ(whole.size(), GetParam().outputs.size());
+  ASSERT_EQ(whole.size(), call.outputs.size());
 
-  for (int at = 1;; ++at) {
-    ASSERT_LT(at, kMostCalls);
-    const int error = kErrors[at % 3];
-    folders.reset(before);
-    const Ran ran = run(at, error);
-    const std::string call = folders.failed_call();
-    if (call.empty()) {
-      EXPECT_GT(at, kFewestCalls);
-      EXPECT_EQ(ran.status, 0) << ran.err;
-      break;
-    }
-    SCOPED_TRACE(call + ", call " + std::to_string(at) + ": " + std::strerror(error));
-    if (GetParam().signal == SIGKILL) {  // the next writer finds the leftovers
-      ASSERT_EQ(run(0, 0).status, 0);
-      EXPECT_TRUE(files_in(folders.out.path()) == whole);
-      continue;
-    }
-    const Files after = files_in(folders.out.path());
-    if (GetParam().signal != 0) {
-      EXPECT_EQ(ran.status, 128 + GetParam().signal) << ran.err;
-      EXPECT_TRUE(after == before || after == whole);
-    } else if (ran.status == 0) {
-      EXPECT_TRUE(after == whole);
-    } else {
-      EXPECT_EQ(ran.status, 3) << ran.err;
-      EXPECT_TRUE(after == before);
-      expect_names_a_file(ran.err, error);
-    }
-    if (HasFailure())
-      for (const auto& [name, bytes] : after) ADD_FAILURE() << name << ": " << bytes.size();
-  }
+  folders.fail_each_call(call.arguments, before, {0, 0, call.signal, call.without}, kFewestCalls,
+                         [&](const Ran& ran, int error) {
+                           if (call.signal == SIGKILL) {  // the next writer finds the leftovers
+                             ASSERT_EQ(run().status, 0);
+                             EXPECT_TRUE(files_in(folders.out.path()) == whole);
+                             return;
+                           }
+                           const Files after = files_in(folders.out.path());
+                           if (call.signal != 0) {
+                             EXPECT_EQ(ran.status, 128 + call.signal);
+                             EXPECT_TRUE(after == before || after == whole);
+                           } else if (ran.status == 0) {
+                             EXPECT_TRUE(after == whole);
+                           } else {
+                             EXPECT_EQ(ran.status, 3);
+                             EXPECT_TRUE(after == before);
+                             expect_names_a_file(ran.err, error);
+                           }
+                           if (HasFailure())
+                             for (const auto& [name, bytes] : after)
+                               ADD_FAILURE() << name << ": " << bytes.size();
+                         });
 }
 
 // What is written again has the same bytes, apart from the times in reports.
@@ -236,17 +247,7 @@ TEST(WriteFaultsOfAThrowByHand, LoseNoPotAndNoSession) {
                               " --device simulated --seconds 0.2 --record #/s.session -o "
                               "#/a.pot.json";
   const Files before{{"a.pot.json", "old pot"}, {"s.session", "old session"}};
-  for (int at = 1;; ++at) {
-    ASSERT_LT(at, kMostCalls);
-    folders.reset(before);
-    const Ran ran = folders.run(by_hand, {at, kErrors[at % 3]});
-    const std::string call = folders.failed_call();
-    if (call.empty()) {
-      EXPECT_GT(at, kFewestCalls);
-      EXPECT_EQ(ran.status, 0) << ran.err;
-      break;
-    }
-    SCOPED_TRACE(call + ", call " + std::to_string(at) + ": " + ran.err);
+  folders.fail_each_call(by_hand, before, {}, kFewestCalls, [&](const Ran& ran, int error) {
     const Files after = files_in(folders.out.path());
     const bool thrown = has_pot(folders.out.file("a.pot.json"));
     EXPECT_TRUE(thrown || after.at("a.pot.json") == "old pot");
@@ -258,12 +259,12 @@ TEST(WriteFaultsOfAThrowByHand, LoseNoPotAndNoSession) {
                 after.at("s.session").starts_with("{\"schema\":\"claystack-session-1\""));
     if (ran.status == 0) {
       EXPECT_TRUE(thrown);
-      continue;
+      return;
     }
     EXPECT_EQ(ran.status, 3);
-    EXPECT_NE(ran.err.find(std::strerror(kErrors[at % 3])), std::string::npos);
+    EXPECT_NE(ran.err.find(std::strerror(error)), std::string::npos);
     EXPECT_NE(ran.err.find(folders.out.path().string()), std::string::npos);
-  }
+  });
 }
 
 TEST(WriteFaultsOfABatch, LeaveWholeResultsAndTheNextRunAddsTheRest) {
@@ -272,18 +273,8 @@ TEST(WriteFaultsOfABatch, LeaveWholeResultsAndTheNextRunAddsTheRest) {
              R"({"id": "a", "run": ["plan", ")" + sample("cylinder.scene.json") + "\"]}\n" +
                  R"({"id": "b", "run": ["plan", ")" + sample("cylinder.scene.json") + "\"]}\n");
   const std::string batch = "batch -q -j 1 @/jobs.jsonl -o #/results.jsonl";
-  for (int at = 1;; ++at) {
-    ASSERT_LT(at, kMostCalls);
-    folders.reset({});
-    const int error = kErrors[at % 3];
-    const Ran ran = folders.run(batch, {at, error});
-    const std::string call = folders.failed_call();
-    if (call.empty()) {
-      EXPECT_GT(at, 2);
-      EXPECT_EQ(ran.status, 0) << ran.err;
-      break;
-    }
-    SCOPED_TRACE(call + ", call " + std::to_string(at) + ": " + ran.err);
+  constexpr int kFewest = 2;  // it appends
+  folders.fail_each_call(batch, {}, {}, kFewest, [&](const Ran& ran, int error) {
     const std::string results = read_text(folders.out.file("results.jsonl"));
     EXPECT_TRUE(results.empty() || results.ends_with('\n')) << results;
     if (ran.status != 0) {
@@ -294,7 +285,7 @@ TEST(WriteFaultsOfABatch, LeaveWholeResultsAndTheNextRunAddsTheRest) {
     ASSERT_EQ(folders.run(batch).status, 0);
     const std::string all = read_text(folders.out.file("results.jsonl"));
     EXPECT_EQ(std::ranges::count(all, '\n'), 2) << all;
-  }
+  });
 }
 
 #ifdef CLAYSTACK_STUDIO
@@ -308,18 +299,7 @@ TEST(WriteFaultsOfAWindow, LeaveTheOldFileOrTheNewOne) {
   folders.reset(before);
   ASSERT_EQ(folders.run(window).status, 0);
   const Files whole = files_in(folders.out.path());
-  for (int at = 1;; ++at) {
-    ASSERT_LT(at, kMostCalls);
-    folders.reset(before);
-    const int error = kErrors[at % 3];
-    const Ran ran = folders.run(window, {at, error});
-    const std::string call = folders.failed_call();
-    if (call.empty()) {
-      EXPECT_GT(at, kFewestCalls);
-      EXPECT_EQ(ran.status, 0) << ran.err;
-      break;
-    }
-    SCOPED_TRACE(call + ", call " + std::to_string(at) + ": " + ran.err);
+  folders.fail_each_call(window, before, {}, kFewestCalls, [&](const Ran& ran, int error) {
     const Files after = files_in(folders.out.path());
     EXPECT_EQ(after.size(), 2u);
     bool new_files = true;
@@ -330,7 +310,7 @@ TEST(WriteFaultsOfAWindow, LeaveTheOldFileOrTheNewOne) {
     }
     EXPECT_EQ(ran.status == 0, new_files) << ran.status;
     EXPECT_TRUE(new_files || ran.err.find(std::strerror(error)) != std::string::npos);
-  }
+  });
 }
 #endif
 

@@ -65,7 +65,7 @@ struct RulesPlan {
   std::size_t floor_rings = 0;
   double surface_per_s = 0.0;          ///< speed of a surface of radius 1 under a tool
   double finger_mm = 0.0;              ///< above a tool in a bore; 0: none
-  double finger_behind = 0.0;          ///< as ClaySpec's
+  double finger_behind = 0.0;          ///< as ClaySpec's [radii of the tool]
   bool thin_wall_yields = false;       ///< as ClaySpec's
   bool rim_sinks = false;              ///< as ClaySpec's, for a tool that presses or trims
   bool narrow_rim_closes = false;      ///< as ClaySpec's, for a tool that moves clay
