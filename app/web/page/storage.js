@@ -4,7 +4,7 @@
 
 const kHome = '/home/web_user';
 const kStoreMs = 200;      // interval at which changes are stored
-const kAskMs = 300;        // another tab answers within this time
+const kAskMs = 300;        // another tab usually answers within this time
 const kClaimMs = 2000;     // a page that was reloaded leaves the storage within this time
 
 /// Shown in the window too.
@@ -39,23 +39,29 @@ function claimStorage() {
 }
 
 /// Browsers have locks on https and localhost alone. Elsewhere the tabs ask each other; of two that
-/// open within the same moment both store.
+/// open within the same moment both store. A tab that gets its answer late stores no more.
 function askTabs(decide) {
   if (!window.BroadcastChannel) return decide(true);
-  const tabs = new BroadcastChannel('claystack storage');
+  const tabs = new BroadcastChannel('claystack storage'), me = Math.random();
   let waiting = true;
-  tabs.onmessage = ({data}) => {
-    if (data === 'asks' && stores) tabs.postMessage('stores');
-    if (data !== 'stores' || !waiting) return;
+  const end = own => {
     waiting = false;
-    decide(false);
+    decide(own);
   };
-  tabs.postMessage('asks');
-  setTimeout(() => {
-    if (!waiting) return;
-    waiting = false;
-    decide(true);
-  }, kAskMs);
+  tabs.onmessage = ({data: {asks, answers}}) => {
+    if (asks && stores) tabs.postMessage({answers: asks});
+    if (answers !== me) return;
+    if (waiting) return end(false);
+    stores = false;
+    if (studio) warnOfOtherTab();
+  };
+  tabs.postMessage({asks: me});
+  setTimeout(() => { if (waiting) end(true); }, kAskMs);
+}
+
+function warnOfOtherTab() {
+  warn('Claystack is open in another tab, so this tab stores no works. ' +
+    'Save the work as a file (Ctrl+S), or close the other tab and reload this page.');
 }
 
 /// Before the program starts: what was stored, and the folder of files that are opened. The program
@@ -78,9 +84,7 @@ function listenToStorage() {
   if (unread)
     warn(`The browser cannot read the works that it stored: ${reason(unread)}. This tab stores none, ` +
       'so that those remain. Reload this page to try again, or save the work as a file (Ctrl+S).');
-  else if (!stores)
-    warn('Claystack is open in another tab, so this tab stores no works. ' +
-      'Save the work as a file (Ctrl+S), or close the other tab and reload this page.');
+  else if (!stores) warnOfOtherTab();
   setInterval(store, kStoreMs);
   // The title of an unsaved work begins with a star.
   window.addEventListener('beforeunload', event => {
