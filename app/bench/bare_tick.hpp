@@ -17,7 +17,7 @@ class BareWheel {
  public:
   /// For a scene that Wheel::build accepts; ignores its settings for the four stages.
   explicit BareWheel(const SceneSpec& scene);
-  StepReport step(const Pose& pose) noexcept;  ///< the engine's report: it is not a stage
+  StepReport step(const Pose& pose) noexcept;  ///< the engine's report; reporting is not a stage
   [[nodiscard]] const ClayStack& stack() const noexcept { return stack_; }
 
  private:

@@ -12,8 +12,8 @@
 namespace clay::bench {
 namespace {
 
-// Limit for stages that must cost nothing. By instructions the ratio is 1.006: a step also looks
-// whether the pot has fallen, and finds its tick in a table.
+// Limit for stages that must cost nothing. Counted in instructions, the ratio is 1.006: a step also
+// checks whether the pot has fallen, and looks up its tick in a table.
 constexpr double kNoiseRatio = 1.03;
 constexpr double kInTheAirMm = -5.0;
 // Standard error of a median over the interquartile range and 1/sqrt(n), of normal samples.

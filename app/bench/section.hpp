@@ -51,7 +51,7 @@ struct Section {
   std::vector<Table> tables;
   std::vector<Plot> plots;
   std::vector<Map> maps;
-  std::vector<std::string> missed;  ///< required bounds that do not hold, with what was measured
+  std::vector<std::string> missed;  ///< required bounds that do not hold, with the measured value
 
   [[nodiscard]] bool sound() const { return missed.empty(); }
   /// Adds `missing` to the missed requirements unless `holds`.

@@ -42,7 +42,7 @@ class Chart {
   [[nodiscard]] std::string page(double height);
   void spread(const Curve& curve, std::size_t number);
   void keep_labels(const Curve& curve, const std::vector<Point>& points, std::size_t number);
-  /// When all curves are known, which labels avoid.
+  /// Call it after all curves are added: the labels avoid them.
   void draw_labels();
   void line(const std::vector<Point>& points, const std::string& classes, bool dashed);
   void marks(const std::vector<Point>& points, std::size_t number, bool on_map);

@@ -23,7 +23,7 @@ class LabelPlacer {
 
   struct Label {
     Spot at;                  ///< of the text's baseline
-    const char* anchor = "";  ///< the end of the text that is there: SVG's text-anchor
+    const char* anchor = "";  ///< the end of the text that is at `at`: SVG's text-anchor
   };
   /// Beside the point `at`. Later labels avoid this one.
   Label place(Spot at, double width_px);

@@ -132,7 +132,7 @@ void print_summary(const Json& summary, const Console& console) {
   console.print(line);
 }
 
-/// The jobs of this part, none of which spoils a file of another.
+/// The jobs of this part. An error if two of them write the same file.
 Result<std::vector<BatchJob>> checked_jobs(const BatchOptions& options, const Console& console) {
   auto jobs = read_jobs(options.jobs).and_then([&](std::vector<BatchJob> all) {
     return part_of(std::move(all), options.part);
@@ -146,8 +146,8 @@ Result<std::vector<BatchJob>> checked_jobs(const BatchOptions& options, const Co
   return jobs;
 }
 
-/// The jobs with what they share: JSON on standard output, and the memory limit of the batch,
-/// unless a job has its own.
+/// The jobs with the options that all of them have: JSON on standard output, and the memory limit
+/// of the batch, unless a job has its own.
 std::vector<BatchJob> runs_of(std::vector<BatchJob> jobs) {
   for (BatchJob& job : jobs) {
     const auto has = [&](std::string_view option) {
@@ -155,7 +155,7 @@ std::vector<BatchJob> runs_of(std::vector<BatchJob> jobs) {
         return word == option || (word.starts_with(option) && word[option.size()] == '=');
       });
     };
-    // Behind the command: at the end they might follow "--", and be files.
+    // Directly after the command: at the end they might follow "--" and count as files.
     if (!has("--json")) job.words.insert(job.words.begin() + 1, "--json");
     if (memory_limit() > 0 && !has("--memory"))
       job.words.insert(job.words.begin() + 1, fmt::format("--memory={}", memory_limit()));

@@ -20,7 +20,7 @@ namespace {
 constexpr std::array<std::string_view, 7> kOutputs = {
     "-o", "--output", "--record", "--report", "--trace", "--error-plot", "--turntable"};
 
-/// Whether `export` takes a file of this name as one to write.
+/// Whether `export` writes a file of this name.
 bool is_exported(const std::string& name) {
   if (pot_encoding_of(name)) return true;
 #ifdef CLAYSTACK_EXPORT
@@ -56,7 +56,7 @@ std::vector<std::string> outputs_of(const std::vector<std::string>& words) {
   return outputs;
 }
 
-/// The same for each path of a file, through links and relative or not.
+/// A name that is equal for all paths of a file: relative, absolute or through links.
 std::string name_of_file(const std::string& output) {
   std::error_code failed;
   const auto absolute = std::filesystem::absolute(output, failed);

@@ -9,8 +9,8 @@
 
 namespace clay::cli {
 
-/// Refuses two jobs that write the same file: at the same time, one would replace what the other
-/// wrote. `path`: of the jobs, for the message.
+/// Refuses two jobs that write the same file: at the same time, one would replace the output of the
+/// other. `path`: of the jobs, for the message.
 Result<void> check_job_outputs(const std::vector<BatchJob>& jobs, const std::string& path);
 
 }  // namespace clay::cli

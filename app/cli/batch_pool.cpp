@@ -36,7 +36,7 @@ class Output {
     if (descriptor_ != -1) ::close(descriptor_);
   }
 
-  /// Takes what is there without waiting; what exceeds kMostOutput is dropped.
+  /// Reads the available bytes without waiting, and drops bytes beyond kMostOutput.
   void drain() {
     std::array<char, 4096> part;
     for (;;) {

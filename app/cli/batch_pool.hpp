@@ -12,7 +12,7 @@
 
 namespace clay::cli {
 
-/// Of the text that a process prints, more is dropped [bytes].
+/// Limit on the stored text of a process; the rest is dropped [bytes].
 inline constexpr std::size_t kMostOutput = std::size_t{4} << 20;
 
 struct BatchJob {
@@ -26,7 +26,7 @@ struct BatchOutcome {
   bool timed_out = false;
   double seconds = 0.0;
   bool cut = false;      ///< it printed more than `out` holds
-  std::string out, err;  ///< what it printed, the first kMostOutput bytes of each
+  std::string out, err;  ///< the printed text, the first kMostOutput bytes of each
 };
 
 struct BatchPool {

@@ -18,7 +18,7 @@
 namespace clay::cli {
 namespace {
 
-/// What distinguishes one job from another.
+/// The key of a job, by which results belong to it.
 std::string key_of(const Json& words, const std::string& id) { return words.dump() + id; }
 
 bool is_result(const Json& line) {
@@ -42,7 +42,8 @@ ResultFile::~ResultFile() {
 Result<ResultFile> ResultFile::open(const std::string& path) {
   ResultFile file(path);
   if (path.empty()) return file;
-  // A pipe that this process could read too would never end, and would outlive its reader.
+  // A pipe is opened for writing only: if this process could also read it, it would never see the
+  // end of the pipe, and a write after the reader has ended would not fail.
   struct stat kind {};
   const bool written_only = ::stat(path.c_str(), &kind) == 0 && !S_ISREG(kind.st_mode);
   const int mode = written_only ? O_WRONLY : O_RDWR | O_CREAT;
@@ -107,7 +108,8 @@ Result<void> ResultFile::read_line(std::string_view line, std::size_t number) {
   return {};
 }
 
-/// The last line that a killed batch left. Any other file without a line feed at its end stays.
+/// Removes the last line that a killed batch has left unfinished. Refuses any other file without a
+/// line feed at its end.
 Result<void> ResultFile::remove_unfinished(std::string_view rest, std::uint64_t size) {
   if (rest.empty()) return {};
   const std::string begin = fmt::format(R"({{"schema":"{}",)", kBatchSchema);

@@ -25,7 +25,7 @@ class ResultFile {
   ResultFile& operator=(ResultFile&&) = delete;
   ~ResultFile();
 
-  /// Whether the lines go to standard output, by whatever name.
+  /// Whether the lines go to standard output, by any of its names.
   [[nodiscard]] bool is_standard_output() const;
   /// The status of a job that an earlier batch finished: done, with a verdict. Empty for others,
   /// which run again.

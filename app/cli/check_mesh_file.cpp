@@ -18,13 +18,13 @@ namespace {
 using solid::MeshFormat;
 using solid::TriangleMesh;
 
-/// A slicer makes one body only of triangles that it reads.
+/// A slicer unites only the triangles that it reads.
 MeshState as_sliced(MeshState state, bool slicer_reads_less) {
   return slicer_reads_less && state == MeshState::prints ? MeshState::will_not_print : state;
 }
 
-/// The farthest that reading moves a point: half a unit of the last place of float32 along each
-/// axis, in formats with decimals, doubles or a unit or transformation of their own.
+/// The maximum displacement of a point by reading [mm]: half a unit of the last place of float32
+/// along each axis, in formats with decimals, doubles, a unit or transformations.
 double reading_error_mm(const TriangleMesh& mesh, MeshFormat format) {
   if (format == MeshFormat::stl_binary || format == MeshFormat::drc) return 0.0;
   double reach = 0.0;
@@ -34,9 +34,10 @@ double reading_error_mm(const TriangleMesh& mesh, MeshFormat format) {
   return std::sqrt(3.0) * 0x1p-24 * reach;
 }
 
-/// A wall that is thick for an opening closes it, and the cavity behind it is filled.
+/// Warns of a wall that is too thick for an opening: it closes the opening and fills the cavity
+/// behind it.
 void warn_of_filled_gaps(const RepairSummary& summary, Verdict& verdict) {
-  constexpr double kMostShare = 0.2;  // corners have less
+  constexpr double kMostShare = 0.2;  // corners fill a smaller share
   if (!summary.thickened || summary.thickened->filled_share <= kMostShare) return;
   verdict.add(
       "geometry", Grade::warn,

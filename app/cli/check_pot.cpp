@@ -66,7 +66,7 @@ Result<Verdict> verdict_on(const solid::ExportReport& report) {
         check_solid(in_float32(solid::revolve(profile, check_segments(profile))), verdict);
     if (!checked) return tl::make_unexpected(checked.error());
   }
-  // Facets are slightly wider.
+  // The mesh of facets is slightly wider.
   verdict.mesh.size_mm = report.size.extents_mm;
   verdict.wall_mm = report.walls.min_wall_mm;
   verdict.wall_parts = report.walls.parts;

@@ -22,7 +22,7 @@ namespace {
 using solid::MeshFormat;
 using solid::TriangleMesh;
 
-/// Few triangles may intersect where many do not. A repair writes nothing then.
+/// Decimation to few triangles may cause intersections. In that case the repair writes nothing.
 Result<void> expect_sound(const TriangleMesh& decimated, std::size_t most) {
   return report_on(decimated).and_then([&](const solid::MeshReport& report) -> Result<void> {
     if (report.sound()) return {};
@@ -68,7 +68,7 @@ Result<TriangleMesh> repaired_mesh(TriangleMesh mesh, const solid::MeshReport& f
   return mesh;
 }
 
-/// Without its bytes.
+/// The mesh in the file and its report; the field for the bytes stays empty.
 Result<WrittenMesh> read_back(const std::string& bytes, MeshFormat format,
                               const std::string& name) {
   return solid::decode_mesh(bytes, format, name).and_then([&](TriangleMesh mesh) {
@@ -118,7 +118,8 @@ class FileJudge {
   }
 
  private:
-  /// A grid that is coarse for a thin plate changes its volume. float32 has no finer one.
+  /// A grid that is coarse for a thin plate changes its volume. Formats in float32 have no grid to
+  /// refine.
   [[nodiscard]] bool keeps_volume(const solid::MeshReport& report) const {
     constexpr double kMostShare = 0.01;
     if (!is_on_grid(format_) || !report.has_volume) return true;
@@ -133,8 +134,8 @@ class FileJudge {
   WrittenMesh accepted_;
 };
 
-/// In a format with a grid, on finer ones until the file is no worse than the mesh. Errors:
-/// `unsound` if none is fine enough.
+/// Encodes the mesh; in a format with a grid, on finer and finer grids until the file is no worse
+/// than the mesh. Errors: `unsound` if none is fine enough.
 Result<WrittenMesh> encoded(const TriangleMesh& mesh, MeshFormat format, const std::string& name) {
   constexpr double kGridOfSize = 1e-5;
   const bool on_grid = is_on_grid(format);
@@ -165,7 +166,7 @@ Result<WrittenMesh> written(WrittenMesh file, const CheckCommand& command, Repai
   return file;
 }
 
-/// The bounds of the change of what the file holds.
+/// Adds the bounds of the change in the mesh of the file.
 Result<WrittenMesh> with_change(WrittenMesh file, const TriangleMesh& input,
                                 RepairSummary& summary) {
   // Other formats hold float32, as the mesh that was compared.

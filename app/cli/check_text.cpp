@@ -88,7 +88,7 @@ void print_repair(const Console& console, const RepairSummary& summary, const Ve
           : fmt::format("  written: {}, {} bytes, {}", summary.path, summary.bytes, state));
 }
 
-/// What to do with a mesh that is not sound.
+/// The next command for a mesh that is not sound.
 std::string next_step(const std::string& file, const Verdict& verdict) {
   const std::string repair = fmt::format("claystack check {} --repair ", file);
   if (verdict.state == MeshState::prints)
@@ -115,7 +115,7 @@ std::string problem_text(const solid::MeshProblem& problem) {
                      problem.count, problem.where);
 }
 
-/// With --quiet: what is wrong, on standard error.
+/// With --quiet: the faults, on standard error.
 void print_faults(const Console& console, const std::string& file, const Verdict& verdict) {
   for (const auto& problem : verdict.mesh.problems)
     console.error(file + ": " + problem_text(problem));

@@ -27,7 +27,7 @@ std::string shell_word(std::string_view text) {
   return word + "'";
 }
 
-/// The words that an option takes beside the names of files.
+/// Words that an option takes in addition to names of files.
 struct OpenChoices {
   std::string_view option;
   std::vector<std::string> words;
@@ -45,7 +45,7 @@ const std::vector<OpenChoices>& open_choices() {
   return all;
 }
 
-/// What a shell offers for the value of an option.
+/// Suggestions of a shell for the value of an option.
 struct Completion {
   std::vector<std::string> words;
   bool files = false;

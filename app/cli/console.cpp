@@ -63,8 +63,9 @@ int out_of_memory() noexcept {
   return kIoFailed;
 }
 
-/// For std::terminate: a destructor of the JSON library allocates, and threads have no handler; so
-/// an allocation that failed may end here. Not where a handler of SIGABRT releases a device.
+/// For std::terminate: a failed allocation may end here, because a destructor of the JSON library
+/// allocates, and threads have no handler. Does nothing where a handler of SIGABRT releases a
+/// device.
 [[noreturn]] void end_without_memory() noexcept {
   struct sigaction abort_action {};
   const bool released =
@@ -80,7 +81,7 @@ int out_of_memory() noexcept {
 }
 
 constexpr std::string_view kEraseLine = "\r\033[K";
-/// Whether the terminal shows a status line, which has to go before anything else is printed.
+/// Whether the terminal shows a status line, which must be cleared before anything else is printed.
 bool line_shown = false;
 
 void write_err(std::string_view text) noexcept {

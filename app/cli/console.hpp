@@ -53,7 +53,7 @@ int report(const CLI::App& app, const CLI::ParseError& error);
 /// signal.
 int run_program(int (*run)(int argc, char** argv), int argc, char** argv) noexcept;
 
-/// One line on stderr that is overwritten, and goes when anything else is printed; only on a
+/// One line on stderr that is overwritten, and cleared when anything else is printed; only on a
 /// terminal.
 class StatusLine {
  public:

@@ -30,12 +30,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A part of the system, and its use. A finding without a fix is in order.
+/// A part of the system, and its use.
 struct Finding {
   std::string name;  ///< "udev rule"
   bool good = false;
   std::string found;  ///< "llvmpipe", "none"
-  std::string use;    ///< what is missing without it
+  std::string use;    ///< the functions that are missing without it
   std::string fix;    ///< a command; empty if good
 };
 
@@ -113,7 +113,7 @@ Finding examine_screen() {
 #endif
 
 #ifdef CLAYSTACK_USB
-/// Tries it, and restores the priority of this process.
+/// Requests real-time scheduling, then restores the scheduling of this process.
 bool gets_real_time() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_RTPRIO, &limit) == 0 && limit.rlim_cur > 0) return true;
@@ -135,7 +135,7 @@ Finding examine_real_time() {
                  "then log in again"};
 }
 
-/// Installed, or in a clone.
+/// Path of the udev rule: installed, or in a clone.
 std::string rule_to_copy() {
   std::error_code ignored;
   const fs::path rule = installed("lib/udev/rules.d/60-claystack.rules");

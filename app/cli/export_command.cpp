@@ -45,7 +45,8 @@ Result<std::vector<PotCopy>> add_copies(const Pot& pot, ExportCommand& command) 
   return copies;
 }
 
-/// The library names no options: "goal: expected ..." begins with those that are given.
+/// The library names no options: "goal: expected ..." becomes "--holds: expected ...", with all
+/// options that are given.
 Error by_goal_options(Error error, const ExportCommand& command) {
   constexpr std::string_view kGoal = "goal:";
   if (!error.message.starts_with(kGoal)) return error;
@@ -56,7 +57,7 @@ Error by_goal_options(Error error, const ExportCommand& command) {
   return error;
 }
 
-/// Scales the pot to its goal, and prints how.
+/// Scales the pot to its goal, and prints the factors.
 Result<Pot> pot_at_goal(const Pot& pot, ExportCommand& command, const Console& console) {
   if (!command.has_goal()) {
     if (!command.goal.fired) return pot;
@@ -75,7 +76,7 @@ Result<Pot> pot_at_goal(const Pot& pot, ExportCommand& command, const Console& c
       .map_error([&](Error error) { return by_goal_options(std::move(error), command); });
 }
 
-/// `--smooth-length tool` needs a pot that remembers its tool; the default does without.
+/// `--smooth-length tool` needs a pot that remembers its tool; the default does not.
 Result<void> check_tool_length(const Pot& pot, const ExportCommand& command) {
   if (!command.length_of_tool) return {};
   const auto refuse = [](const std::string& why) {

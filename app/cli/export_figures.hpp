@@ -18,8 +18,8 @@ namespace clay::cli {
 /// measured on its parts as they stood.
 [[nodiscard]] std::string thinnest_height(const solid::ExportReport& report);
 
-/// How far the mesh in a file lies from the round solid, rounding and facets together, or the solid
-/// of a STEP file from its section [mm]; 0 for other files.
+/// Distance of the mesh in a file from the round solid, by rounding and facets together, or of the
+/// solid in a STEP file from its section [mm]; 0 for other files.
 [[nodiscard]] double distance_mm(const solid::ExportReport& report, const solid::FileReport& file);
 
 /// Of the round solid; of a collapsed pot, of its mesh.

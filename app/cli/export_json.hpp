@@ -14,8 +14,8 @@ namespace clay::cli {
 [[nodiscard]] Json wall_parts_json(const std::vector<solid::PartWall>& parts);
 
 /// The object of samples/schema/report.schema.json. `copies` describe those files of the report
-/// that are pots, in their order. Without a mesh there are no figures of a solid. `goal`: to which
-/// the pot was scaled.
+/// that are pots, in their order. Without a mesh there are no figures of a solid. `goal`: the goal
+/// to which the pot was scaled.
 [[nodiscard]] Json export_json(const solid::ExportReport& report,
                                const std::vector<PotCopy>& copies,
                                const std::optional<solid::MetGoal>& goal);

@@ -140,7 +140,7 @@ void add_goal_options(CLI::App& sub, ExportCommand& command) {
                "--glaze-allowance, whose weight is not counted (default: to the pot as thrown)");
 }
 
-/// How the steps of the rings become walls.
+/// Options of smoothing, which turns the steps of the rings into walls.
 void add_smoothing_options(CLI::App& sub, ExportCommand& command) {
   sub.add_option("--smooth", command.smooth,
                  "fair: smooth walls; exact: smooth walls, every ring keeps its volume; none: the "

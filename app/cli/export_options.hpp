@@ -12,8 +12,8 @@
 
 namespace clay::cli {
 
-/// The command line as given. `request` has what options set directly; `complete_request` adds
-/// the rest.
+/// The command line as given. `request` has the fields that options set directly;
+/// `complete_request` adds the rest.
 struct ExportCommand {
   const CLI::App* line = nullptr;
   std::string pot;

@@ -19,7 +19,7 @@ using solid::ExportReport;
 using solid::FileKind;
 using solid::FileReport;
 
-/// The smallest --tolerance. A change of a wall by less is not worth a warning.
+/// The smallest --tolerance. A smaller change of a wall gives no warning.
 constexpr double kLeastShownMm = 1e-5;
 
 std::string_view proof_of(const FileReport& file) {
@@ -73,7 +73,7 @@ void print_fairing(const Console& console, const solid::FairingReport& fairing) 
       counted(fairing.shortened.size(), "place"), first.from_mm, first.to_mm, first.length_mm));
 }
 
-/// Where smoothing kept steps: one line for each reason.
+/// The places where smoothing kept steps: one line for each reason.
 void print_smoothing(const Console& console, const ExportReport& report) {
   print_fairing(console, report.section.smoothed.fairing);
   for (const auto reason : {solid::KeptFor::wall, solid::KeptFor::overshoot, solid::KeptFor::volume,

@@ -14,7 +14,8 @@ namespace clay::cli {
 void print_export(const Console& console, const solid::ExportReport& report,
                   const std::vector<PotCopy>& copies);
 
-/// Prints the walls that were asked for, and warns of problems. Returns true if one of them fails.
+/// Prints the requested figures of the walls, and warns of problems. Returns true if one of them
+/// fails.
 bool print_problems(const Console& console, const solid::ExportReport& report);
 
 /// The last lines: size, weight, capacity, wall and verdict. Nothing without a mesh.

@@ -58,7 +58,7 @@ class Page {
   std::string take() { return html_.take(); }
 
  private:
-  /// Cells from the second on are numbers, and stand to the right.
+  /// Cells from the second on are numbers, and are right-aligned.
   void row(const std::vector<std::string>& cells, std::string_view cell = "td",
            bool numbers = true) {
     html_.open("tr", {});

@@ -30,7 +30,7 @@ namespace {
 
 using namespace importing;
 
-/// Measured: of mesh_pot, in addition to the mesh.
+/// Measured: memory of mesh_pot, in addition to that of the mesh.
 constexpr std::uint64_t kImportBytesPerTriangle = 100;
 constexpr const char* kScaleHint = "; --height MM scales it";
 

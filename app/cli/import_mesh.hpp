@@ -8,7 +8,8 @@
 
 namespace clay::cli {
 
-/// Reads `mesh`, writes `pot`, and reports axis, deviation and what is not of revolution.
+/// Reads `mesh`, writes `pot`, and reports axis, deviation and the parts that are not of
+/// revolution.
 Result<void> import_mesh(const std::string& mesh, const std::string& pot,
                          const importing::MeshPotSettings& settings, const Console& console);
 

@@ -16,7 +16,7 @@ std::string check_flip(const std::string& axes) {
   return "expected axes out of x, y and z, as in xz, found " + axes;
 }
 
-/// Settings of the servo, of the force and of the device's return.
+/// Settings of the servo, of the force and of the wait for a disconnected device.
 void add_servo_options(CLI::App& command, LiveOptions& options) {
   servo::LiveSettings& settings = options.settings;
   command.add_option("--rate", settings.rate_hz, "Servo rate [Hz]")->capture_default_str();

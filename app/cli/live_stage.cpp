@@ -40,7 +40,7 @@ Result<void> take_up_stroke(const LiveJob& job, LiveOptions& options, LiveStage&
   if (options.device != "simulated") return {};
   if (job.stroke_path.empty() || !std::filesystem::exists(job.stroke_path, ignored)) {
     if (options.settings.seconds > 0.0) return {};
-    // Its hand would rest for ever.
+    // The simulated hand would never move.
     return failure(ErrorKind::bad_input,
                    "--device simulated: expected a session for its hand (-s NAME.session, or one "
                    "beside the scene) or --seconds, found neither");

@@ -25,8 +25,8 @@ struct LiveStage {
   std::optional<servo::LiveThrow> live;
 };
 
-/// Fills the stage, and completes the options by what the stroke and the device require. Errors
-/// name the option or the file.
+/// Fills the stage, and completes the options by those that the stroke and the device require.
+/// Errors name the option or the file.
 Result<void> build(const LiveJob& job, LiveOptions& options, const Console& console,
                    LiveStage& stage);
 

@@ -50,8 +50,8 @@ void watch(servo::LiveThrow& live, std::uint64_t ticks, LiveKeys& keys, StatusLi
 }
 
 /// Tries to reopen the device until it succeeds (`none`), until a signal or the key q ends the
-/// wait, or until a fault that no wait ends. Reports each fault but that of a device that is not
-/// there.
+/// wait, or until a fault that waiting cannot remove. Reports each fault, except that the device is
+/// absent.
 Ending comes_back(falcon::HapticDevice& device, LiveKeys& keys, const Console& console) {
   using falcon::DeviceFault;
   auto reported = DeviceFault::unplugged;

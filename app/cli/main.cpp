@@ -92,7 +92,7 @@ void explain_lengths(CLI::App& command) {
                  command.get_footer());
 }
 
-/// Where the samples of the examples are, before the exit status if the help has that.
+/// Adds the folder of the samples to the help, before the exit status if the help has one.
 void explain_samples(CLI::App& command) {
   std::string help = command.get_footer();
   if (help.find("samples/") == std::string::npos) return;
@@ -228,7 +228,7 @@ int run(int argc, char** argv) {
   // The window is a separate program, for which no limit is known in advance.
   if (words.empty() || words.front() != "studio") limit_memory(kDefaultMemory);
   try {
-    std::ranges::reverse(words);  // as the parser wants them
+    std::ranges::reverse(words);  // the parser expects them in reverse order
     app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     return report(app, error);

@@ -14,7 +14,7 @@
 namespace clay::cli {
 namespace {
 
-/// A line for roff: nothing in it is a request, and a hyphen can be copied.
+/// A line with escapes for roff: its text contains no request, and a hyphen can be copied.
 std::string roff(std::string_view text) {
   std::string line;
   for (const char c : text) {
@@ -71,7 +71,7 @@ void add_examples(std::ostream& page, const std::string& footer) {
 
 constexpr std::string_view kStatus = "Exit status: ";
 
-/// What a footer states after its examples; empty if it states nothing.
+/// The exit status that a footer states after its examples; empty if it states none.
 std::string exit_status(const std::string& footer) {
   const std::size_t at = footer.find(kStatus);
   return at == std::string::npos ? "" : footer.substr(at + kStatus.size());

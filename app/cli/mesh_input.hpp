@@ -1,5 +1,5 @@
 #pragma once
-// Meshes as input files: the one way in which commands read them, within the limit on memory.
+// Meshes as input files: all commands read them here, within the limit on memory.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/formats.hpp"

@@ -13,7 +13,7 @@ namespace clay::cli {
 /// The encoding by file name; empty for files that hold no pots.
 [[nodiscard]] std::optional<PotEncoding> pot_encoding_of(std::string_view path);
 
-/// Refuses names of outputs that hold no pot; none and - are allowed.
+/// Refuses names of outputs that hold no pot; an empty name and "-" are allowed.
 [[nodiscard]] Result<void> check_pot_name(const std::string& path);
 
 /// An error of kind `io` if a pot of this many rings cannot be encoded in the memory that is left:

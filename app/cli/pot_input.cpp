@@ -96,7 +96,7 @@ bool carries_pot(const std::string& path) {
 
 namespace {
 
-/// Of the mesh beside a pot, and of the pot.
+/// Sizes of the mesh beside a pot, and of the pot.
 struct Sizes {
   double mesh_width_mm = 0.0, mesh_height_mm = 0.0, pot_width_mm = 0.0, pot_height_mm = 0.0;
 

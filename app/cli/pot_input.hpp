@@ -1,5 +1,5 @@
 #pragma once
-// Pots as input files: the one way in which commands and window read them.
+// Pots as input files: commands and window read them here.
 
 #include "app/cli/console.hpp"
 #include "claystack/core/result.hpp"
@@ -34,8 +34,8 @@ Result<Pot> read_pot(const std::string& path, const Console& console);
 
 /// The difference in words if the mesh beside a pot cannot be of that pot: another program may have
 /// scaled or cut it, or added other objects. Empty if it may be, in its size as thrown or enlarged
-/// for a shrinkage of up to 20 %, as clays have: the file does not hold that of the export. It may
-/// be moved, or turned about the vertical.
+/// for a shrinkage of up to 20 %, as clays have: the file does not state the shrinkage of the
+/// export. The mesh may be moved, or turned about the vertical.
 [[nodiscard]] std::optional<std::string> mesh_differs(const solid::TriangleMesh& mesh,
                                                       const Pot& pot);
 /// "77.1 mm wide and 129.7 mm high; the mesh is 84.6 mm and 143.6 mm, 1.10 and 1.11 times as much";

@@ -15,7 +15,7 @@
 namespace clay::cli {
 
 /// "thickening gives it one" as "--thicken MM gives it one". `begin`: the length of a file name in
-/// front, which may have such words too.
+/// front, which may contain such words too.
 [[nodiscard]] inline std::string with_options(std::string text, std::size_t begin = 0) {
   constexpr std::array kOptions{
       std::pair{std::string_view(solid::kThickening), "--thicken MM"},

@@ -16,7 +16,7 @@
 namespace clay::cli {
 
 struct RenderCommand {
-  std::string pot;        ///< or a scene, of which the lump is drawn
+  std::string pot;        ///< or a scene: its lump is drawn
   std::string out;        ///< .png; empty: none
   std::string turntable;  ///< .gif; empty: none
   render::PictureChoices choices;

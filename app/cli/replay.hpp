@@ -49,7 +49,7 @@ ReplayStats replay(Wheel& wheel, std::span<const Pose> poses, const ReplayOption
 
 /// Reads a scene; "-" is standard input.
 Result<SceneSpec> load_scene(const std::string& path);
-/// Where a throw begins: a scene with its lump, or a pot on the scene's wheel.
+/// Start of a throw: a scene with its lump, or a pot on the scene's wheel.
 struct Start {
   std::string scene_path;  ///< empty: the pot remembers the tool and the clay
   std::string pot_path;    ///< empty: the lump

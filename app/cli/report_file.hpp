@@ -9,8 +9,8 @@
 
 namespace clay::cli {
 
-/// Sets the text of the report of the request, if it has one: a page for .html, else what
-/// --json prints. `copies` describe the pots among the files. Call it when the options are
+/// Sets the text of the report of the request, if it has one: a page for .html, otherwise the
+/// output of --json. `copies` describe the pots among the files. Call it when the options are
 /// complete.
 void set_report(const Pot& pot, solid::ExportRequest& request, const std::vector<PotCopy>& copies);
 

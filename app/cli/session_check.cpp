@@ -9,7 +9,8 @@
 namespace clay::cli {
 namespace {
 
-/// Whatever the name, which is that of the file for a pot, and with --model whatever the model.
+/// Compares without the name, which for a pot is that of its file, and with --model also without
+/// the model.
 bool recorded_on(const Session& session, SceneSpec scene, bool any_model) {
   scene.name = session.scene_name;
   if (session.scene_hash == 0 || session.scene_hash == hash_of(scene)) return true;

@@ -1,5 +1,5 @@
 #pragma once
-// What a user should know about a session before and after it is played.
+// Warnings about a session, before and after it is played.
 
 #include "claystack/core/result.hpp"
 #include "claystack/engine/files.hpp"
@@ -21,7 +21,7 @@ struct ReplayFiles {
 /// A cut last line; a session of another scene. `any_model`: the user has chosen one.
 std::vector<std::string> session_warnings(const Session& session, const SceneSpec& scene,
                                           const ReplayFiles& files, bool any_model);
-/// Refuses two tools where the scene has one: the wheel would refuse such poses one by one.
+/// Refuses poses of two tools in a scene with one tool: the wheel would refuse them one by one.
 Result<void> check_gaps(const Session& session, const SceneSpec& scene, const ReplayFiles& files);
 /// After the replay. `refused`: poses that the wheel did not play; `ring_limit`: clay was above the
 /// top ring.

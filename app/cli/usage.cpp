@@ -31,7 +31,8 @@ std::string_view before(std::string_view text, std::string_view mark) {
   return text.substr(0, text.find(mark));
 }
 
-/// An argument that the command does not have: the first option, of which others may be the values.
+/// An unknown argument: the first unknown option, because other arguments may be its values;
+/// without an option, the first argument.
 std::string unknown_word(const CLI::App& command) {
   const std::vector<std::string> words = command.remaining();
   const auto is_option = [](const std::string& word) {
@@ -42,8 +43,8 @@ std::string unknown_word(const CLI::App& command) {
   return words.empty() ? std::string() : words.front();
 }
 
-/// A check, an import or a picture of several files is a likely mistake. The window is a program of
-/// its own, which batch does not run.
+/// A check, an import or a picture of several files is a likely mistake. The window is a separate
+/// program, which batch does not run.
 std::string_view hint_for_files(const CLI::App& command) {
   const auto files = command.get_options([](const CLI::Option* option) {
     return option->get_positional() && option->get_type_name() == kFileName;

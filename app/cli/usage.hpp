@@ -1,5 +1,5 @@
 #pragma once
-// Usage errors in the words of all other errors: what was expected, and what was found.
+// Usage errors in the form of all other errors: what was expected, and what was found.
 
 #include "claystack/core/result.hpp"
 
@@ -24,7 +24,7 @@ inline void begin_group(CLI::App& command, const char* heading) {
 
 /// Accepts a finite number within the range; errors show the bounds in short form.
 [[nodiscard]] ValueCheck in_range(double low, double high);
-/// For a setting whose 0 stands for its default: who writes 0 does not mean the default.
+/// For a setting whose 0 means its default: refuses 0 from the user.
 [[nodiscard]] ValueCheck above_zero();
 /// Accepts a whole number within the range.
 [[nodiscard]] ValueCheck in_whole_range(std::uint64_t low, std::uint64_t high);

@@ -33,12 +33,13 @@ class WallMapFigure {
       thick_ = walls[static_cast<std::size_t>(kMostWalls * static_cast<double>(walls.size() - 1))];
     }
     cut_off_ = walls.size() < field.size() || thick_ < walls.back();
-    // 2.5 mm on a page of which the figure takes half; the marks of a plate stay apart.
+    // 2.5 mm on a page if the figure takes half of it; smaller for a low plate, so that the marks
+    // of the scale do not overlap.
     text_ = std::min(0.05 * (2.0 * widest_ + 8.0), 0.15 * top_);
   }
 
   std::string svg() {
-    // The bar, and "100.0 mm or more".
+    // With room for the bar and the text "100.0 mm or more".
     const double width = 2.0 * widest_ + 8.0 + 12.0 * text_, height = top_ + 8.0;
     writer_.open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                          {"viewBox", fmt::format("{:.2f} {:.2f} {:.2f} {:.2f}", -widest_ - 4.0,
@@ -93,7 +94,7 @@ class WallMapFigure {
 
   const std::vector<solid::WallSample>& field_;
   bool cut_off_ = false;              ///< some places are thicker than the scale
-  double thin_ = 0.0, thick_ = 10.0;  ///< the scale; of solid clay any does
+  double thin_ = 0.0, thick_ = 10.0;  ///< the scale; for solid clay the initial values
   double widest_ = 0.0, top_ = 0.0;
   double text_ = 0.0;  ///< height of the letters
   SvgWriter writer_;

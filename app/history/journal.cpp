@@ -123,7 +123,7 @@ Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs
 }
 
 Result<std::unique_ptr<Journal>> Journal::take_over(const fs::path& path, WorkReading& found) {
-  // Opening never blocks, whatever kind of file has that name.
+  // Opening never blocks, even if the file with that name is a pipe or a device.
   const int descriptor = open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (descriptor < 0) return io_failure(path, "could not open");
   std::unique_ptr<Journal> journal(new Journal(path, descriptor));

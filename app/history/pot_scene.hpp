@@ -1,5 +1,6 @@
 #pragma once
-// The scene in which a pot is thrown on: the tool and the clay that it remembers, or usual ones.
+// The scene for further strokes on a pot: the tool and the clay that the pot remembers, or usual
+// ones.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/scene.hpp"
@@ -13,7 +14,7 @@ inline constexpr double kFingerMm = 90.0;
 /// For `ClaySpec::finger_behind`: a lump that is opened at its bottom has a wide mouth.
 inline constexpr double kFingerBehind = 0.5;
 
-/// These rules with all options, as new works have them.
+/// These rules with all options, as in new works.
 [[nodiscard]] inline ClaySpec with_all_options(ClaySpec clay) {
   clay.finger_mm = kFingerMm;
   clay.finger_behind = kFingerBehind;

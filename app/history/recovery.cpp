@@ -42,8 +42,8 @@ std::optional<Recoverable> look_at(const fs::path& path, bool& needless) {
   return needless ? std::nullopt : std::optional(std::move(found));
 }
 
-/// Removes what a program left that ended before its journal had a name. A program that is about to
-/// lock its new file is given time.
+/// Removes the file of a program that ended before its journal had a name. Does not remove a new
+/// file: its program may be about to lock it.
 void remove_unfinished(const fs::path& path) {
   constexpr auto kTimeToLock = std::chrono::minutes(1);
   const FileLock lock(path, FileLock::Kind::exclusive);
@@ -56,7 +56,7 @@ void remove_unfinished(const fs::path& path) {
 std::vector<Recoverable> recoverable(const fs::path& folder) {
   std::vector<Recoverable> all;
   std::error_code none;
-  // A range-based loop would throw where the folder cannot be read on.
+  // A range-based loop would throw if reading the folder fails before its end.
   for (fs::directory_iterator entry(folder, none), end; !none && entry != end;
        entry.increment(none)) {
     const fs::path& path = entry->path();

@@ -13,8 +13,8 @@ namespace {
 constexpr std::int64_t kFreeAirUs = 300'000;
 static_assert(kFreeAirUs == static_cast<std::int64_t>(1e6 * kFreeAirS));
 
-/// Where a separate stroke may begin in free air between pose `first` and pose `touch`: in the
-/// middle, or before the last vertical motion ahead of the contact. 0: nowhere.
+/// Index of a pose in free air, between `first` and `touch`, at which a separate stroke may begin:
+/// in the middle, or before the last vertical motion ahead of the contact. 0: there is none.
 std::size_t place_in(std::span<const Pose> poses, std::size_t first, std::size_t touch) {
   if (poses[touch - 1].time_us - poses[first].time_us < kFreeAirUs) return 0;
   std::size_t move = touch;

@@ -23,9 +23,9 @@ struct Split {
 inline constexpr double kFreeAirS = 0.3;
 
 /// Splits where the tool was in free air for at least kFreeAirS, at a pose after which it moves up
-/// or down before it touches: a stroke remembers of earlier motion only whether the tool last moved
-/// up. The split is used only if the strokes, each on the previous pot, give exactly the pot of the
-/// whole; otherwise one stroke. `poses`: quantized; `whole`: their result on `before`.
+/// or down before it touches: of earlier motion, a stroke depends only on whether the tool last
+/// moved up. The split is used only if the strokes, each on the previous pot, give exactly the pot
+/// of the whole; otherwise one stroke. `poses`: quantized; `whole`: their result on `before`.
 [[nodiscard]] Split split(const SceneSpec& scene, const Pot& before, std::span<const Pose> poses,
                           Thrown whole);
 

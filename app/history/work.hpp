@@ -37,7 +37,7 @@ struct NodeView {
 /// work would hold more than kMaxPoses.
 struct Begun {
   PoseSink* sink;
-  Wheel wheel;  ///< with the current pot: what the poses are played on
+  Wheel wheel;  ///< with the current pot; the poses are played on it
 };
 
 /// The result of adding a stroke.
@@ -50,7 +50,7 @@ struct Added {
 /// an arm is held all the time.
 enum class Recording { one_stroke, several_strokes };
 
-/// Memory for the pots of a work.
+/// Default limit on the memory for the pots of a work [bytes].
 inline constexpr std::size_t kKeptPotBytes = std::size_t{256} << 20;
 
 class Work {
@@ -60,7 +60,7 @@ class Work {
   static Result<Work> begin(const SceneSpec& scene);
   static Result<Work> begin(const SceneSpec& scene, const Pot& start);
   /// From a file. Checks that the root fits on the wheel; strokes are replayed on request. Pots
-  /// that are not needed now are kept up to `kept_bytes`.
+  /// that are not needed now stay in memory up to `kept_bytes`.
   static Result<Work> open(WorkRecord record, std::size_t kept_bytes = kKeptPotBytes);
   Work(Work&&) noexcept;
   Work& operator=(Work&&) noexcept;

@@ -110,7 +110,8 @@ bool wall_table(const std::vector<std::string>& names) {
   return has("thickness_mm") && has("opposite_rho_mm");
 }
 
-/// The end of the first field; a field in quotes may contain the mark. `mark`: a blank is any.
+/// The end of the first field; a field in quotes may contain the mark. `mark`: the separator; ' '
+/// stands for blanks and tabs.
 std::size_t end_of_field(std::string_view row, char mark) {
   const std::size_t first = std::min(row.find_first_not_of(" \t"), row.size());
   std::size_t from = 0;
@@ -130,7 +131,7 @@ std::vector<std::string> csv_fields(std::string_view row) {
     between = mark;
     break;
   }
-  if (between == ' ') row = trimmed(row);  // other rows may begin or end with an empty field
+  if (between == ' ') row = trimmed(row);  // otherwise a row may begin or end with an empty field
   std::vector<std::string> fields;
   while (true) {
     const std::size_t end = end_of_field(row, between);
@@ -140,7 +141,7 @@ std::vector<std::string> csv_fields(std::string_view row) {
     fields.emplace_back(field);
     if (end == row.size()) return fields;
     row.remove_prefix(end + 1);
-    if (between == ' ') row = trimmed(row);  // several blanks separate like one
+    if (between == ' ') row = trimmed(row);  // several blanks count as one separator
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which columns of a table are the radius and the height, and in which unit.
+// Columns of a table: their kind (radius or height) and their unit.
 
 #include "claystack/core/result.hpp"
 

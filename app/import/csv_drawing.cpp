@@ -77,7 +77,7 @@ class Table {
     while (fields.size() > count && fields.back().empty()) fields.pop_back();
   }
 
-  /// Continues the line; returns what is wrong with the point.
+  /// Continues the line. Returns the fault of the point; empty: none.
   std::string add(double radius, std::optional<double> inner, double height) {
     if (const double least = std::min(radius, inner.value_or(radius)); least < 0.0)
       return fmt::format("expected a radius of 0 mm or more, found {:g}", least);

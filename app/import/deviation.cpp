@@ -23,7 +23,7 @@ double distance(const Segment& segment, glm::dvec2 p) {
   return glm::length(p - segment.from - part * along);
 }
 
-/// The clay at one level, from the bore to the outer bound; none if they are equal.
+/// The clay at one level, from the bore to the outer bound; no clay if they are equal.
 using Width = std::pair<double, double>;
 
 /// The level parts of the outline: where there is clay on one side only.
@@ -85,8 +85,9 @@ class Levels {
   }
 
  private:
-  /// Rows above each other. They are halved down to single ones: in `boxes_`, the lower half
-  /// follows the whole, and the upper half follows all parts of the lower one.
+  /// A range of neighbouring rows: a node of a binary tree that halves it down to single rows.
+  /// `boxes_` holds the tree in preorder: a range, its lower half with all parts of that, its upper
+  /// half.
   struct Rows {
     std::size_t number = 0, first = 0, count = 0;
 
@@ -174,8 +175,9 @@ struct Part {
   Nearest from, to;
 };
 
-/// No point of the part is farther from the other outline. The distance to one segment is convex
-/// along a line, and the nearest one changes by at most the way.
+/// Upper bound of the distance of the part from the other outline. The distance to one segment is
+/// convex along a line, and the distance to the nearest one changes by at most the length of the
+/// way.
 double farthest_in(const Part& part) {
   const auto& [segment, from, to] = part;
   const double both = std::min(std::max(from.mm, distance(*from.segment, segment.to)),

@@ -1,5 +1,5 @@
 #pragma once
-// How far two half sections are from each other.
+// Distance between two half sections.
 
 #include "app/import/half_section.hpp"
 
@@ -12,7 +12,7 @@
 namespace clay::importing {
 
 /// The largest distance from a point of one outline to the nearest of the other, in either
-/// direction, and where. Outlines do not include the axis.
+/// direction, and its place. Outlines do not include the axis.
 struct Deviation {
   double mm = 0.0;         ///< attained; no distance is larger by more than kDeviationStepMm
   double radius_mm = 0.0;  ///< from the axis

@@ -34,7 +34,7 @@ struct Drawing {
   std::vector<Line> lines;
   /// The file defines the axis at x = 0, as a table of radii does.
   bool axis_at_zero = false;
-  std::vector<std::string> notes{};  ///< what a reader left out, each for a warning
+  std::vector<std::string> notes{};  ///< the parts that a reader left out, each for a warning
   double scale = 1.0;                ///< of the points, from the lengths in the file
   bool unit_stated = true;           ///< false: its lengths are in mm by convention only
 };

@@ -72,8 +72,8 @@ Result<std::optional<double>> take_axis_lines(Drawing& drawing, std::optional<do
   return axis;
 }
 
-/// No line runs along the vertical line, and none begins or ends there as at an axis: nearly level,
-/// as a foot or a lid does.
+/// No line runs along the vertical line, and no line begins or ends on it nearly level, as a foot
+/// or a lid does at an axis.
 bool only_a_corner_at(const std::vector<Line>& lines, double x_mm) {
   const auto level_at = [&](glm::dvec2 end, glm::dvec2 next) {
     return std::abs(end.x - x_mm) <= kSamePointMm &&
@@ -95,16 +95,16 @@ bool drawn_left_of_its_edge(const std::vector<Line>& lines) {
          !nearly_mirrored(lines, 0.5 * (bounds.low.x + bounds.high.x));
 }
 
-/// A shape that is its own mirror image, with corners that are not: a half section with an
-/// additional corner, or both halves of one.
+/// A shape that is its own mirror image except for its corners: a half section with an additional
+/// corner, or a drawing of both halves.
 bool mirrored_but_for_corners(const std::vector<Line>& lines, double middle) {
-  constexpr std::size_t kMostCorners = 20'000;  // comparing them takes time
+  constexpr std::size_t kMostCorners = 20'000;  // limits the time to compare them
   std::size_t corners = 0;
   for (const Line& line : lines) corners += line.points_mm.size();
   return corners <= kMostCorners && mirrored_within(lines, middle, kSamePointMm);
 }
 
-/// Notes that the left end, which no rule but the last one chose as the axis, is doubtful.
+/// Adds a note that the axis is doubtful: no rule but the last one, the left end, applied.
 void note_doubt(HalfSection& section, const Drawing& drawing, double middle,
                 const std::string& name) {
   if (only_a_corner_at(drawing.lines, section.axis_mm))

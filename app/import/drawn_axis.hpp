@@ -1,5 +1,5 @@
 #pragma once
-// Where the axis of a pot is in its drawing, and on which side of it.
+// Place of a pot's axis in its drawing, and the side of the axis on which the pot is drawn.
 
 #include "app/import/half_section.hpp"
 

@@ -15,8 +15,8 @@ namespace clay::importing {
 
 inline constexpr double kDrawnDeviationMm = 0.02;
 inline constexpr double kHighestRingMm = 0.75;
-/// Steps of rings this low are within kDrawnDeviationMm of any smooth outline: where they are not,
-/// the outline has details that are lower still, or noise.
+/// Steps of rings this low are within kDrawnDeviationMm of any smooth outline. If they are not, the
+/// outline has noise, or details that are lower than these rings.
 inline constexpr double kFineRingMm = 0.02;
 
 struct DrawnPotSettings {

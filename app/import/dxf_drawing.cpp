@@ -59,7 +59,7 @@ struct Block {
   std::size_t groups = 0;  ///< that each insertion reads again
 };
 
-/// One insertion: what its content is placed by, and the layer of entities on layer 0.
+/// One insertion: the placement of its content, and the layer of its entities that are on layer 0.
 struct Insertion {
   DxfPlacement placement;
   std::string layer = "0";

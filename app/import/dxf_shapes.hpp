@@ -9,7 +9,7 @@
 
 namespace clay::importing {
 
-/// Where the coordinates of an entity are on the page: in mm, with all insertions.
+/// Transform from the coordinates of an entity to those of the page: in mm, with all insertions.
 struct DxfPlacement {
   glm::dmat2 turn{1.0};
   glm::dvec2 shift{0.0};

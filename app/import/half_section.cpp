@@ -27,7 +27,7 @@ struct Edge {
   }
 };
 
-/// Of several lines, one ends at two places off the axis.
+/// The error for one of several lines whose two ends are not on the axis.
 tl::unexpected<Error> open_line(const Line& line, const std::vector<Line>& lines,
                                 const std::string& name) {
   const auto place = [](glm::dvec2 p) { return fmt::format("({:.3f}, {:.3f})", p.x, p.y); };
@@ -88,8 +88,8 @@ std::vector<Edge> edges_of(const std::vector<Line>& lines) {
   return edges;
 }
 
-/// Of the solids of revolution of what lies on one side of the axis: right for `side` 1, left for
-/// -1. [mm^3]
+/// The volume of the solids of revolution of the area on one side of the axis [mm^3]: right for
+/// `side` 1, left for -1.
 double volume_beside(const std::vector<Line>& lines, double side) {
   double sum = 0.0;
   for (const Line& line : lines)
@@ -202,7 +202,7 @@ Result<Slab> slab_between(double from, double to, std::vector<const Edge*>& edge
   if (edges.size() == 1) return slab;
   slab.inner_from_mm = edges[1]->radius_at(from);
   slab.inner_to_mm = edges[1]->radius_at(to);
-  // Negative where the two have changed places.
+  // Negative where the two bounds cross.
   const double first = slab.outer_from_mm - slab.inner_from_mm;
   const double last = slab.outer_to_mm - slab.inner_to_mm;
   if (std::min(first, last) < -kSamePointMm) {
@@ -256,8 +256,8 @@ Result<std::vector<Slab>> slabs_within_tolerance(const std::vector<Line>& lines,
   return again ? again : slabs;
 }
 
-/// Moves the lines to the axis and the foot, and scales what the reader has not scaled. Foot and
-/// height are those of the clay right of the axis, the only clay that is used.
+/// Moves the lines to the axis and the foot, and scales a drawing that the reader has not scaled.
+/// Foot and height are those of the clay right of the axis, the only clay that is used.
 Result<void> move_to_axis(Drawing& drawing, double axis_mm, std::optional<double> height_mm,
                           const std::string& name) {
   const Bounds bounds = bounds_of(drawing.lines);
@@ -329,7 +329,8 @@ Result<HalfSection> section_as_drawn(Drawing drawing, const HalfSectionSettings&
   return section;
 }
 
-/// Removes what is drawn twice, before and after lines are joined. Returns the number of lines.
+/// Removes lines that are drawn twice, before and after lines are joined. Returns the number of
+/// lines.
 std::size_t without_repeats(std::vector<Line>& lines) {
   const std::size_t repeats = remove_repeats(lines);
   lines = joined(std::move(lines));

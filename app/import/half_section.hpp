@@ -11,11 +11,11 @@
 
 namespace clay::importing {
 
-/// Where the pot's axis is in the drawing: as asked for, and, in a HalfSection, as it was found.
+/// Place of the pot's axis in the drawing: as requested, or, in a HalfSection, as found.
 enum class AxisRule {
-  by_itself,  ///< only asked for: the file's zero if it has one, which gives `at`; otherwise the
+  by_itself,  ///< only in a request: the file's zero if it has one, which gives `at`; otherwise the
               ///< first that fits of `line`, `middle`, `right` and `left`
-  left,       ///< the left end of the drawing; by itself: what remains
+  left,       ///< the left end of the drawing; by itself: if no other rule applies
   middle,     ///< the middle between its ends; by itself: the mirror line of a symmetric drawing.
               ///< The left half is ignored
   at,         ///< HalfSectionSettings::axis_mm
@@ -41,7 +41,7 @@ struct HalfSection {
   double height_mm = 0.0;
   double axis_mm = 0.0;  ///< in the drawing's coordinates, before scaling
   AxisRule axis = AxisRule::left;
-  std::vector<std::string> notes;  ///< of the drawing, and of what of it is not used
+  std::vector<std::string> notes;  ///< of the drawing, and of its parts that are not used
 
   [[nodiscard]] double volume_mm3() const noexcept;  ///< of the solid of revolution
 };

@@ -32,8 +32,9 @@ class BoreRadius {
  private:
   static constexpr double kOpen = 1e300;  ///< no slab limits the bore
 
-  /// Slabs beside each other. They are halved down to single ones: in `least_mm_`, the first half
-  /// follows the whole, and the second half follows all parts of the first.
+  /// A range of neighbouring slabs: a node of a binary tree that halves it down to single slabs.
+  /// `least_mm_` holds the tree in preorder: a range, its first half with all parts of that, its
+  /// second half.
   struct Part {
     std::size_t number = 0;
     std::span<const Slab> slabs;
@@ -51,7 +52,8 @@ class BoreRadius {
                              : std::min(note_least(part.first()), note_least(part.second()));
   }
 
-  /// Lowers the radius to that which the slabs of a part allow, those first that may allow least.
+  /// Lowers the radius to the largest that the slabs of a part allow. Begins with the half whose
+  /// bound is smaller.
   void lower(double& radius, double height_mm, const Part& part) const {
     if (part.single()) {
       if (in_reach(part, height_mm)) radius = std::min(radius, beside(part.slabs[0], height_mm));
@@ -72,18 +74,18 @@ class BoreRadius {
            part.slabs.front().from_mm < height_mm + wall_mm_;
   }
 
-  /// No slab of the part allows less.
+  /// Lower bound of the radius that the slabs of the part allow.
   [[nodiscard]] double bound_of(const Part& part, double height_mm) const {
     if (!in_reach(part, height_mm)) return kOpen;
-    constexpr double kRoundingMm = 1e-6;  // of `beside`, on slabs that are almost level
+    constexpr double kRoundingMm = 1e-6;  // error of `beside` on slabs that are almost level
     const double d = std::max(
         {0.0, part.slabs.front().from_mm - height_mm, height_mm - part.slabs.back().to_mm});
     return least_mm_[part.number] - std::sqrt(std::max(0.0, wall_mm_ * wall_mm_ - d * d)) -
            kRoundingMm;
   }
 
-  /// As far as this slab alone allows. Along a straight outside the limit is convex in d, and least
-  /// where the disc touches it.
+  /// The radius that this slab alone allows. Along a straight outside, the limit is convex in d,
+  /// and smallest where the disc touches the outside.
   [[nodiscard]] double beside(const Slab& slab, double height_mm) const {
     const double slope = (slab.outer_to_mm - slab.outer_from_mm) / (slab.to_mm - slab.from_mm);
     const double low = std::max(-wall_mm_, slab.from_mm - height_mm);
@@ -203,7 +205,7 @@ std::vector<Slab> bored(const std::vector<Slab>& solid, const std::vector<BorePi
   return slabs;
 }
 
-/// The outside and foot of solid slabs, without what is level at the rim.
+/// The outside and foot of solid slabs, without level parts at the rim.
 std::vector<Segment> below_rim(const std::vector<Slab>& solid, double height_mm) {
   std::vector<Segment> outline = outline_of(solid);
   std::erase_if(outline, [&](const Segment& s) { return std::min(s.from.y, s.to.y) >= height_mm; });

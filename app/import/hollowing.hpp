@@ -12,11 +12,11 @@ namespace clay::importing {
 
 /// The section with a bore, which is open at the rim. Each of its points is at least `wall_mm` from
 /// the outside and the foot, and as near as kFlatMm allows: walls and floor are `wall_mm` thick
-/// across, however they lean. Refuses a section that has a bore, and a wall that leaves no bore, or
+/// across, at any slope. Refuses a section that has a bore, and a wall that leaves no bore, or
 /// closes it below the rim.
 Result<HalfSection> hollowed(const HalfSection& solid, double wall_mm, const std::string& name);
 
-/// The least distance across the wall and floor, and where on the inside.
+/// The least distance across the wall and floor, and its place on the inside.
 struct ThinnestWall {
   double mm = 0.0, radius_mm = 0.0, height_mm = 0.0;
 };

@@ -47,7 +47,7 @@ class LooseEnds {
       for (const int up : {-1, 0, 1}) {
         const auto cell = cells_.find({middle.first + across, middle.second + up});
         if (cell == cells_.end()) continue;
-        // A drawing has few ends at one place. Of very many, the last suffice.
+        // A drawing has few ends at one place. Of very many, only the last are compared.
         const std::size_t count = cell->second.size();
         for (std::size_t i = count - std::min(count, kMostCompared); i < count; ++i) {
           const double mm = glm::length(point(cell->second[i]) - p);

@@ -63,7 +63,7 @@ struct NormalLine {
 /// A line of best fit: direction and moment.
 using Fit = std::pair<glm::dvec3, glm::dvec3>;
 
-/// How far apart a normal and the axis pass, times the sine of the angle between them.
+/// Distance of a normal line from the axis [mm], times the sine of the angle between them.
 double miss(const Fit& axis, const NormalLine& line) {
   return std::abs(glm::dot(axis.first, line.moment) + glm::dot(axis.second, line.direction));
 }

@@ -109,7 +109,8 @@ std::vector<Edge> odd_edges(const solid::TriangleMesh& mesh) {
   return open;
 }
 
-/// Whether each has another one near it, as where an edge meets two halves of one. Sorts them.
+/// Whether each end has another one within 0.05 mm, such as where a long edge meets two edges that
+/// are its halves. Sorts the ends.
 bool all_paired(std::vector<glm::dvec2>& ends) {
   constexpr double kNearMm = 0.05;
   std::sort(ends.begin(), ends.end(),

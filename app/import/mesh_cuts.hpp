@@ -15,11 +15,12 @@ namespace clay::importing {
 inline constexpr std::size_t kMeshCuts = 64;
 [[nodiscard]] double azimuth_of_cut(std::size_t cut) noexcept;  ///< [rad]
 
-/// Some times as many as the finest scan has. mesh_cuts stops there.
+/// Maximum number of segments, at which mesh_cuts stops: several times that of the finest scan.
 inline constexpr std::size_t kMostCutSegments = 2'000'000;
 
-/// How an edge of the mesh is cut: as the chord that it is, or with the radius between those of its
-/// ends, as if it lay on a surface of revolution. Then the facets of such a surface do not scatter.
+/// Rule for cutting an edge of the mesh: `straight` as a chord; `revolved` with a radius between
+/// those of its ends, as if it lay on a surface of revolution. With `revolved` the facets of such a
+/// surface do not scatter.
 enum class Edges { straight, revolved };
 
 /// The segments in which each half-plane meets the triangles: (distance from the axis, height).

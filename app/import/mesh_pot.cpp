@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSameScale = 1e-9;
 
-/// A mesh about its axis, with what its cuts have in common.
+/// A mesh about its axis, with the common section of its cuts.
 struct Revolved {
   std::vector<std::vector<Segment>> cuts;  ///< heights from the foot
   HalfSection section;
@@ -99,7 +99,7 @@ bool opens_below(const HalfSection& section) {
   return section.slabs.front().inner_from_mm > 0.0 && !(section.slabs.back().inner_to_mm > 0.0);
 }
 
-/// Scales the mesh, and what `result` states of it.
+/// Scales the mesh, and the figures in `result`.
 Result<Revolved> scaled_to(double height_mm, Revolved pot, solid::TriangleMesh& mesh,
                            MeshPot& result, const std::string& name) {
   // Twice, because the height of a mesh in metres is known to a thousandth only.
@@ -184,8 +184,8 @@ Result<Made> rings_of(Revolved pot, const std::vector<bool>& complete,
   return made;
 }
 
-/// The standard deviation of the mesh about its section, as the median of distances shows it:
-/// half of the length of all cuts is nearer.
+/// The standard deviation of the mesh about its section, estimated from the median distance: half
+/// of the length of all cuts is nearer than that.
 double noise_of(const Revolved& pot) {
   constexpr double kOfMedian = 1.4826;  // of a normal distribution
   std::vector<glm::dvec2> middles;
@@ -206,14 +206,15 @@ double noise_of(const Revolved& pot) {
   return 0.0;
 }
 
-/// No rings fit the section well: its lines go back and forth within less than a fine ring.
+/// Whether no rings fit the section well, because its lines go back and forth within less than the
+/// height of a fine ring.
 bool rough(const DrawnPot& drawn) {
   return drawn.deviation.mm > kDrawnDeviationMm || drawn.pot.stack.ring_height_mm() < kFineRingMm;
 }
 
 constexpr double kLeastNoiseMm = 1e-3;
 
-/// Less than kLeastNoiseMm: none, or not known.
+/// Standard deviation of the noise [mm]. Less than kLeastNoiseMm: none, or not known.
 double noise_of(const solid::TriangleMesh& mesh, const MeshAxis& axis, const std::string& name) {
   const auto noise_in = [&](double level_mm) {
     const auto pot = revolved(mesh, axis, level_mm, name, Edges::revolved);
@@ -221,7 +222,7 @@ double noise_of(const solid::TriangleMesh& mesh, const MeshAxis& axis, const std
   };
   const double first_mm = noise_in(0.0);
   if (first_mm < kLeastNoiseMm) return 0.0;
-  // The first section runs through the noise of level faces, so it seems less.
+  // The first section follows the noise of level faces, so the estimate from it is too low.
   return std::max(noise_in(first_mm), kLeastNoiseMm);
 }
 

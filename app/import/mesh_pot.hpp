@@ -28,7 +28,7 @@ struct MeshPot {
   std::size_t measured = 0;  ///< half-planes of kMeshCuts; 0: `deviation` is not known
   double noise_mm = 0.0;     ///< of a scan whose faces were made level within it; 0: none were
   double off_mm = 0.0;       ///< largest deviation of the rings from the revolved section
-  double aimed_mm = 0.0;     ///< what that was to be
+  double aimed_mm = 0.0;     ///< limit for `off_mm` at which the rings aimed
   std::vector<MeshPart> parts;
 };
 

@@ -144,7 +144,8 @@ std::optional<glm::dvec2> centre_of(const std::vector<std::vector<Wall>>& walls,
   return glm::dvec2{wave.y, wave.z};
 }
 
-/// How far the outside is from being centred: along x and y at height 0, and per mm of height.
+/// Offset of the outside from the axis [mm]: along x and y at height 0, and its change per mm of
+/// height.
 struct Decentring {
   glm::dvec2 at_zero{0.0}, per_mm{0.0};
 };

@@ -11,7 +11,7 @@ namespace clay::importing {
 /// from the middle of all azimuths, as a handle is.
 [[nodiscard]] MeshAxis refined_axis(const solid::TriangleMesh& mesh, MeshAxis axis);
 
-/// A half section and where its foot is on the axis.
+/// A half section, and the place of its foot on the axis.
 struct RevolvedSection {
   HalfSection section;
   double foot_mm = 0.0;
@@ -19,8 +19,8 @@ struct RevolvedSection {
 
 /// At each height between the levels of the mesh's points: the mean of the squared radii of all
 /// cuts that agree with the middle one. `noise_mm`: standard deviation of the points of a scan,
-/// within which faces are level; 0: points lie where they should. Refuses meshes with a height at
-/// which most cuts have no clay.
+/// within which faces are level; 0: the points have no noise. Refuses meshes with a height at which
+/// most cuts have no clay.
 Result<RevolvedSection> revolved_section(std::span<const glm::dvec3> points,
                                          const std::vector<std::vector<Segment>>& cuts,
                                          double noise_mm, const std::string& name);

@@ -1,5 +1,5 @@
 #pragma once
-// What the maker of a pot from a mesh should know, for the command line and for Python.
+// Warnings about a pot made from a mesh, for the command line and for Python.
 
 #include "app/import/mesh_pot.hpp"
 
@@ -11,8 +11,8 @@
 namespace clay::importing {
 
 /// About a mesh that is not closed or not oriented outward, its noise, rings that are farther from
-/// the section than they were to be, and rings that do not touch. The name of the mesh is not part
-/// of the text. `rings`: the settings with which the pot was made.
+/// the section than their limit, and rings that do not touch. The name of the mesh is not part of
+/// the text. `rings`: the settings with which the pot was made.
 std::vector<std::string> mesh_warnings(const MeshPot& made, const solid::MeshEnclosure& enclosure,
                                        const DrawnPotSettings& rings);
 

@@ -41,7 +41,7 @@ bool edge_along(const std::vector<Line>& lines, double x_mm) {
 }
 
 std::optional<Gap> narrowest_gap(const std::vector<Line>& lines) {
-  constexpr std::size_t kMostCompared = 1000;  // a drawing has few open ends; of many, neighbours
+  constexpr std::size_t kMostCompared = 1000;  // a drawing has few ends; of more, neighbours only
   std::vector<glm::dvec2> ends;
   for (const Line& line : lines) {
     if (line.closed) continue;

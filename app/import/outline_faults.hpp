@@ -31,8 +31,8 @@ struct Gap {
 /// do not count. Empty if there are fewer than two.
 [[nodiscard]] std::optional<Gap> narrowest_gap(const std::vector<Line>& lines);
 
-/// The clay at one height: "from the axis to 12 mm and from 27 to 30 mm". `radii_mm`: where it
-/// begins and ends, descending. After four places "and more".
+/// The clay at one height: "from the axis to 12 mm and from 27 to 30 mm". `radii_mm`: the radii at
+/// which it begins and ends, descending. After four places "and more".
 [[nodiscard]] std::string clay_between(std::span<const double> radii_mm);
 
 }  // namespace clay::importing

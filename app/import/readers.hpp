@@ -25,7 +25,7 @@ class PointLimits {
 std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r");
 
 /// Whether a layer is for construction by its name, which then begins with "construction" in any
-/// case. Such layers are drawn only if they are asked for by name.
+/// case. Such layers are drawn only if they are requested by name.
 bool for_construction(std::string_view layer_name);
 
 /// Names of layers for a message: "foot", "rim" and 3 more; the first twelve are named.

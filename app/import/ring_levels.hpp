@@ -1,5 +1,5 @@
 #pragma once
-// Where rings of one height meet the level lines of a drawing.
+// Rings of equal height whose bounds meet the level lines of a drawing.
 
 #include "app/import/half_section.hpp"
 

@@ -247,7 +247,8 @@ void start_element(void* parser, const xmlChar* name, const xmlChar* prefix, con
   if (context->node != nullptr) note_svg_line(*context->node, context->input->line);
 }
 
-/// Null for what is no XML. Fetches nothing and expands no entities: only the file itself is read.
+/// Null if the bytes are not XML. Fetches nothing and expands no entities: only the file itself is
+/// read.
 XmlDocument parsed(std::string_view bytes, int options) {
   const std::unique_ptr<xmlParserCtxt, decltype(&xmlFreeParserCtxt)> parser(xmlNewParserCtxt(),
                                                                             &xmlFreeParserCtxt);

@@ -40,7 +40,8 @@ constexpr std::array<const char*, 6> kViewport = {"x",      "y",       "width",
 
 std::string_view name_of(const xmlNode* node) { return reinterpret_cast<const char*>(node->name); }
 
-/// The name of a namespace; Adobe Illustrator writes it as an entity, which stays one.
+/// The name of a namespace; Adobe Illustrator writes it as an entity, which the parser does not
+/// replace.
 std::string_view address_of(const xmlNode* node) {
   const std::string_view address = reinterpret_cast<const char*>(node->ns->href);
   if (!address.starts_with('&') || !address.ends_with(';')) return address;
@@ -68,7 +69,7 @@ struct Inherited {
   }
 };
 
-/// Walks the drawing, and adds what it shows to a new document.
+/// Walks the drawing, and adds the visible shapes to a new document.
 class Copier {
  public:
   Copier(xmlDoc& drawing, const std::string& layer, const std::string& name)
@@ -125,7 +126,7 @@ class Copier {
            opacity->find_first_not_of("0.%") == std::string::npos;
   }
 
-  /// Once for each kind.
+  /// Adds one note for each kind.
   void note_unapplied(xmlNode* node, std::string_view kind,
                       const std::optional<std::string>& value) {
     if (!value || is(value, "none") || !noted_.insert(kind).second) return;
@@ -301,7 +302,7 @@ class Copier {
   SvgCopy copy_;
   SvgStyles styles_;
   std::map<std::string, xmlNode*> ids_;
-  std::vector<std::string> used_;          ///< the references within which the element is
+  std::vector<std::string> used_;          ///< the references that lead to the element
   std::set<std::string> layers_, groups_;  ///< names of layers of Inkscape, and of other groups
   bool found_layer_ = false;
   std::vector<std::string> notes_;

@@ -19,8 +19,8 @@ struct SvgShapes {
 /// Copies the shapes that are drawn: `use` and `symbol` become groups, style sheets and style
 /// attributes are applied, and elements that are not displayed, not visible, of opacity 0, or
 /// painted with neither fill nor stroke are left out, as are layers named "construction". `layer`:
-/// the label or id of the only layer to copy; empty: all. Each transform is on a group of its own,
-/// so that it is known before the shape.
+/// the label or id of the only layer to copy; empty: all. Each transform is on a separate group, so
+/// that it is known before the shape.
 Result<SvgShapes> svg_shapes(xmlDoc& drawing, const std::string& layer, const std::string& name);
 
 }  // namespace clay::importing

@@ -1,5 +1,5 @@
 #pragma once
-// The style sheets of an SVG drawing, as far as they decide what is drawn.
+// The style sheets of an SVG drawing, as far as they show or hide shapes.
 
 #include "claystack/core/result.hpp"
 
@@ -37,7 +37,7 @@ inline constexpr std::string_view kSvgBlank = " \t\r\n\f";
 /// The values of one element, where they are set.
 using SvgValues = std::array<std::optional<std::string>, kSvgProperties>;
 
-/// What a rule or a style attribute sets; values that are !important apply last.
+/// Values set by a rule or a style attribute; values that are !important apply last.
 struct SvgDeclarations {
   SvgValues normal, important;
 };

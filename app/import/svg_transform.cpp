@@ -84,7 +84,7 @@ std::optional<double> size_of_unit(std::string_view unit, Quantity quantity) {
   return std::nullopt;
 }
 
-/// A function, and what its arguments are.
+/// A function, with the number and the quantities of its arguments.
 struct Function {
   std::string_view name;  ///< in lower case
   std::size_t fewest, most;
@@ -125,7 +125,7 @@ std::string function_text(std::string_view name, const std::vector<double>& argu
   return text + ")";
 }
 
-/// Empty if the attribute has nothing that does the same.
+/// Empty if the attribute has no equivalent.
 std::optional<std::string> written(std::string_view name, std::string_view list) {
   const auto* function = std::ranges::find(kFunctions, name, &Function::name);
   if (function == std::end(kFunctions)) return std::nullopt;
@@ -137,7 +137,7 @@ std::optional<std::string> written(std::string_view name, std::string_view list)
   if (name == "scalex") return function_text("scale", {first, 1.0});
   if (name == "scaley") return function_text("scale", {1.0, first});
   if (!name.starts_with("skew")) return function_text(name, *arguments);
-  // skew(x, y) is of CSS alone; by its matrix.
+  // Only CSS has skew(x, y): written as its matrix.
   const auto tangent = [](double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); };
   const double second = arguments->size() > 1 ? arguments->back() : 0.0;
   return function_text("matrix", {1.0, tangent(name == "skewy" ? first : second),

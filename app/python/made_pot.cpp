@@ -18,7 +18,7 @@
 namespace clay::python {
 namespace {
 
-/// Plays every pose, and adds what was not played to the warnings.
+/// Plays every pose, and adds a warning for poses that were not played.
 void play(Wheel& wheel, const Session& session, std::vector<std::string>& warnings) {
   std::size_t refused = 0;
   bool ring_limit = false;

@@ -1,5 +1,5 @@
 #pragma once
-// Pots for Python: played, stacked and imported, with what the command line warns of.
+// Pots for Python: played, stacked and imported, with the warnings of the command line.
 
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"

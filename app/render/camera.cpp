@@ -39,7 +39,7 @@ double mm_per_px(const Camera& camera, Viewport viewport) noexcept {
          free_height_px(camera, viewport);
 }
 
-/// The distance from the target at which a camera that moves back has left the pot for good.
+/// The distance from the target beyond which a camera that moves back is outside the pot [mm].
 double way_out_mm(const Camera& camera, const Extent& pot) noexcept {
   const glm::dvec3 from = camera.target_mm, back = axes_of(camera).back;
   const double radius = pot.radius_mm + kClearMm, top = pot.height_mm + kClearMm;

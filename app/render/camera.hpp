@@ -15,8 +15,8 @@ struct Camera {
   double distance_mm = 400.0;
   glm::dvec3 target_mm{0.0};
   double fov_rad = 0.5;  ///< vertical field of view, of the free part of the picture
-  /// The share of the picture, at its foot, that something else covers. The rest shows what a
-  /// picture of its size would show, and the covered part continues it.
+  /// The fraction of the height of the picture, from its lower edge, that something else covers.
+  /// The rest equals a picture of its size, and the covered part continues it.
   double covered = 0.0;
   friend bool operator==(const Camera&, const Camera&) = default;
 };

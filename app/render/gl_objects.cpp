@@ -16,7 +16,7 @@ GLuint generated(Generate generate) {
   return name;
 }
 
-/// A shader lives until its program is linked.
+/// A shader is needed only until its program is linked.
 class Shader {
  public:
   Shader(GLenum kind, const std::string& text) : name_(glCreateShader(kind)) {

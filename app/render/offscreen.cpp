@@ -17,8 +17,8 @@
 namespace clay::render {
 namespace {
 
-/// The display without a surface. EGL gives the same one to every context and does not count them:
-/// it ends with the last of its users.
+/// The display without a surface. EGL returns the same display to every context and does not count
+/// them: the last context terminates it.
 class EglDisplay {
  public:
   static EGLDisplay acquire() {

@@ -41,7 +41,7 @@ std::array<Picture, 4> rehearsal() {
 struct Painter::State {
   ScenePainter scene;
   std::optional<Canvas> canvas;  ///< multisampled, of the last requested size
-  std::size_t warm = 0;          ///< how many pictures warm_up has drawn
+  std::size_t warm = 0;          ///< number of pictures that warm_up has drawn
 
   /// `buffer`: the rows of the picture that the bound framebuffer holds, among them `rows`.
   void paint(const Picture& picture, Viewport viewport, int samples, PixelRows buffer,

@@ -1,10 +1,10 @@
 #pragma once
 // Draws pictures with OpenGL 3.3 core.
 //
-// The way of a pot: `view_of` makes rows of its rings, `levels_of` a section of the rows, and
-// `meridian_of` a line of the section, which a vertex shader revolves. ScenePainter draws a frame
-// in stages, Painter adds samples, Offscreen has a context without a screen, and pot_picture.hpp
-// makes the pictures of files.
+// The steps from a pot to its picture: `view_of` makes rows of its rings, `levels_of` a section of
+// the rows, and `meridian_of` a line of the section, which a vertex shader revolves. ScenePainter
+// draws a frame in stages, Painter adds samples, Offscreen has a context without a screen, and
+// pot_picture.hpp makes the pictures of files.
 
 #include "app/render/picture.hpp"
 #include "claystack/core/result.hpp"

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFloor = 3.0;  // radius of the floor, in radii of the wheel head
 constexpr GLuint kBlockBinding = 0;
-constexpr float kFacingMirror = 0.04f;  // what clay, water and glass mirror, seen straight on
+constexpr float kFacingMirror = 0.04f;  // reflectance of clay, water and glass at normal incidence
 
 Result<Program> frame_program(std::string_view name, const std::string& vertex,
                               const std::string& fragment) {

@@ -17,7 +17,7 @@ constexpr float kAmbientDepth = 0.62f;
 struct Disc {
   float y, radius;
   glm::vec3 centre;       ///< in the wheel's coordinates
-  float strength, reach;  ///< of the sky that it hides: at its edge, and how far beyond
+  float strength, reach;  ///< of the hidden sky: share at the edge, and range beyond it
 };
 
 struct Caster {
@@ -56,7 +56,7 @@ Wedge wedge_beside(glm::vec2 sweep) {
   return {towards(sweep.x - kRight), towards(sweep.y + kRight), false};
 }
 
-/// How far a place is within the wedge; negative: outside.
+/// Depth of a place in the wedge; negative: outside.
 float depth_in(const Wedge& wedge, float x, float z) {
   const glm::vec2 at(x, z);
   return std::min(glm::dot(at, wedge.first), glm::dot(at, wedge.last));

@@ -44,7 +44,7 @@ void smooth(std::vector<Band>& bands) {
   }
 }
 
-/// How much of the sky a bore sees at a depth below its mouth.
+/// Share of the sky that is visible in a bore at a depth below its mouth.
 float open_at(double depth_mm, double radius_mm) {
   return static_cast<float>(1.0 / (1.0 + 0.6 * depth_mm / std::max(radius_mm, 1e-3)));
 }
@@ -123,8 +123,7 @@ struct Corner {
   float light = 0.0F;
 };
 
-/// Samples with depth; triangles that turn clockwise, as seen, are faces from behind: others hide
-/// them.
+/// Samples with depth; triangles that appear clockwise are back faces, which others hide.
 class Samples {
  public:
   explicit Samples(int side)

@@ -1,4 +1,4 @@
-// Replaces realtime.cpp where a program has one thread and no scheduler to ask: in a web page.
+// Replaces realtime.cpp where a program has one thread and no real-time scheduler: in a web page.
 
 #include "app/servo/servo.hpp"
 

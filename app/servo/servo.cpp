@@ -28,7 +28,7 @@ Ending Servo::stop() {
 Result<void> Servo::start() {
   if (emergency_stop().is_armed())
     return failure(ErrorKind::bad_input, "could not start the servo: another one is running");
-  // Until the first tick, readers see what the loop has kept: for example a pause.
+  // Until the first tick, readers see the status that the loop has kept: for example a pause.
   LiveStatus first = loop_.status();
   first.ending = Ending::none;
   view_.status.write(first);

@@ -55,7 +55,7 @@ falcon::SampledLoop loop_of(const LiveSettings& settings) noexcept {
 
 falcon::SampledLoop with_delay_of(const falcon::DeviceInfo& device,
                                   falcon::SampledLoop loop) noexcept {
-  // A servo waits half a period longer than one for an answer; then another is on its way.
+  // A servo waits one and a half periods for an answer. A later answer counts for a following tick.
   const double ticks = 1e-6 * static_cast<double>(device.answer_us) * loop.rate_hz;
   const double late = std::clamp(std::ceil(ticks - 0.5), 0.0, 1.0 * falcon::kMostDelayTicks);
   loop.delay_ticks = std::max(loop.delay_ticks, static_cast<int>(late));

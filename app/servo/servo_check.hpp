@@ -12,7 +12,7 @@
 
 namespace clay::servo {
 
-/// Arm and servo together: sampled at the rate of the slower one.
+/// The loop of arm and servo: sampled at the rate of the slower one.
 [[nodiscard]] falcon::SampledLoop loop_of(const LiveSettings& settings) noexcept;
 /// The same loop with the delay of this device, if its answers take longer than `loop` states.
 [[nodiscard]] falcon::SampledLoop with_delay_of(const falcon::DeviceInfo& device,

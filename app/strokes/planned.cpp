@@ -81,7 +81,7 @@ std::optional<double> touching(const Tool& tool, double up, double rim, bool ins
   return at;
 }
 
-/// The places of a tool that goes along a surface between two heights.
+/// The places of a tool that moves along a surface between two heights.
 Path touching_path(const Tool& tool, double from, double to, double rim, bool inside,
                    const Surface& surface) {
   const int count = std::max(1, static_cast<int>(std::abs(to - from) / kStepMm));
@@ -116,7 +116,7 @@ void lead(Hand& hand, Path path, const Section& section, bool inside, const Stro
   const Place enter = beside(path.front()), leave = beside(path.back());
   path.push_back(leave);
   if (!inside) {
-    // Up and down beside the pot, which may be wider above.
+    // Rises and descends beside the pot, which may be wider above.
     const glm::dvec2 start = hand.script().start_mm;
     approach(hand, {start.x, enter.at.y});
     hand.move({hand.here(), enter}, travel, false);

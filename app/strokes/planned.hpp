@@ -1,5 +1,5 @@
 #pragma once
-// Strokes that are planned on the pot as the potter sees it.
+// Strokes that are planned on the current pot.
 
 #include "app/strokes/hand.hpp"
 #include "app/strokes/strokes.hpp"

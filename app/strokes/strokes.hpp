@@ -20,15 +20,15 @@ namespace clay::strokes {
 
 /// path: through fixed points. shape: leads the tool's surface along an outline, in passes that
 /// each take an equal part of the way that remains from the pot's surface. pull: two tools rise
-/// from the floor over the rim, wherever the rim is by then. lip: rounds the rim, from the outside
-/// over the top to the inside.
+/// from the floor over the rim, which rises with them. lip: rounds the rim, from the outside over
+/// the top to the inside.
 enum class StrokeKind { path, shape, pull, lip };
 
 /// One stroke, repeated. Before each pass the hand moves in straight lines to the script's start
 /// and on to the first point: both lines must be clear of the clay.
 struct Stroke {
   std::string name;  ///< of the step for a learner, such as "Open"
-  std::string hint;  ///< what a learner does in it, a sentence or two
+  std::string hint;  ///< instruction for a learner, one or two sentences
   StrokeKind kind = StrokeKind::path;
   /// path: a smooth curve through points (distance from the axis, height) in mm: at least two, no
   /// equal neighbours; pass k is shifted by k * step.

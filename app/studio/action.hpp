@@ -41,7 +41,7 @@ struct BeginLesson {
   std::size_t index = 0;  ///< index in samples()
   bool show = false;      ///< plays all strokes first
 };
-/// The user throws what was shown: from the start again.
+/// The user throws the steps that were shown, from the start.
 struct YourTurn {};
 struct NextStep {};
 /// Plays the stroke of the present step; StopShowing ends it.
@@ -119,7 +119,7 @@ struct EditExport {
 struct EditPicture {
   PictureFile file;
 };
-/// Writes what the open dialog, of files or of a picture, asks for. Asks first if it would replace
+/// Writes the files of the open dialog: an export or a picture. Asks first if it would replace
 /// files that are not of the last export, unless `replace`.
 struct WriteExport {
   bool replace = false;
@@ -213,7 +213,7 @@ struct TogglePanel {
   std::string_view id;
 };
 struct ToggleDiagnostics {};
-/// The keys go through the panels, from one column to the next, and back to the view.
+/// Moves the keyboard focus to the next column of panels, and from the last one back to the view.
 struct NextColumn {};
 struct FoldPanel {
   std::string_view id;

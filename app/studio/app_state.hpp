@@ -75,7 +75,8 @@ void update(AppState& state);
 // --- For actions and updates. --------------------------------------------------------------------
 /// Shows an error as a banner and logs it.
 void report(AppState& state, const Error& error);
-/// The same for a file that could not be opened. A recent file that is gone is offered no more.
+/// The same for a file that could not be opened. Removes a file that no longer exists from the
+/// recent files.
 void report_unopened(AppState& state, const std::filesystem::path& path, const Error& error);
 /// Reports the error, if there is one. Returns true on success.
 bool succeeded(AppState& state, const Result<void>& result);

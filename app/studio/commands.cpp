@@ -32,7 +32,7 @@ bool in_step(View view) {
 bool can_show_step(View view) { return in_step(view) && !view.stroke.has_device(); }
 bool has_work(View view) { return view.document.has_work(); }
 bool view_is_free(View view) { return !view.view_is_held(); }
-/// A panel that is out of sight takes room from the view.
+/// A panel that is not visible takes room from the view when it unfolds.
 bool can_unfold(View view) { return view.ui.context_shown || view_is_free(view); }
 bool can_look(View view) { return has_work(view) && view_is_free(view); }
 bool at_rest(View view) { return view.at_rest(); }
@@ -106,7 +106,7 @@ const char* why_no_pictures(View view) {
                                     : "a web page cannot write pictures; open the pot in the "
                                       "program for the desktop";
 }
-/// The frames of a page go on.
+/// A page has no command to quit: it runs until its tab is closed.
 bool can_quit(View) { return !kInPage; }
 const char* why_no_quit(View view) {
   return can_quit(view) ? nullptr : "a page ends when its tab is closed";

@@ -22,12 +22,12 @@ struct Command {
   Action action;
   bool (*enabled)(const ViewModel&);
   bool (*checked)(const ViewModel&) = nullptr;  ///< state of a command that toggles something
-  /// Why it is disabled now, for the end of a sentence; null: it is enabled, or
-  /// the view shows the reason.
+  /// Reason why it is disabled now, as the end of a sentence; null: it is enabled, or the view
+  /// shows the reason.
   const char* (*why_not)(const ViewModel&) = nullptr;
 };
 
-/// Title, keys, and why the command is disabled.
+/// Title, keys, and the reason why the command is disabled.
 [[nodiscard]] std::string tip_of(const Command& command, const ViewModel& model);
 
 /// In the order of the menus.

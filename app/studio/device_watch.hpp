@@ -34,7 +34,8 @@ class DeviceWatch {
   /// `look_again`.
   [[nodiscard]] std::unique_ptr<falcon::HapticDevice> take();
   void look_again();
-  /// Why a connected device cannot be used. Each problem is returned once; empty: nothing new.
+  /// Reason why a connected device cannot be used. Each problem is returned once; empty: no new
+  /// problem.
   [[nodiscard]] std::string take_problem();
 
  private:

@@ -32,7 +32,7 @@ bool open_desktop_dialog(AppState& state, FileDialog::Kind kind,
 }
 
 void close_dialog(AppState& state) {
-  state.ui.focus_column = true;  // if the keys were there before
+  state.ui.focus_column = true;  // if it had the keyboard focus before
   if (state.document.has_work())
     state.ui.dialog = NoDialog{};
   else
@@ -125,7 +125,8 @@ void Performer::operator()(const WriteExport& write) const {
 }
 
 void Performer::operator()(const CancelExport&) const {
-  // Both may be in writing: the dialog shows which one is meant.
+  // A picture and an export may be in progress at once: the open dialog decides which one is
+  // cancelled.
   const bool files = state.ui.shows<ExportDialog>() || !state.pictures.busy();
   if (files) return state.exporter.cancel();
   state.pictures.cancel();

@@ -47,7 +47,7 @@ class Document {
   Result<void> begin(const SceneSpec& scene, const Pot& pot);
   /// Continues a recovered work with its journal.
   void begin(history::Work work);
-  /// Why a crash would lose strokes; empty: it would not, or no journals are kept.
+  /// Reason why a crash would lose strokes; empty: it would lose none, or no journals are kept.
   [[nodiscard]] std::optional<Error> journal_problem() const;
   /// Tries to write the whole work into a new journal. Not during a stroke.
   void renew_journal();
@@ -60,7 +60,7 @@ class Document {
   /// A remark about a file that was read, such as a cut-off last line or its use by another window;
   /// empty: none.
   using Remark = std::string;
-  /// What a file of a scene, a pot or a work holds.
+  /// Contents of a file of a scene, a pot or a work.
   struct Opened {
     SceneSpec scene;
     history::Work work;
@@ -69,14 +69,14 @@ class Document {
   };
   static Result<Opened> read(const std::filesystem::path& path);
   Remark begin(Opened opened);
-  /// Both. On an error the document is unchanged.
+  /// Reads the file and begins with its contents. On an error the document is unchanged.
   Result<Remark> open(const std::filesystem::path& path);
   /// Writes .work, .pot.json or .pot.cbor. Only a .work saves the document and becomes its file.
   Result<void> save(const std::filesystem::path& path);
   /// Whether a file of that name exists that this document has neither read nor written last:
   /// another one, or its own if another program has changed it or has it open.
   [[nodiscard]] bool replaces_other(const std::filesystem::path& path) const;
-  /// Whether the path is that of the document's file, however it is spelled.
+  /// Whether the path is that of the document's file, in any spelling.
   [[nodiscard]] bool has_file(const std::filesystem::path& path) const;
   /// Whether another window has the file open.
   [[nodiscard]] bool file_in_use() const noexcept { return lock_ && lock_->in_use(); }
@@ -157,7 +157,7 @@ class Document {
 
   bool journals_ = false;
   bool changes_discarded_ = false;
-  std::optional<history::NodeId> pot_saved_at_;  ///< whose pot is in a pot file
+  std::optional<history::NodeId> pot_saved_at_;  ///< the node whose pot is in a pot file
   std::filesystem::path file_;
   FileStamp stamp_;                          ///< of file_, when it was read or written
   std::unique_ptr<history::FileLock> lock_;  ///< on file_, so that other windows see its use

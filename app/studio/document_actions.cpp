@@ -27,13 +27,14 @@ std::filesystem::path with_extension(std::filesystem::path path) {
   return path;
 }
 
-/// A page saves into its storage, whatever folder a file was opened from.
+/// A page saves into its storage, even if the file was opened from another folder.
 std::filesystem::path save_path(const Settings& settings, const std::filesystem::path& name) {
   const std::filesystem::path path = with_extension(name);
   return kInPage ? std::filesystem::path(settings.folder) / path.filename() : path;
 }
 
-/// A new work goes there. Names are shown with their folder, as for an export; a page has none.
+/// Folder of a new work. Names are shown with their folder, as for an export; in a page without a
+/// folder.
 std::filesystem::path save_folder(const Settings& settings) {
   const std::filesystem::path folder = settings.folder;
   return folder.empty() && !kInPage ? current_folder() : folder;
@@ -75,7 +76,7 @@ void Performer::operator()(const BeginWork& begin) const {
 void Performer::operator()(const BeginSample& sample) const {
   auto scene = scene_of(samples().at(sample.index));
   if (!scene) return;
-  // The session of the sample was thrown without them.
+  // The session of the sample was thrown without the options.
   if (scene->clay) scene->clay = history::with_all_options(*scene->clay);
   (*this)(BeginWork{*scene, nullptr, {}});
 }

@@ -13,7 +13,7 @@ namespace clay::studio {
 /// Duration of the animation, long enough to follow; a real fall takes a fifth of it.
 inline constexpr double kFallS = 1.2;
 
-/// Why a pot fell, as a clause for a sentence.
+/// Cause of a fall, as a clause of a sentence.
 [[nodiscard]] const char* fall_reason(const Collapse& fall) noexcept;
 
 class FallShow {

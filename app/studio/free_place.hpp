@@ -22,7 +22,7 @@ enum class Bore { open, covered };
 [[nodiscard]] glm::dvec2 free_place(const render::PotView& pot, const Tool& tool,
                                     glm::dvec2 place_mm, Bore bore = Bore::open);
 
-/// A wall that is led out over the foot stays this far within it [mm].
+/// A wall that is led outward keeps at least this distance from the edge of the foot [mm].
 inline constexpr double kFootSpareMm = 3.0;
 
 struct WallPlace {
@@ -39,8 +39,8 @@ struct WallPlace {
 [[nodiscard]] std::optional<WallPlace> wall_above(const render::PotView& pot, const Tool& tool,
                                                   double y_mm);
 
-/// How much farther apart two tools stand at a wall that leans than at an upright one: so far that
-/// they touch it along its way, and do not fold it [mm]. 0 without a wall at this height.
+/// Additional gap of two tools at a wall that leans, compared with an upright one [mm]: with it
+/// they touch the wall along its slope and do not fold it. 0 without a wall at this height.
 [[nodiscard]] double stand_off_mm(const render::PotView& pot, const Tool& tool, double y_mm);
 
 /// True if a place on the wheel is nearer to the bore than to the outside.

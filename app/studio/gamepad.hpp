@@ -1,5 +1,5 @@
 #pragma once
-// A gamepad with the layout of an Xbox controller: its state, and what its buttons do.
+// A gamepad with the layout of an Xbox controller: its state, and the effects of its buttons.
 
 #include <array>
 #include <cstddef>

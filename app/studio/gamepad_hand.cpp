@@ -22,7 +22,7 @@ double pulled(double trigger) {
   return std::clamp((trigger - kPressUntil) / (1.0 - kPressUntil), 0.0, 1.0);
 }
 
-/// Where the hand begins if the pointer is not over the view.
+/// Start of the hand if the pointer is not over the view.
 glm::dvec2 beside(const render::PotView& pot) {
   constexpr double kBesideMm = 30.0;
   return {render::extent_of(pot).radius_mm + kBesideMm, 0.5 * pot.height_mm};
@@ -34,7 +34,7 @@ bool GamepadHand::moving() const noexcept {
   return !at_rest(rate_of(pad_.left_stick)) || !at_rest(rate_of(pad_.right_stick));
 }
 
-/// Of the hand: in a pinch the second finger closes the gap.
+/// Strength of the hand: in a pinch, the left trigger closes the gap.
 double GamepadHand::strength() const noexcept {
   return pulled(pinching_ ? pad_.left_trigger : pad_.right_trigger);
 }
@@ -43,7 +43,7 @@ void GamepadHand::advance(AppState& state) {
   const double now_s = state.now_s();
   const double elapsed_s = std::clamp(now_s - last_s_, 0.0, kLongestFrameS);
   last_s_ = now_s;
-  if (pressing_ && !state.stroke.throwing()) pressing_ = false;  // something else has ended it
+  if (pressing_ && !state.stroke.throwing()) pressing_ = false;  // the stroke was ended elsewhere
   const bool usable = !name_.empty() && state.document.has_work() && state.ui.shows<NoDialog>();
   if (!usable) return end(state);
   if (!view_model(state).view_is_held())

@@ -8,7 +8,7 @@
 namespace clay::studio {
 namespace {
 
-bool devices_changed = false;  // GLFW calls back without a place for user data
+bool devices_changed = false;  // callbacks of GLFW have no pointer to user data
 
 static_assert(static_cast<int>(PadButton::left) == GLFW_GAMEPAD_BUTTON_DPAD_LEFT &&
               static_cast<int>(PadButton::back) == GLFW_GAMEPAD_BUTTON_BACK &&

@@ -106,7 +106,7 @@ void GlfwHost::key(int key, int scancode, int action, unsigned mods) {
   studio_->take(KeyChanged{key_, action != GLFW_RELEASE, action == GLFW_REPEAT, mods});
 }
 
-/// A question mark is the key ? wherever the layout has it.
+/// A question mark counts as the key ?, at any place of the layout.
 void GlfwHost::typed(char32_t character) {
   studio_->take(TextTyped{character});
   if (character != U'?' || key_ == GLFW_KEY_SLASH) return;

@@ -26,7 +26,7 @@ class Host {
   /// True if that clock runs in real time. Otherwise every run gives the same result: background
   /// jobs are waited for.
   [[nodiscard]] virtual bool real_time() const = 0;
-  /// True if the servo and the planner of the guide have threads of their own. Otherwise the servo
+  /// True if the servo and the planner of the guide run in separate threads. Otherwise the servo
   /// advances within each frame up to the time of the frame.
   [[nodiscard]] virtual bool threads() const { return real_time(); }
   /// Time of this frame on the same clock.

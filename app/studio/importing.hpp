@@ -30,13 +30,13 @@ struct ImportSettings {
 struct Imported {
   Pot pot;
   double drawn_mm3 = 0.0, axis_mm = 0.0;
-  std::vector<std::string> notes;  ///< what of the drawing was not used
+  std::vector<std::string> notes;  ///< parts of the drawing that were not used
 };
 /// Makes the same pot as `claystack import`. `name`: file name, for its extension and for errors.
 Result<Imported> import_drawing(const std::string& bytes, const std::string& name,
                                 const ImportSettings& settings);
 
-/// The card.
+/// State of the import dialog.
 struct ImportCard {
   std::filesystem::path path;
   std::string bytes;
@@ -44,7 +44,7 @@ struct ImportCard {
   // Of these settings.
   std::optional<Imported> made;
   render::PotView view;
-  std::string problem;  ///< why no pot was made
+  std::string problem;  ///< reason why no pot was made
 };
 /// Repeats the import after a change of settings.
 void reload(ImportCard& card);

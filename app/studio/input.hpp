@@ -21,7 +21,7 @@ enum class MouseButton { left, right, middle };
 
 struct PointerMoved {
   glm::vec2 place_px{0.0f};  ///< of the framebuffer, from its upper left corner
-  /// How hard a pen presses, 0 to 1; none: a mouse or a finger.
+  /// Pressure of a pen, 0 to 1; none: a mouse or a finger.
   std::optional<double> strength = std::nullopt;
 };
 struct ButtonChanged {
@@ -64,8 +64,8 @@ struct KeyChord {
 
 /// The key by the letter or sign that the user's layout prints on it, so that Ctrl+Z is at the Z of
 /// every keyboard. `key`: GLFW's code, which is that of a place on an American keyboard; `printed`:
-/// what the layout prints there, or empty. Keys of other signs keep their places. Enter, and + and
-/// - with Ctrl, are also on the number pad.
+/// the text that the layout prints there, or empty. Keys of other signs keep their places. Enter,
+/// and + and - with Ctrl, are also on the number pad.
 [[nodiscard]] int key_of_layout(int key, std::string_view printed, unsigned mods) noexcept;
 
 /// "Ctrl+Shift+Z"; empty for none.

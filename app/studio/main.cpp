@@ -74,14 +74,14 @@ Result<void> run_script(const StudioOptions& options, const LogLine& log) {
   return {};
 }
 
-/// Reported even where no window opens.
+/// Checked before the window opens, so that a missing file is reported even without a screen.
 Result<void> expect_file(const std::string& file) {
   std::error_code unknown;
   if (file.empty() || std::filesystem::exists(file, unknown) || unknown) return {};
   return failure(ErrorKind::io, file + ": cannot open: " + std::generic_category().message(ENOENT));
 }
 
-/// How long the picture was behind the mouse, and how many pictures there were.
+/// Logs the delay from a motion of the mouse to its picture, and the rate of frames.
 void log_motion(const FrameTimes& times, const LogLine& log) {
   const auto text = [](const Histogram& motion) {
     return fmt::format("median {:.1f} ms, 99 % {:.1f} ms, of {}",

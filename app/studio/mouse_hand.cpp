@@ -11,9 +11,9 @@ namespace {
 
 // Time constant of the hand. It turns sixty positions a second into one smooth motion.
 constexpr double kLagS = 0.025;
-// A wall that does not give way, as one at its minimum, stops the hand where the tool is this deep
-// in it, in the mean over the tool's height. A floor stops it when the tool is `kSunkMm` below its
-// surface. Clay that yields to a bite reaches neither limit.
+// A wall that does not give way, such as one at its minimum, stops the hand when the tool is this
+// deep in the wall, averaged over the tool's height. A floor stops it when the tool is `kSunkMm`
+// below its surface. Clay that yields to a bite reaches neither limit.
 constexpr double kDeepestMm = 0.3, kSunkMm = 1.0;
 // The rings make the area of a tool that slides along the clay uneven by less than this.
 constexpr double kUnevenMm2 = 0.2;
@@ -43,7 +43,7 @@ void MouseDevice::begin_at(const glm::dvec3& place_mm) noexcept {
 
 falcon::DeviceResult<void> MouseDevice::open() { return {}; }
 
-/// Where the tool would overlap the clay.
+/// Overlap of the tool with the clay at a place of the tool.
 MouseDevice::Overlap MouseDevice::overlap(const glm::dvec3& place_mm) const noexcept {
   const ClayStack& clay = *resistance_.clay;
   const Tool& tool = *resistance_.tool;
@@ -86,7 +86,7 @@ bool MouseDevice::sunk(const glm::dvec3& place_mm) const noexcept {
   return false;
 }
 
-/// The part of a step against which no wall and no floor stands firm.
+/// The part of a step that no wall and no floor blocks.
 glm::dvec3 MouseDevice::unstopped(const glm::dvec3& step_mm, const Overlap& now) const noexcept {
   glm::dvec3 way{0.0, step_mm.y, 0.0};
   if (step_mm.y < 0.0 && sunk(place_mm_)) way.y = 0.0;
@@ -122,7 +122,7 @@ glm::dvec3 MouseDevice::permitted(const glm::dvec3& step_mm, double step_s,
         now = then;
         return;
       }
-      // About in proportion to the way, if not quite.
+      // The growth is only about proportional to the way.
       part *= std::max(0.8 * unbitten_mm2_ / growth, kLeastOfWay);
     }
   };

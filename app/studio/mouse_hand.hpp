@@ -2,7 +2,7 @@
 // The mouse as a device without motors, in the frame of the wheel. The window sets a target for the
 // tool; a spring pulls the tool there, no faster than a hand, and into the clay no further in a
 // turn of the wheel than the bite of the hand, nor deeper than clay gives way. So the tool stops at
-// clay that is too much for the hand, or bends the wall; it never jumps through.
+// clay that is too hard for the hand, or bends the wall; it never jumps through the wall.
 
 #include "app/servo/clock.hpp"
 #include "claystack/engine/clay.hpp"
@@ -23,7 +23,7 @@ inline constexpr double kPressingMmPerS = 80.0, kReachingMmPerS = 400.0;
 struct MouseAim {
   glm::dvec3 place_mm{0.0};  ///< target of the tool, in the frame of the wheel
   double speed_mm_s = kPressingMmPerS;
-  double bite_mm = 0.0;  ///< how far the whole tool may dig in per turn of the wheel
+  double bite_mm = 0.0;  ///< maximum advance of the whole tool into clay per turn
 };
 
 /// The clay that resists the hand.
@@ -49,7 +49,7 @@ class MouseDevice final : public falcon::HapticDevice {
   /// The clay that the tool meets. Not while a servo runs; its clay and tool must outlive that
   /// servo.
   void meet(const Resistance& resistance) noexcept { resistance_ = resistance; }
-  /// How far the spring is stretched: from the tool to its target [mm]. For any thread.
+  /// Length of the spring, from the tool to its target [mm]. For any thread.
   [[nodiscard]] double stretch_mm() const noexcept {
     return stretch_mm_.load(std::memory_order_relaxed);
   }
@@ -73,8 +73,9 @@ class MouseDevice final : public falcon::HapticDevice {
                            .force_limit_n = 0.0,
                            .half_workspace_mm = glm::dvec3(1000.0),
                            .rate_hz = 1000.0};
-  /// Of tool and clay in the section: its area, and the integral of depth^2 / 2 over the height,
-  /// whose slope along a motion outward or inward is the clay against it.
+  /// Overlap of tool and clay in the section: its area, and the integral of depth^2 / 2 over the
+  /// height. The slope of that integral along a motion outward or inward measures the clay in the
+  /// way of the motion.
   struct Overlap {
     double area_mm2 = 0.0, energy_mm3 = 0.0;
   };
@@ -95,7 +96,7 @@ class MouseDevice final : public falcon::HapticDevice {
   Resistance resistance_;
   std::atomic<double> stretch_mm_{0.0};
   glm::dvec3 place_mm_{0.0};
-  double unbitten_mm2_ = 0.0;  // by which the bites so far let the overlap grow
+  double unbitten_mm2_ = 0.0;  // growth of the overlap that the bites so far still permit
   std::int64_t last_us_ = -1;  // of the last sample; below 0: none since begin_at
 };
 

@@ -43,7 +43,7 @@ std::string export_folder(const AppState& state) {
 void write_export(AppState& state, bool replace) {
   ExportState& exporting = state.ui.exporting;
   std::vector<std::string> standing = standing_files(exporting.choices);
-  // Those of the last export are the user's own, of this pot.
+  // Files of the last export may be replaced without a question: they belong to this work.
   std::erase_if(standing, [&](const std::string& path) {
     return std::ranges::find(exporting.written, path) != exporting.written.end();
   });
@@ -163,14 +163,14 @@ std::string result_text(const ExportFigures& figures, std::size_t count) {
   return figures.failed > 0 ? fmt::format("{}; {}", text, failed_text(figures.failed)) : text;
 }
 
-/// The library names its rings and a setting that the window does not have.
+/// The message of the library names rings and a setting that the window does not have.
 std::string problem_of(const Exporter::Outcome& outcome, LengthUnit unit) {
   const PotForm form = outcome.pot->collapse ? PotForm{} : form_of(outcome.pot->stack);
   if (!form.parting_mm) return outcome.done.error().message;
   return "The pot is " + parts_text(form, unit) + ". Only a pot in one part can be exported";
 }
 
-/// In its dialog, or as a banner if the user has closed that.
+/// Shows the outcome in its dialog, or as a banner if the user has closed the dialog.
 template <class Dialog>
 void show_failure(AppState& state, std::string message, std::string& problem) {
   if (!state.ui.shows<Dialog>()) return report(state, {ErrorKind::io, std::move(message)});
@@ -191,7 +191,7 @@ void take_files(AppState& state, Exporter::Outcome outcome) {
   }
   exporting.result = result_text(*outcome.done, outcome.paths.size());
   exporting.grade = outcome.done->failed > 0 ? Grade::warning : Grade::note;
-  // Files of another work are not this work's to replace.
+  // This work may not replace files of another work without a question.
   if (exporting.of_other_work)
     exporting.result = "Of the work before: " + exporting.result;
   else
@@ -222,7 +222,8 @@ void take_preview(AppState& state, Exporter::Outcome outcome) {
   state.log(fmt::format("export previewed: {} triangles", exporting.preview->triangles));
 }
 
-/// The choices that change the solid. A name changes some bytes of a file, not what is shown of it.
+/// The choices that change the solid. A name changes some bytes of a file, but not the figures on
+/// screen.
 ExportChoices solid_choices(ExportChoices choices) {
   choices.folder.clear();
   choices.name.clear();

@@ -77,7 +77,7 @@ struct Performer {
   void operator()(const DragStiffness&) const;
   void operator()(const TogglePause&) const;
   void operator()(const Rearm&) const;
-  /// Pressing Esc repeatedly never restores force.
+  /// Esc never restores force, even if pressed repeatedly.
   void operator()(const Back&) const;
   void operator()(const PressClay& press) const;
   void operator()(const AimTool& aim) const;

@@ -26,7 +26,7 @@ render::PotView shown_pot(const ViewModel& view) {
   return view.upside_down() ? render::turned(pot) : pot;
 }
 
-/// Where a press near this place begins.
+/// The start of a press near this place.
 glm::dvec2 free_in(const ViewModel& view, const Tool& tool, glm::dvec2 place_mm) {
   return free_place(shown_pot(view), tool, place_mm,
                     view.upside_down() ? Bore::covered : Bore::open);
@@ -131,7 +131,7 @@ void SceneView::press(const ViewModel& view, bool inverted, Actions& actions) {
 }
 
 /// A stroke on a moment of another one makes a branch. There, a press in the air waits until the
-/// pointer reaches the clay, so that a click makes none; a pinch finds its wall from the air.
+/// pointer reaches the clay, so that a click makes no branch; a pinch finds its wall from the air.
 void SceneView::approach(const ViewModel& view, glm::dvec2 pointed_mm, Actions& actions) {
   const bool waits = view.document.scrubbing() && !view.stroke.has_device() &&
                      view.settings.tool.mode != ToolMode::pinch;
@@ -192,8 +192,8 @@ bool SceneView::pinch_from(const ViewModel& view, const Tool& tool, glm::dvec2& 
 
 namespace {
 
-/// Two fingers follow the wall that they hold, go no lower than the floor, and carry on over the
-/// rim. A pointer beside the wall leans on it.
+/// Two fingers follow the wall that they hold, go no lower than the floor, and continue over the
+/// rim. A pointer beside the wall pulls them sideways.
 glm::dvec2 along_wall(const ViewModel& view, glm::dvec2 aim_mm) {
   constexpr double kLean = 0.35, kMostLeanMm = 4.0, kRimMm = 1.0;
   const auto tool = built(view.tool_in_use());
@@ -203,7 +203,7 @@ glm::dvec2 along_wall(const ViewModel& view, glm::dvec2 aim_mm) {
   aim_mm.y = std::max(aim_mm.y, floor_mm - tool->low());
   const auto wall = wall_at(pot, *tool, std::min(aim_mm.y, pot.height_mm - kRimMm));
   if (!wall) return aim_mm;
-  // The foot stands still: a wall that is led out over it tears off there.
+  // The foot does not move: a wall that is led outward beyond the foot tears off there.
   const double over_foot_mm = std::max(0.0, aim_mm.y - 2.0 * tool->high());
   const double most_mm = static_cast<double>(pot.rows.front().outer_mm) - 0.5 * wall->thickness_mm -
                          kFootSpareMm + over_foot_mm - wall->middle_mm;
@@ -292,8 +292,8 @@ std::optional<render::ToolView> SceneView::hovering_tool(const ViewModel& view,
       shown.gap_mm = std::max(*shown.gap_mm, wall->thickness_mm);
     }
   }
-  // A hand may go lower, but the wheel is seen to carry the tool. Needle and wire are shown where
-  // they cut.
+  // A hand may go lower, but the tool is shown on the wheel head. Needle and wire are shown at the
+  // level of their cut.
   if (!cuts_level(view.settings.tool.mode)) place.y = std::max(place.y, -tool.low());
   shown.place_mm = on_wheel(place);
   shown.inside = inside(pot, shown.place_mm);

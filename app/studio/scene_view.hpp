@@ -22,13 +22,13 @@ struct ViewRect {
   }
 };
 
-/// How a hand holds the tool.
+/// Grip of the hand on the tool.
 struct Grip {
   /// Of the press, 0 (soft) to 1 (firm): the bite, and in a pinch the part of the way that the
   /// fingers have closed. None: as in the settings.
   std::optional<double> strength = std::nullopt;
   bool inverted = false;  ///< trims instead of pressing, and the other way round
-  bool pinch = false;     ///< pinches, whatever the mode
+  bool pinch = false;     ///< pinches in any mode
 };
 
 class SceneView {
@@ -50,7 +50,7 @@ class SceneView {
   /// A stroke from a point (rho, y) [mm] of the section plane, and on to others.
   void shape_from(const ViewModel& view, glm::dvec2 pointed_mm, const Grip& grip, Actions& actions);
   void shape_to(const ViewModel& view, glm::dvec2 pointed_mm, const Grip& grip, Actions& actions);
-  /// Where such a stroke leads the tool.
+  /// Target of the tool in such a stroke, for a place of the pointer [mm].
   [[nodiscard]] glm::dvec2 target_mm(glm::dvec2 pointed_mm) const noexcept;
   /// Strength of the press in progress; none: as in the settings.
   [[nodiscard]] const std::optional<double>& strength() const noexcept { return strength_; }
@@ -61,7 +61,7 @@ class SceneView {
   [[nodiscard]] glm::vec2 pointer_px() const noexcept;
   /// Whether a panel that lies over the view is under the mouse. Call once a frame.
   void set_over_panel(bool over) noexcept { over_panel_ = over; }
-  /// Another hand than the mouse leads the pointer until the mouse moves.
+  /// Another device than the mouse sets the pointer until the mouse moves.
   void lead(glm::dvec2 place_mm) noexcept { led_mm_ = place_mm; }
   /// The nearest point of the section plane at which the tool does not touch the clay.
   [[nodiscard]] glm::dvec2 free_at(const ViewModel& view, glm::dvec2 place_mm) const;
@@ -73,8 +73,8 @@ class SceneView {
   /// pinch, which pulls the wall up, at least half of the pot's height. Not during a stroke,
   /// because the pointer would lead the tool elsewhere.
   void make_room(const render::PotView& pot, ToolMode mode);
-  /// Keeps in sight what was in sight of the pot before it changed: its whole, and the room above.
-  /// A part of the pot that the user has moved close to stays in the view.
+  /// After a change of the pot, keeps it in sight as far as it was before: the whole pot, and the
+  /// room above it. A part of the pot that the user has moved close to stays in the view.
   void follow(const render::PotView& pot, const render::Extent& before, ToolMode mode);
   void zoom(double notches) { camera_ = render::zoomed(camera_, notches, extent_); }
   /// To the right and up.
@@ -127,13 +127,13 @@ class SceneView {
   bool over_panel_ = false;
   std::optional<double> pen_;         // strength of the pen; none: a mouse
   std::optional<glm::dvec2> led_mm_;  // the place of another pointer
-  // Since the press: its strength, the offset from the pointer to the tool, and
+  // Of the press in progress: its strength, the offset from the pointer to the tool,
   std::optional<double> strength_;
   glm::dvec2 offset_mm_{0.0};
-  glm::dvec3 outward_{1.0, 0.0, 0.0};  // its plane: a view that turns does not turn the tool
+  glm::dvec3 outward_{1.0, 0.0, 0.0};  // and its plane: a turn of the view does not turn the tool
   std::optional<PinchedWall> pinched_;
   bool inverted_ = false;          // of the press that approaches the clay
-  glm::dvec2 air_mm_{0.0};         // where it was in the air last
+  glm::dvec2 air_mm_{0.0};         // last place of that press in the air
   ToolChoice tool_before_;         // value before a change
   double stiffness_before_ = 0.0;  // value before a change
   double turn_rad_ = 0.0, wheel_radius_mm_ = 0.0;

@@ -1,4 +1,4 @@
-// The camera of the view: where it stands, and where it shows a point.
+// The camera of the view: its place, and the pixel of a point.
 
 #include "app/studio/scene_view.hpp"
 
@@ -74,7 +74,7 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
 
 bool SceneView::shows(const render::Extent& pot, double above_mm) const noexcept {
   const auto rim = pixel_of({0.0, pot.height_mm + above_mm}), foot = pixel_of({0.0, 0.0});
-  // What is nearer than the section plane looks wider.
+  // Parts of the pot that are nearer than the section plane look wider.
   const double side_mm = 1.1 * pot.radius_mm;
   const auto left = pixel_of({-side_mm, 0.5 * pot.height_mm});
   const auto right = pixel_of({side_mm, 0.5 * pot.height_mm});

@@ -21,7 +21,8 @@ namespace {
 constexpr double kFrameS = 1.0 / 60.0;
 constexpr std::int64_t kFrameNs = 1'000'000'000 / 60;
 
-/// Of a command that ends with `over SECONDS` from this word on, or there.
+/// Duration of a command [s]: the command ends with `over SECONDS` from this word on, or has 0 s if
+/// it ends before.
 double over_s(const std::vector<std::string>& words, std::size_t from) {
   return words.size() > from ? *number_of(words[from + 1]) : 0.0;
 }

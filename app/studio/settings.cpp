@@ -174,7 +174,7 @@ Result<void> write_to(const std::filesystem::path& path, std::string_view text) 
   return publish(path, text);
 }
 
-/// What another window has saved; empty if nothing that can be read.
+/// The settings that another window has saved; empty if they cannot be read.
 std::optional<std::string> saved_by_others(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;

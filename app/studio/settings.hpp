@@ -19,7 +19,7 @@ namespace clay::studio {
 inline constexpr double kSlowestHandMmPerS = 10.0, kFastestHandMmPerS = 200.0;
 /// Stiffness of the contact [N/mm^2].
 inline constexpr double kSoftestClay = 1e-4, kStiffestClay = 10.0;
-/// How far the mouse digs the tool into the clay per turn of the wheel at most [mm].
+/// Maximum advance of the tool into the clay per turn of the wheel, with the mouse [mm].
 inline constexpr double kSoftestBiteMm = 0.5, kFirmestBiteMm = 20.0, kUsualBiteMm = 8.0;
 /// The bite of a press of this strength, 0 (soft) to 1 (firm).
 [[nodiscard]] double bite_at(double strength) noexcept;
@@ -91,12 +91,12 @@ class ForThisWindow {
 };
 
 /// Saves settings soon after they change, so that a window that is killed loses only the changes of
-/// its last second. A window saves only what it has changed itself: several may be open.
+/// its last second. A window saves only its own changes, because several may be open.
 class SettingsFile {
  public:
   /// Saves nothing.
   SettingsFile() = default;
-  /// `stored`: what the file holds, or would hold if it existed.
+  /// `stored`: the settings in the file, or the defaults if there is no file.
   SettingsFile(std::filesystem::path path, const Settings& stored);
   /// `window`: the settings with the theme and the scale of the command line.
   SettingsFile(std::filesystem::path path, const Settings& stored, const Settings& window);

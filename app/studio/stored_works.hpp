@@ -1,5 +1,5 @@
 #pragma once
-// The works in the folder into which the window saves; in a page, all works that the browser keeps.
+// The works in the folder of saved files; in a page, all works that the browser keeps.
 
 #include "claystack/core/result.hpp"
 
@@ -18,7 +18,7 @@ struct StoredWork {
 
 /// Newest first. A folder that cannot be read holds none.
 [[nodiscard]] std::vector<StoredWork> stored_works(const std::filesystem::path& folder);
-/// Refuses (`io`) while another window has it open. A file that is already gone is no error.
+/// Refuses (`io`) while another window has it open. A file that no longer exists is no error.
 Result<void> delete_work(const std::filesystem::path& path);
 
 }  // namespace clay::studio

@@ -25,8 +25,8 @@ render::PotView view_of(const servo::LiveProfile& profile) {
   return view;
 }
 
-/// The scene with its contact stiffness limited to what the device can render at this rate. This
-/// does not change the clay, so the work records the scene as the user has set it.
+/// The scene with its contact stiffness limited to the largest that the device can render at this
+/// rate. This does not change the clay, so the work records the scene as the user has set it.
 Result<SceneSpec> felt_scene(SceneSpec scene, const falcon::HapticDevice& device,
                              const servo::LiveSettings& settings) {
   if (!device.info().can_push) return scene;
@@ -125,7 +125,7 @@ void StrokeController::release() {
   news_.ring_limit = status_.ring_limit;
   servo_ = {servo::LiveMeasures::timing(*live_), servo::LiveMeasures::events(*live_),
             live_->realtime()};
-  // Where poses are missing, the pot is what the recorded ones replay to.
+  // If poses are missing, the pot is the replay of the recorded ones.
   std::optional<Pot> thrown;
   if (auto kept = live_->finish_recording(); !kept)
     news_.error = kept.error();
@@ -189,7 +189,7 @@ void StrokeController::lose_device() {
 void StrokeController::hold(const ToolSpec& tool, double wheel_rpm) {
   if (!device_ || !document_.has_work()) return;
   const SceneSpec scene = document_.scene_with(tool, wheel_rpm);
-  // The stiffness is changed in the scene of the document.
+  // Changes of the stiffness are in the scene of the document.
   const bool felt = !throwing() || scene.force == force_;
   if (felt && scene == document_.scene()) return;
   release();

@@ -25,7 +25,7 @@ struct StrokeNews {
   render::Extent before;    ///< of the pot, before that stroke
   bool ring_limit = false;  ///< there is clay above the rim
   bool device_lost = false;
-  std::string nothing_cut;  ///< why a needle or a wire went into the clay and cut nothing
+  std::string nothing_cut;  ///< reason why a needle or wire in the clay cut nothing
   std::optional<Error> error;
 };
 
@@ -78,9 +78,10 @@ class StrokeController {
   [[nodiscard]] bool by_hand() const noexcept { return throwing() && !has_device(); }
   /// The tool has touched the clay in the stroke in progress.
   [[nodiscard]] bool touched() const noexcept { return throwing() && touched_; }
-  /// It has, and has been off the clay since for longer than history::kFreeAirS.
+  /// The tool has touched the clay in this stroke, and has been off it for longer than
+  /// history::kFreeAirS since.
   [[nodiscard]] bool has_left_clay() const noexcept;
-  /// How hard the mouse pulls the tool: the distance from the tool to its target [mm].
+  /// Pull of the mouse: the distance from the tool to its target [mm].
   [[nodiscard]] double stretch_mm() const noexcept { return live_ ? mouse_.stretch_mm() : 0.0; }
 
   // --- Devices. ----------------------------------------------------------------------------------
@@ -90,7 +91,8 @@ class StrokeController {
   [[nodiscard]] bool has_device() const noexcept { return device_ != nullptr; }
   /// The device can exert force.
   [[nodiscard]] bool has_motors() const noexcept { return device_ && device_->info().can_push; }
-  /// Sets the tool of the device from the next frame on, and lets it feel a changed stiffness.
+  /// Sets the tool of the device from the next frame on, and applies a changed stiffness to its
+  /// force.
   void hold(const ToolSpec& tool, double wheel_rpm);
   [[nodiscard]] std::string device_name() const {
     return device_ ? device_->info().name : mouse_.info().name;
@@ -138,19 +140,19 @@ class StrokeController {
   bool device_waits_ = false;  // it begins a stroke as soon as possible
   servo::TickTrace trace_;
   std::optional<Wheel> wheel_;            // of the stroke in progress
-  std::optional<servo::LiveThrow> live_;  // the same
-  ThrowSettings felt_;                    // the same; the device may render less than `force_`
+  std::optional<servo::LiveThrow> live_;  // of the same stroke
+  ThrowSettings felt_;                    // of the same stroke; may be softer than `force_`
   std::optional<ForceSpec> force_;        // of the work's scene
   servo::LiveStatus status_;
   ServoRecord servo_;
   bool touched_ = false;         // the clay, in this stroke
-  std::int64_t contact_ns_ = 0;  // time of the last frame in which it did
+  std::int64_t contact_ns_ = 0;  // time of the last frame with contact
   render::PotView view_;         // during a stroke
   render::Extent begun_;         // of the pot at its start
   double crown_mm_ = 0.0;
   StrokeNews news_;
   double resisting_rpm_ = 0.0;  // speed of the wheel whose clay resists the mouse; 0: none does
-  double gap_mm_ = 0.0, closed_gap_mm_ = 0.0;  // of a pinch of the mouse: now, and where it goes
+  double gap_mm_ = 0.0, closed_gap_mm_ = 0.0;  // of a pinch of the mouse: current, final
   std::int64_t last_ns_ = 0;                   // time of the previous frame
   std::int64_t measured_ns_ = 0;
   std::uint64_t measured_ticks_ = 0;

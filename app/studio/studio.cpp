@@ -104,7 +104,7 @@ bool Studio::frame(Painting painting) {
   if (!moving()) times_.last_ns = 0;
   state_.readings.update(state_.document, state_.stroke, wanted_of(state_.settings, state_.ui),
                          now_ns, state_.log);
-  // ImGui must process each input; the slow painting follows once for all of them. A closed window
+  // ImGui must process each input; the slow painting follows once for all inputs. A closed window
   // remains under the mouse for two more ImGui frames.
   do {
     const int passes = input_.empty() ? 1 : kFramesAfterInput;

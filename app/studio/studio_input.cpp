@@ -82,7 +82,7 @@ void connect_imgui(Host& host) {
 }
 
 /// A button or key changes at most once per frame, and a button only after the pointer has been at
-/// its place for a frame, so that ImGui registers every click, however short.
+/// its place for a frame, so that ImGui registers every click, even a short one.
 void Studio::handle_input() {
   bool moved = false, pressed = false;
   while (!input_.empty()) {
@@ -188,13 +188,13 @@ int Studio::key_that_chooses() const {
   return enter ? GLFW_KEY_ENTER : GLFW_KEY_SPACE;
 }
 
-/// Arrows, Enter and Space move and choose in menus, dialogs and, after F6, panels, and do nothing
-/// else there. Over the clay the keys are those of the commands. In a dialog Enter is the key of
-/// its default button.
+/// Arrows, Enter and Space move and choose in menus, dialogs and, after F6, panels, and have no
+/// other effect there. Over the clay these keys run commands. In a dialog Enter is the key of its
+/// default button.
 void Studio::let_keys_navigate() {
   ImGuiIO& io = ImGui::GetIO();
   const bool menu = menu_open();
-  // A dialog with one text field has the keys in that from the start.
+  // In a dialog with one text field, the field has the keyboard focus from the start.
   const bool typing = state_.ui.shows<OpenDialog>() || state_.ui.shows<SaveDialog>();
   if (menu || (state_.ui.shows<NoDialog>() ? state_.ui.keys_in.has_value() : !typing))
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;

@@ -19,8 +19,8 @@ struct Palette {
   ImVec4 clay;     ///< cut face of the section
 };
 [[nodiscard]] const Palette& palette(Theme theme);
-/// Black or white, whichever is easier to read on `face`; if that is translucent, on the background
-/// of the theme below it.
+/// The colour, black or white, that is easier to read on `face`; if `face` is translucent, on the
+/// background of the theme below it.
 [[nodiscard]] ImVec4 ink_on(const ImVec4& face);
 
 inline constexpr float kSmallestScale = 0.5f, kLargestScale = 3.0f;

@@ -87,7 +87,7 @@ void Performer::operator()(const Back&) const {
 void Performer::operator()(const PressClay& press) const {
   if (succeeded(state, state.stroke.press(press.press))) return state.log("stroke started");
   state.scene.stop_shaping();
-  if (state.document.fallen())  // the answer says so
+  if (state.document.fallen())  // the answer reports it
     state.ui.notices.keep_answer_while([](const Document& document) { return document.fallen(); });
 }
 

@@ -27,7 +27,7 @@ inline constexpr double kSmallestToolMm = 0.5, kLargestToolMm = 60.0;
 inline constexpr double kNarrowestGapMm = 0.5, kWidestPinchMm = 40.0;
 inline constexpr double kLeastGapShare = 0.3, kMostGapShare = 0.95;
 
-/// How the window names a mode.
+/// Name of a mode in the window.
 [[nodiscard]] const char* name_of(ToolMode mode) noexcept;
 
 /// The tool for a scene. A needle and a wire are as thin as tools can be. `inverted`: press instead

@@ -100,7 +100,7 @@ struct SaveDialog {
 /// Asks whether to replace files.
 struct ReplaceDialog {
   std::string question;
-  std::optional<SaveDialog> save;  ///< what is asked for; empty: the export
+  std::optional<SaveDialog> save;  ///< the save that would replace a file; empty: the export
   bool picture = false;            ///< the export is that of a picture
 };
 /// Asks whether to delete a work: an unsaved one that a crash has left, or a file.
@@ -134,7 +134,7 @@ using Dialog = std::variant<NoDialog, GalleryDialog, ShortcutsDialog, UnsavedDia
 struct ExportState {
   ExportChoices choices;
   std::optional<ExportFigures> preview{};
-  std::string problem{};               ///< why there is no preview, or no file
+  std::string problem{};               ///< reason why there is no preview, or no file
   bool refused = false;                ///< the preview has failed, and so would the export
   bool of_other_work = false;          ///< the files in writing: another work is on the wheel now
   std::vector<std::string> written{};  ///< files of the last export
@@ -184,8 +184,8 @@ struct UiState {
   std::optional<std::size_t> open_menu;  ///< index of a menu to open in this frame
   bool restyle = true;                   ///< theme or scale has changed
   bool context_shown = true;             ///< the column of the context has room in this frame
-  std::optional<Column> keys_in;         ///< the keys go through this column; empty: the view
-  bool focus_column = false;             ///< they go there from this frame on
+  std::optional<Column> keys_in;         ///< column with the keyboard focus; empty: the view
+  bool focus_column = false;             ///< the focus moves there in this frame
 
   template <class D>
   [[nodiscard]] bool shows() const noexcept {

@@ -102,7 +102,7 @@ void update_strokes(AppState& state) {
                           "clay cannot rise above the rim.");
 }
 
-/// A stroke of a device has no end of its own. In a lesson it ends when the tool leaves the clay,
+/// A stroke of a device does not end by itself. In a lesson it ends when the tool leaves the clay,
 /// and the next one is planned. The window cannot lead a tool that a hand holds.
 void guide_device(AppState& state) {
   if (!state.stroke.has_device()) return;

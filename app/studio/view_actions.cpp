@@ -77,7 +77,7 @@ void Performer::operator()(const SetScale& set) const {
 
 void Performer::show_context() const {
   if (state.ui.context_shown) return;
-  state.settings.open[kDiagnostics] = false;  // they are in its place
+  state.settings.open[kDiagnostics] = false;  // the diagnostics are in the place of the context
   state.settings.open[kBelow] = true;
 }
 

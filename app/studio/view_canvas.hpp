@@ -1,5 +1,5 @@
 #pragma once
-// The picture of the view in a canvas of its own, because the painter fills its whole target.
+// The picture of the view in a separate canvas, because the painter fills its whole target.
 
 #include "app/render/edge_smoother.hpp"
 #include "app/render/gl_objects.hpp"
@@ -34,7 +34,7 @@ class Quality {
     return static_cast<int>(
         std::clamp(std::ceil(sample_s_ * samples / kPartS), 1.0, double{kMostFrames}));
   }
-  /// Reports the drawing time of a frame of a changing view, and how many samples it has.
+  /// Reports the drawing time of a frame of a changing view, and its number of samples.
   void took(double seconds, double samples) noexcept {
     sample_s_ = seconds / samples;
     if (frames_ < 2) return begin(seconds);

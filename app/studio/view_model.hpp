@@ -41,7 +41,8 @@ struct ViewModel {
   /// True if there is no stroke, or a stroke of a device, which may be ended at any time.
   [[nodiscard]] bool between_strokes() const { return at_rest() || stroke.has_device(); }
   /// The mouse or the gamepad leads the tool through the view, which must stand still meanwhile:
-  /// seen from elsewhere, the pointer would mean another place, and pull the tool there.
+  /// from another viewpoint, the pointer would be at another place of the section plane, and pull
+  /// the tool there.
   [[nodiscard]] bool view_is_held() const {
     return stroke.by_hand() && guide.demonstration() == Demonstration::none;
   }

@@ -47,8 +47,8 @@ struct Exporter::State {
     if (writes(running) || writes(next) || writes(outcome)) return Kind::files;
     return running || next ? std::optional(Kind::preview) : std::nullopt;
   }
-  /// A preview neither cancels a job that writes files nor drops its outcome. One that takes long
-  /// is cancelled by the next job: the worker that replaces it starts in less time.
+  /// A preview neither cancels a job that writes files nor drops its outcome. The next job cancels
+  /// a preview that takes long, because a new worker starts in less time.
   void put(Job job) {
     constexpr double kLongMs = 500.0;
     if (job.kind == Kind::preview && at_work() == Kind::files) return;

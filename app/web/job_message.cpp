@@ -14,8 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-// The members of each class, for both directions. The binding names all of them: a member that is
-// missing here is an error of the compiler.
+// The members of each class, for both directions. The binding names all of them: if a member is
+// missing here, the program does not compile.
 template <class Of, class As>
 concept Like = std::is_same_v<std::remove_const_t<Of>, As>;
 

@@ -1,5 +1,5 @@
 // Replaces the planner of app/studio/guide in a page: it asks the worker. A plan throws a whole
-// step and would hold the picture for a time.
+// step, which would stop the picture for a time.
 
 #include "app/studio/guide/lesson_planner.hpp"
 

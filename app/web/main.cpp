@@ -73,13 +73,14 @@ bool create_context() {
   emscripten_webgl_init_context_attributes(&wish);
   wish.majorVersion = 2;
   wish.alpha = wish.antialias = wish.depth = wish.stencil = false;
-  // Otherwise the first draw call of a frame clears what a blit has put there before it.
+  // Otherwise the first draw call of a frame clears the pixels of an earlier blit.
   wish.preserveDrawingBuffer = true;
   const auto context = emscripten_webgl_create_context(kCanvas, &wish);
   return context > 0 && emscripten_webgl_make_context_current(context) == EMSCRIPTEN_RESULT_SUCCESS;
 }
 
-/// The page keeps works that were saved; other files that were opened only until it is closed.
+/// Removes files that no longer exist from the settings. The page keeps saved works; it keeps other
+/// opened files only until it is closed.
 void forget_missing(studio::Settings& settings) {
   const auto missing = [](const std::string& path) {
     std::error_code ignored;
@@ -108,7 +109,7 @@ void begin(bool light, bool fingers) {
     state.settings_file = studio::SettingsFile(studio::settings_path(), state.settings);
   state.document.keep_journals();
   state.devices = std::make_unique<studio::DeviceWatch>(look_for_hid(host->clock()));
-  // Where another tab stores the works, they are that tab's, and in use.
+  // If another tab stores the works, they are in use there.
   if (page_stores()) state.recoverable = history::recoverable();
   if (!loaded.note.empty()) state.ui.notices.show(studio::Grade::warning, loaded.note);
   if (!state.recoverable.empty())
@@ -135,7 +136,8 @@ EMSCRIPTEN_KEEPALIVE bool claystack_frame(double page_ms) {
   if (frames_wanted > 0) --frames_wanted;
   return frames_wanted > 0 || window->wakeful();
 }
-/// The browser prefers another theme now: the window follows, unless its user has chosen one.
+/// The browser's preferred theme has changed: the window uses it, unless the user has chosen a
+/// theme.
 EMSCRIPTEN_KEEPALIVE void claystack_prefers(bool light) {
   if (!window || window->state().settings.theme_chosen) return;
   window->state().settings.theme = theme_of(light);

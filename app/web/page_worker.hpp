@@ -1,6 +1,6 @@
 #pragma once
-// A worker of the page: it has its own copy of the module `claystack`, so the picture goes on while
-// it works. Messages: job_message.hpp.
+// A worker of the page: it has its own copy of the module `claystack`, so the picture does not stop
+// while it works. Messages: job_message.hpp.
 
 #include <array>
 #include <optional>

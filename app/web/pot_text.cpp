@@ -60,7 +60,7 @@ void add_clay(Report& report, const studio::ClayAccount& account) {
   report.row("Unaccounted for", account.unaccounted);
 }
 
-/// What to do in the present step of a lesson; empty without one.
+/// Instruction for the present step of a lesson; empty without a lesson.
 std::string step_text(const studio::Guide& guide) {
   if (!guide.active()) return {};
   if (guide.finished()) return "The lesson is done";

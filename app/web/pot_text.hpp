@@ -9,7 +9,7 @@
 namespace clay::web {
 
 /// The notice that is shown, or the main figures and the verdict, in one sentence or two. Empty
-/// optional: during a stroke, a demonstration or a check; the text would change at once.
+/// optional: a stroke, a demonstration or a check is in progress, so the text would soon change.
 [[nodiscard]] std::optional<std::string> summary_of(const studio::AppState& state);
 
 /// The figures of the panels, one a line: pot, walls, proof, clay.

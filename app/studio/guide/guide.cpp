@@ -93,7 +93,7 @@ void Guide::receive(LessonPlan plan) {
 
 void Guide::update(const Document& document, const StrokeController& stroke) {
   if (!active() || !document.has_work()) return;
-  // A device holds the tool off the clay between what is shaped.
+  // A stroke of a device contains times in which the tool is off the clay.
   if (stroke.by_hand() || stroke.touched()) {
     shown_ = shown_ || demonstration_ == Demonstration::all;
     if (finished() || !plan_ || plan_->path.empty() || stroke.view() == seen_) return;

@@ -1,6 +1,6 @@
 #pragma once
-// The guide through the steps of a sample: the present step, the path to follow, and when the clay
-// is there. It can play the strokes itself.
+// The guide through the steps of a sample: the present step, the path to follow, and the end of the
+// step. It can play the strokes itself.
 
 #include "app/studio/document.hpp"
 #include "app/studio/guide/lesson_planner.hpp"
@@ -15,7 +15,7 @@
 
 namespace clay::studio {
 
-/// How far the hand may be from the path [mm].
+/// Maximum distance of the hand from the path [mm].
 inline constexpr double kPathToleranceMm = 4.0;
 
 enum class Demonstration { none, step, all };
@@ -37,7 +37,7 @@ class Guide {
   void demonstrate(Demonstration what) { demonstration_ = what; }
 
   /// Once a frame. While the tool is off the clay, the next stroke is planned, and a step ends when
-  /// the clay is there.
+  /// the clay has its result.
   void update(const Document& document, const StrokeController& stroke);
 
   [[nodiscard]] bool active() const noexcept { return script_ != nullptr; }
@@ -59,7 +59,7 @@ class Guide {
   [[nodiscard]] const LessonPlan* plan() const noexcept { return plan_ ? &*plan_ : nullptr; }
   /// Number of the plan, so that a reader notices a new one; 0: none yet.
   [[nodiscard]] std::size_t plan_number() const noexcept { return plan_number_; }
-  /// How far the clay has come in this step, from 0 to 1.
+  /// Progress of the clay in this step, from 0 to 1.
   [[nodiscard]] double progress() const noexcept { return progress_; }
   [[nodiscard]] Demonstration demonstration() const noexcept { return demonstration_; }
   /// Whether the window, not the user, has thrown the pot.

@@ -73,8 +73,9 @@ void keep_clear_of_bore(strokes::Stroke& stroke, const render::PotView& pot) {
   }
 }
 
-/// The foot stands still while a wall is pulled: a wall that is led out over it tears off there.
-/// The pull begins within the foot of the learner's pot and reaches the sample's line further up.
+/// The foot does not move while a wall is pulled: a wall that is led outward beyond the foot tears
+/// off there. The pull begins within the foot of the learner's pot and reaches the sample's line
+/// further up.
 void begin_within_foot(strokes::Stroke& stroke, const render::PotView& pot) {
   constexpr double kFreeShare = 0.3;
   if (stroke.outline_in_mm || stroke.outline.front().y >= kFreeShare || pot.rows.empty()) return;
@@ -100,7 +101,7 @@ LessonPlan plan_step(const LessonQuestion& question) {
   strokes::StrokeScript script = *question.script;
   strokes::Stroke& stroke = script.strokes.at(question.step);
   stroke.passes = std::max(1, question.passes_left);
-  // A sponge rounds a lip and cuts nothing, however a learner holds it.
+  // A sponge rounds a lip and cuts nothing, at any place where a learner holds it.
   plan.mode = stroke.kind == strokes::StrokeKind::lip ? ToolMode::smooth
               : stroke.trim                           ? ToolMode::trim
                                                       : ToolMode::press;

@@ -1,6 +1,7 @@
 #pragma once
-// The steps of a sample as a lesson: where the hand goes in the next stroke on the present pot, and
-// how far the clay still is from the result. Plain values that any thread can compute.
+// The steps of a sample as a lesson: the path of the hand in the next stroke on the present pot,
+// and the remaining difference of the clay from the result. Plain values that any thread can
+// compute.
 
 #include "app/history/work.hpp"
 #include "app/render/picture.hpp"
@@ -19,7 +20,8 @@ namespace clay::studio {
 /// The area [mm^2] that belongs to one of two half-sections and not to the other.
 [[nodiscard]] double difference_mm2(const render::PotView& a, const render::PotView& b);
 
-/// The same of the walls alone, wherever they are: the difference of their widths at every height.
+/// The same for the widths of the walls, at any radius: the difference of the widths at every
+/// height.
 [[nodiscard]] double width_difference_mm2(const render::PotView& a, const render::PotView& b);
 
 struct LessonQuestion {
@@ -47,10 +49,10 @@ struct LessonPlan {
   std::vector<PathPoint> path;  ///< empty: the tool would not touch the clay
   render::PotView after;        ///< the pot after all passes that are left
   double left_mm2 = 0.0;        ///< difference of the pot from that, see `left_from`
-  std::string problem;          ///< why there is no plan; then the path is empty
+  std::string problem;          ///< reason why there is no plan; then the path is empty
 
-  /// How far a pot is from the result: a pull should make the wall thinner and taller, in any
-  /// place; all other strokes move it.
+  /// Difference of a pot from the result [mm^2]. A pull should make the wall thinner and taller, at
+  /// any radius, so only widths count; all other strokes move the wall.
   [[nodiscard]] double left_from(const render::PotView& pot) const {
     return mode == ToolMode::pinch ? width_difference_mm2(pot, after) : difference_mm2(pot, after);
   }

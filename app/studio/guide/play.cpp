@@ -11,7 +11,7 @@ constexpr double kPace = 0.8;      // of an experienced hand
 constexpr double kReadS = 1.2;     // before the first stroke of a step
 constexpr double kCloseS = 0.8;    // two fingers close on the wall before they rise
 constexpr double kFarMm = 3.0;     // the hand waits for a tool that is further behind
-constexpr double kSettleS = 0.15;  // the tool arrives where the path ends
+constexpr double kSettleS = 0.15;  // time for the tool to arrive at the end of the path
 
 glm::dvec2 place_at(const LessonPlan& plan, double time_s) {
   const auto next =

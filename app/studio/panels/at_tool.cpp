@@ -1,4 +1,4 @@
-// Over the view: figures at the tool, how hard the hand pulls, the floor to keep, and the veil of a
+// Over the view: figures at the tool, the pull of the hand, the floor to keep, and the veil of a
 // pause.
 
 #include "app/studio/panels/at_tool.hpp"

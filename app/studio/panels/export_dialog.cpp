@@ -232,7 +232,7 @@ void draw_figures(const ViewModel& model, const ExportFigures& figures) {
                           length_text(figures.moved_at_mm, unit)));
 }
 
-/// Progress, problems and figures, or why there are none.
+/// Progress, problems and figures, or the reason why there are none.
 void draw_preview(const ViewModel& model) {
   const ExportState& exporting = model.ui.exporting;
   const bool running = model.export_running.has_value();
@@ -260,7 +260,7 @@ std::string replaced_text(const ExportChoices& choices) {
          " will be replaced";
 }
 
-/// The outcome, or why no export is possible, or what it would do.
+/// The outcome, or the reason why no export is possible, or its preview.
 void draw_outcome(const ViewModel& model) {
   const ExportState& exporting = model.ui.exporting;
   const Palette& colours = model.colours();

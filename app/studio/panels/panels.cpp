@@ -61,7 +61,7 @@ bool draw_header(const Panel& panel, const ViewModel& model) {
   return shown;
 }
 
-/// Scrolls as little as shows the content from this corner to the cursor.
+/// Scrolls by the minimum that shows the content from this corner to the cursor.
 void scroll_to(ImVec2 corner) {
   const ImVec2 end(corner.x, ImGui::GetCursorScreenPos().y);
   ImGui::ScrollToRect(ImGui::GetCurrentWindow(), ImRect(corner, end),
@@ -293,8 +293,8 @@ void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size
 
 namespace {
 
-/// Whether it appeared while the present dialog was open, such as the error of a save. It belongs
-/// over the veil then.
+/// Whether the notice appeared while the present dialog was open, such as the error of a save. Then
+/// it is drawn over the veil.
 bool answers_dialog(const ViewModel& model, const Notice& notice) {
   const std::size_t dialog = model.ui.dialog.index();
   return !model.ui.shows<NoDialog>() && notice.dialog.value_or(dialog) == dialog &&

@@ -15,7 +15,7 @@ namespace clay::studio {
 /// Key of the drawer in Settings::open.
 inline constexpr const char* kDiagnostics = "diagnostics";
 [[nodiscard]] bool diagnostics_open(const Settings& settings);
-/// Key in Settings::open: whether a window without room beside the view has the context below it.
+/// Key in Settings::open: whether a window without room beside the view shows the context below it.
 inline constexpr const char* kBelow = "below";
 [[nodiscard]] bool below_open(const Settings& settings);
 [[nodiscard]] bool in_diagnostics(std::string_view id);
@@ -40,18 +40,18 @@ float draw_menu(const ViewModel& model, Actions& actions);
 void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size_px);
 void draw_banners(const ViewModel& model, Actions& actions, const ViewRect& rect, float top_px);
 void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect);
-/// Draws over the view: figures at the tool, above `bottom_px`, how hard the hand pulls, and the
-/// floor to keep.
+/// Draws over the view: figures at the tool, above `bottom_px`, the pull of the hand, and the floor
+/// to keep.
 void draw_at_tool(const ViewModel& model, const ViewRect& rect, float bottom_px);
 /// A veil over the view while the wheel is paused.
 void draw_pause(const ViewModel& model, const ViewRect& rect);
-/// The step of the lesson, and what to do in it.
+/// The step of the lesson, and its instruction.
 void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect);
 /// Of its card in the last frame, with the space below it [px]; 0: it was not shown.
 [[nodiscard]] float guide_height();
 /// Draws over the view: the path to follow in the present step.
 void draw_path(const ViewModel& model, const ViewRect& rect);
-/// Whether the pot is ready to print, or why not; empty: there is no pot, or no check yet.
+/// "Ready to print", or the reason why the pot is not; empty: there is no pot, or no check yet.
 [[nodiscard]] std::string verdict_text(const Document& document, const Readings& readings,
                                        LengthUnit unit);
 /// The same at the top of the view. Returns its lower edge.

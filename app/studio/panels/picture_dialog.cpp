@@ -72,7 +72,7 @@ void draw_frames(PictureFile& file) {
   ImGui::SliderInt("##frames", &file.look.frames, kFewestFrames, kMostShownFrames, "%d", kSlider);
 }
 
-/// The result, or what the picture will show, in a place of fixed height.
+/// The result, or a description of the picture, in a place of fixed height.
 void draw_state(const ViewModel& model) {
   const PictureState& pictures = model.ui.pictures;
   const Palette& colours = model.colours();

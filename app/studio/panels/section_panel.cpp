@@ -57,7 +57,7 @@ ImU32 colour_at(const PotCheck* check, double y_mm, const ImVec4& clay) {
   return IM_COL32(swatch.red, swatch.green, swatch.blue, 255);
 }
 
-/// How near a row is to the target.
+/// Colour for the distance of a row from the target.
 ImU32 match_at(const OffTarget& off, double part, const Palette& colours) {
   const double rows = static_cast<double>(off.rows_mm.size());
   const double mm = static_cast<double>(
@@ -217,7 +217,7 @@ void draw_match_legend(const Palette& colours, LengthUnit unit) {
 }
 
 /// The rest of the column, so that it scrolls only if it must; at most twice as high as wide. In a
-/// low window the header of the panel below is left to scrolling.
+/// low window the header of the panel below is reached by scrolling.
 float plot_height_em(int lines) {
   const float em = ImGui::GetFontSize(), gap = ImGui::GetStyle().ItemSpacing.y;
   const float below = static_cast<float>(lines) * ImGui::GetTextLineHeightWithSpacing();

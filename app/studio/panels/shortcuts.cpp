@@ -113,7 +113,7 @@ void draw_section_of_keys(const Section& section, const Palette& colours, float 
   ImGui::Dummy({0.0f, 0.4f * ImGui::GetFontSize()});
 }
 
-/// The width of its keys, or of what they do.
+/// Width of the keys of a column, or of their descriptions [px].
 float widest_of(const std::vector<Section>& column, std::string HelpRow::*part) {
   float widest = 0.0f;
   for (const Section& section : column)

@@ -171,7 +171,7 @@ void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, g
   const bool below = below_open(model.settings), diagnostics = diagnostics_open(model.settings);
   if (panels && icon_button("Panels", &panels_icon, true, below || diagnostics,
                             "Panels below the view", model)) {
-    // They are in the place of the other panels.
+    // The diagnostics are in the place of the other panels.
     if (diagnostics)
       actions.emplace_back(ToggleDiagnostics{});
     else

@@ -1,5 +1,5 @@
 #pragma once
-// Text in panels and dialogs: where its lines end, and how it is shortened.
+// Text in panels and dialogs: its line breaks, and its shortening.
 
 #include "app/studio/style.hpp"
 
@@ -18,8 +18,8 @@ void problem_text(const std::string& problem, const ImVec4& colour);
 /// Lines of at most `width_px`, broken at blanks, but not between a number and its unit. A longer
 /// word stays whole.
 [[nodiscard]] std::string wrapped(std::string_view text, float width_px);
-/// At most this wide: the middle of a longer text is left out, because the end of a file name says
-/// what it is.
+/// At most this wide: the middle of a longer text is left out, because the end of a file name shows
+/// the kind of file.
 [[nodiscard]] std::string shortened(const std::string& text, float width_px);
 /// To the right edge of the window.
 void wrapped_text(std::string_view text, const ImVec4& colour);

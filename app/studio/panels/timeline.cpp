@@ -79,7 +79,7 @@ struct Row {
   }
 };
 
-/// The pot that the stroke left, its number, and the colour of its mode.
+/// The pot after the stroke, the number of the stroke, and the colour of its mode.
 void draw_card(const ViewModel& model, history::NodeId node, bool done, const Row& row,
                std::size_t index) {
   const float em = ImGui::GetFontSize();
@@ -210,7 +210,7 @@ void handle_mouse(const ViewModel& model, const std::vector<TimelineCard>& cards
   Held{}.store();
 }
 
-/// Keeps the current stroke in the middle whenever it or the size of the timeline changes.
+/// Moves the current stroke to the middle when the stroke or the size of the timeline changes.
 void scroll_to_present(const ViewModel& model, const std::vector<TimelineCard>& cards,
                        const Row& row) {
   const auto card = std::ranges::find(cards, model.document.work().at(), &TimelineCard::node);

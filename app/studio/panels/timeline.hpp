@@ -1,7 +1,7 @@
 #pragma once
-// The timeline over the foot of the view: one row of cards, a stroke each, with the pot that it
-// left. A click selects the end of a stroke; a drag shows the pot at a moment within it; a menu
-// leads to the other branches.
+// The timeline over the foot of the view: one row of cards, one for each stroke, with the pot after
+// that stroke. A click selects the end of a stroke; a drag shows the pot at a moment within it; a
+// menu leads to the other branches.
 
 #include "app/history/work.hpp"
 #include "app/studio/action.hpp"

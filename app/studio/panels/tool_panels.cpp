@@ -18,7 +18,7 @@ namespace {
 constexpr std::array kShapes = {"Sphere", "Ellipse", "Rib", "Custom"};
 constexpr double kUsualLimitN = 5.0;
 
-/// Fingers hold no keys.
+/// On a touch screen no key can be held.
 const char* help_text(ToolMode mode, bool fallen, bool fingers) {
   switch (mode) {
     case ToolMode::press:
@@ -107,7 +107,7 @@ void draw_bar(float part, const std::string& text, const ImVec4& colour) {
   ImGui::Dummy({width, height});
 }
 
-/// The tool that was chosen meanwhile.
+/// The tool that was chosen during the stroke.
 void draw_next_tool(const ViewModel& model, const ToolSpec& used) {
   const ToolSpec next = tool_of(model.settings.tool);
   if (next.mode == used.mode && next.shape == used.shape) return;

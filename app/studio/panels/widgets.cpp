@@ -15,7 +15,8 @@ namespace {
 
 constexpr float kNarrowEm = 28.0f;
 
-/// Columns of equal width, for buttons with these titles: as few rows as show all of every title.
+/// Columns of equal width, for buttons with these titles: the fewest rows that show every title
+/// completely.
 int columns_of(std::span<const char* const> titles, float room, float gap) {
   float widest = 0.0f;
   for (const char* title : titles) widest = std::max(widest, ImGui::CalcTextSize(title).x);
@@ -142,7 +143,7 @@ bool form_length(const char* label, double& mm, double low_mm, double high_mm, L
       none != nullptr && mm <= 0.0
           ? std::string(none)
           : length_text(mm, unit, thickness_digits(unit) - unit_text(unit).digits + fine);
-  // In mm whatever the unit, because a logarithmic slider takes less than a thousandth as 0.
+  // In mm for every unit, because a logarithmic slider takes less than a thousandth as 0.
   float shown_mm = static_cast<float>(mm);
   if (!form_slider(label, shown_mm, static_cast<float>(low_mm), static_cast<float>(high_mm), value,
                    low_mm > 0.0 ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None))

@@ -31,7 +31,7 @@ void slider_label(const char* label, const std::string& value);
 /// A labelled slider for a length in mm, shown in `unit`. Returns true if it has moved.
 bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit);
 /// The next button or text, with this text, stands beside the last item if the window has room.
-/// `beside_px`: width of what else belongs to it.
+/// `beside_px`: width of other controls that belong to it.
 void same_line_if_room(const char* text, float beside_px = 0.0f);
 /// A checkbox beside the last one, or below it at `left_px` if the window has no room.
 bool next_box(const char* title, bool& on, float left_px);

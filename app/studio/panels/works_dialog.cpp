@@ -17,7 +17,7 @@ std::string size_text(std::uintmax_t bytes) {
                              : fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(bytes));
 }
 
-/// Its name and buttons, and below them when it was saved.
+/// Name and buttons of a work, and below them the time at which it was saved.
 void draw_row(const StoredWork& work, const ViewModel& model, Actions& actions) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const float buttons = ImGui::CalcTextSize(kOpen).x + ImGui::CalcTextSize(kDelete).x +

@@ -25,8 +25,8 @@ struct ClayAccount {
 };
 
 [[nodiscard]] ClayAccount account_of(const Pot& pot);
-/// During a stroke: from the ledger figures of the servo; `stack` gives the capacity. `before`: the
-/// ledger at the start of the stroke.
+/// During a stroke: computed from the ledger figures of the servo; `stack` gives the capacity.
+/// `before`: the ledger at the start of the stroke.
 [[nodiscard]] ClayAccount account_of(const servo::LiveStatus& status, const ClayStack& stack,
                                      double density_g_cm3, const ClayAccount& before);
 

@@ -8,10 +8,10 @@
 
 namespace clay::studio {
 
-/// How far a pot is from its target.
+/// Distance of a pot from its target.
 struct OffTarget {
   double mm = 0.0;                          ///< largest distance between the outlines
-  double radius_mm = 0.0, height_mm = 0.0;  ///< where
+  double radius_mm = 0.0, height_mm = 0.0;  ///< place of that distance
   /// For each row of the pot, the larger distance of its two walls from the target's outline.
   std::vector<float> rows_mm;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// The export's verdict on a pot: proved or not, where and why, and its wall thickness. Plain values
-// that any thread can compute; all figures are those of solid::run_export.
+// The export's verdict on a pot: proved or not, with places and reasons, and its wall thickness.
+// Plain values that any thread can compute; all figures are those of solid::run_export.
 
 #include "app/history/work.hpp"
 #include "app/render/picture.hpp"
@@ -115,7 +115,7 @@ using solid::process_title;
 /// "in two parts at a height of 40.0 mm"; requires `parting_mm`.
 [[nodiscard]] std::string parts_text(const PotForm& form, LengthUnit unit);
 
-/// "Ready to print", "Solid clay", or why not, in a few words.
+/// "Ready to print", "Solid clay", or the reason why it is not ready, in a few words.
 [[nodiscard]] std::string ready_text(const PotCheck& check, LengthUnit unit);
 
 /// A stack whose rings are the rows of an outline, with radii at float precision, and the crown.

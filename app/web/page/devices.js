@@ -50,7 +50,7 @@ let mouse3d = null;
 
 async function connectHid(device) {
   if (mouse3d) return;
-  mouse3d = device;  // at once: a controller may have several parts, each a device of its own
+  mouse3d = device;  // at once: a controller may have several parts, each a separate device
   try {
     if (!device.opened) await device.open();
   } catch (error) {
@@ -72,7 +72,7 @@ async function connectHid(device) {
   ask();
 }
 
-/// Chromium alone offers WebHID. A controller that was permitted once connects by itself.
+/// Only Chromium offers WebHID. A controller that was permitted once connects by itself.
 async function listenToHid() {
   const hid = navigator.hid;
   if (!hid) return;

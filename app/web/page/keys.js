@@ -2,7 +2,7 @@
 'use strict';
 
 const kTapFrames = 4;             // until a tap has reached a text field
-const kPad = '\u200b', kPads = 8;  // nothing that is seen: the key Backspace needs something to delete
+const kPad = '\u200b', kPads = 8;  // invisible characters, for the key Backspace to delete
 
 const kKeys = {Escape: 256, Enter: 257, Tab: 258, Backspace: 259, Insert: 260, Delete: 261,
   ArrowRight: 262, ArrowLeft: 263, ArrowDown: 264, ArrowUp: 265, PageUp: 266, PageDown: 267,
@@ -74,7 +74,7 @@ function listenToKeys() {
 
 // ---- on the screen -----------------------------------------------------------------------------
 
-/// Browsers show the keyboard for a field of the page, so one that nobody sees has the focus while a
+/// Browsers show the keyboard only for a field of the page, so a hidden field has the focus while a
 /// text field of the window takes characters.
 /// `window`: {typing(), frame(), text(character), backspace(), leave()}.
 class ScreenKeyboard {
@@ -100,13 +100,13 @@ class ScreenKeyboard {
     if (document.activeElement === this.field && !this.window.typing()) this.window.leave();
   }
 
-  /// Keyboards replace whole words, when they correct them: sends what has changed.
+  /// A keyboard that corrects a word replaces all of it: sends only the changed characters.
   changed() {
     const now = this.field.value.replaceAll(kPad, '');
     let same = 0;
     while (same < this.before.length && now[same] === this.before[same]) ++same;
     let deleted = this.before.length - same;
-    if (now === '' && this.before === '') {  // what stood in the window's field before
+    if (now === '' && this.before === '') {  // deletes text that the field of the window had before
       deleted = kPads - this.field.value.length;
       this.field.value = kPad.repeat(kPads);
     }

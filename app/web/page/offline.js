@@ -1,13 +1,13 @@
 // Service worker: keeps the files of the page, so that it also starts without its server. A new
-// version of the page is installed beside the old one, whole or not at all, and serves once no page
-// of the old one is open: the files of two versions never mix.
+// version of the page is installed beside the old one, completely or not at all, and is used once
+// no page of the old one is open: the files of two versions never mix.
 'use strict';
 
 const kPage = `claystack ${registration.scope} `;  // another folder of this server has its own page
 const kCache = kPage + '@VERSION@';  // of all files: app/web/site.cmake
 const kFiles = '@FILES@'.split(' ').map(file => file.split('='));  // names and their SHA-256
 
-/// While the server gets another version, it may give files of both.
+/// While a new version is copied to the server, the server may return files of both versions.
 async function verified(name, hash) {
   const answer = await fetch(new Request(name, {cache: 'no-cache'}));
   const found = await crypto.subtle.digest('SHA-256', await answer.clone().arrayBuffer());
@@ -29,7 +29,7 @@ async function install() {
 async function activate() {
   for (const name of await caches.keys())
     if (name.startsWith(kPage) && name !== kCache) await caches.delete(name);
-  // A page that got its files from the server, of another version, keeps getting them there.
+  // A page that loaded files of another version from the server continues to load them from there.
   if (location.search === '?@VERSION@') await self.clients.claim();
 }
 

@@ -146,7 +146,7 @@ const page = {
     while (by('events').childElementCount > 50) by('events').firstChild.remove();
   },
   fail(text) { say(text); },
-  /// Whether this tab stores the works, so that those of a crash are its to offer.
+  /// Whether this tab stores the works, so that it offers the works of a crash.
   stores() { return stores; },
   /// For people who do not see the picture.
   announce(text) { by('pot').textContent = text; },
@@ -303,7 +303,7 @@ async function start() {
   (window.requestIdleCallback ?? setTimeout)(() => compiled().catch(() => {}));  // before the first check
 }
 
-/// The browser tells a file that it did not get by its list of requests only.
+/// Browsers report a file that failed to load only in their list of requests.
 function notStarted(error) {
   const [lost] = performance.getEntriesByType('resource').filter(file => file.responseStatus >= 400);
   const why = lost ? `${lost.name.split('/').pop()}: the server answers ${lost.responseStatus}` : error?.message ?? error;

@@ -51,7 +51,7 @@ function listenToPointer() {
   canvas.addEventListener('pointerdown', event => {
     canvas.focus();
     canvas.setPointerCapture(event.pointerId);
-    event.preventDefault();  // a touch is not a mouse as well, which would move the focus later
+    event.preventDefault();  // else a touch also sends mouse events, which move the focus later
     if (event.pointerType !== 'touch') {
       fingers.stop();  // the palm of the hand that holds a pen
       mouse(event);

@@ -19,12 +19,13 @@ function reason(error) {
   return String(error.message || error.name || error).replace(/\.$/, '');
 }
 
-let stores = false, unread = null;  // this tab; why it could not read what was stored
+let stores = false, unread = null;  // this tab stores; the error of reading the stored works
 
 /// Whether the work survives a reload.
 function kept() { return stores && !failing(); }
 
-/// One tab alone stores: another one would replace the works by its own. A promise: it is decided.
+/// Only one tab stores works: a second one would replace the works of the first. The promise
+/// resolves when that is decided.
 function claimStorage() {
   return new Promise(decided => {
     const decide = own => { stores = own; decided(); };
@@ -38,8 +39,8 @@ function claimStorage() {
   });
 }
 
-/// Browsers have locks on https and localhost alone. Elsewhere the tabs ask each other; of two that
-/// open within the same moment both store. A tab that gets its answer late stores no more.
+/// Browsers have locks only on https and localhost. Elsewhere the tabs ask each other; if two open
+/// at the same moment, both store. A tab that gets its answer late stops storing.
 function askTabs(decide) {
   if (!window.BroadcastChannel) return decide(true);
   const tabs = new BroadcastChannel('claystack storage'), me = Math.random();
@@ -64,8 +65,8 @@ function warnOfOtherTab() {
     'Save the work as a file (Ctrl+S), or close the other tab and reload this page.');
 }
 
-/// Before the program starts: what was stored, and the folder of files that are opened. The program
-/// names a file in its current folder by its name alone.
+/// Before the program starts: prepares the stored works, and the folder of opened files. The
+/// program names a file in its current folder without the folder.
 function prepareFiles(module, claimed) {
   module.FS.mkdirTree(kHome);
   module.FS.mount(module.IDBFS, {}, kHome);
@@ -92,8 +93,9 @@ function listenToStorage() {
   });
 }
 
-// Since when it fails, and whether the user knows. A first failure may be a file that the program has
-// just deleted, or a storage that the user has just cleared, so it is no problem for a moment.
+// The time of the first failed write, and whether the user was warned. A first failure may have a
+// short cause: a file that the program has just deleted, or a storage that the user has just
+// cleared.
 const kTroubleMs = 500;
 let failedAt = null, warned = false;
 const failing = () => warned;
@@ -108,13 +110,13 @@ function store() {
     if (error) return notStored(error);
     if (warned) status('The work is stored again');
     [failedAt, warned] = [null, false];
-    if (document.hidden) store();  // what came meanwhile: a hidden page may be frozen soon
+    if (document.hidden) store();  // changes since then: a hidden page may be frozen soon
   });
 }
 
 function notStored(error) {
   changed = true;
-  studio.IDBFS.quit();  // opened anew next time: somebody may have cleared the storage
+  studio.IDBFS.quit();  // opened again next time: the user may have cleared the storage
   failedAt ??= performance.now();
   if (warned || performance.now() - failedAt < kTroubleMs) return;
   warned = true;
@@ -122,7 +124,8 @@ function notStored(error) {
     'Save the work as a file (Ctrl+S).');
 }
 
-/// The next start needs no server. Browsers offer this on https and localhost alone.
+/// Keeps the files of the page, so that the next start needs no server. Browsers permit this only
+/// on https and localhost.
 async function keepOffline() {
   try {
     await navigator.serviceWorker?.register('offline.js?' + kVersion);

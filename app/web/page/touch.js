@@ -74,7 +74,7 @@ class Fingers {
 
   touching() { return this.down.size > 0; }
 
-  /// False: the finger did nothing. `cancelled`: the system has taken it, so it was no tap.
+  /// False: the finger did nothing. `cancelled`: the system has taken the finger, so it was no tap.
   end(event, cancelled = false) {
     if (!this.down.delete(event.pointerId)) return false;
     if (this.state === 'waiting' && !cancelled) this.press();  // a tap

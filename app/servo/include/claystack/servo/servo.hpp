@@ -75,12 +75,12 @@ struct LiveSettings {
 Result<void> check(const LiveSettings& settings);
 
 /// Refuses a scene whose contact is stiffer than the arm of `settings` can render safely; names the
-/// setting and what would do.
+/// setting and the accepted values.
 Result<void> check_stiffness(const SceneSpec& scene, const LiveSettings& settings);
 
-/// Lowers the stiffness of the scene's contact to what the arm of `settings` can render safely;
-/// returns the remaining fraction, 1 if it was soft enough. The pot does not depend on it: a
-/// softened scene replays to the same pot. Build the wheel from the softened scene.
+/// Lowers the stiffness of the scene's contact to the largest that the arm of `settings` can render
+/// safely; returns the remaining fraction, 1 if it was soft enough. The pot does not depend on it:
+/// a softened scene replays to the same pot. Build the wheel from the softened scene.
 Result<double> soften(SceneSpec& scene, const LiveSettings& settings);
 
 // ---- commands ------------------------------------------------------------------------
@@ -159,7 +159,7 @@ struct Realtime {
   bool fifo = false;  ///< SCHED_FIFO
   bool memory_locked = false;
   bool exact_sleep = false;  ///< timer slack of 1 ns
-  std::string missing;       ///< what was not granted, why, and the remedy; empty: nothing
+  std::string missing;       ///< refused requests, their reason and the remedy; empty: none
 };
 
 // ---- clock ---------------------------------------------------------------------------
@@ -180,8 +180,8 @@ class Clock {
   /// Returns at once if that time has passed.
   virtual void sleep_until_ns(std::int64_t time_ns) noexcept = 0;
 
-  /// The same as exactly as possible, for one thread. Returns how much later than requested the
-  /// sleep within it ended [ns].
+  /// The same as exactly as possible, for one thread. Returns the delay of the end of the sleep
+  /// within it [ns].
   virtual std::int64_t wake_at_ns(std::int64_t time_ns) noexcept {
     sleep_until_ns(time_ns);
     return 0;
@@ -198,7 +198,7 @@ struct ThrowParts {
   /// A session file to record the poses to, which replays to the same pot; empty: none.
   std::string session_path = {};
   /// hash_of() the scene as its file has it, for the session; 0: of `scene`. soften() changes the
-  /// hash of a scene, but not what the session replays to.
+  /// hash of a scene, but not the pot to which the session replays.
   std::uint64_t scene_hash = 0;
   PoseSink* sink = nullptr;  ///< receives the poses instead of a session file
   Clock* clock = nullptr;    ///< null: CLOCK_MONOTONIC
@@ -220,7 +220,7 @@ struct Recorded {
 
 /// The servo thread, its watchdog and the force guard. Every force passes the guard: it is finite,
 /// at most the limit, zero within 10 ms of a fault, and zero at the end. The servo thread allocates
-/// nothing and takes no lock, apart from what libusb and hidapi do inside.
+/// nothing and takes no lock, apart from the internal work of libusb and hidapi.
 class LiveThrow {
  public:
   /// Refuses settings out of range, by name; a scene whose contact is stiffer than the arm can
@@ -246,7 +246,7 @@ class LiveThrow {
   /// The newest complete values, without a lock. For one thread; valid until the next call.
   [[nodiscard]] const LiveStatus& status() noexcept;
   [[nodiscard]] const LiveProfile& profile() noexcept;
-  /// Null if there is none since the last call of this or of profile().
+  /// The newest profile. Null if there is none since the last call of new_profile() or profile().
   [[nodiscard]] const LiveProfile* new_profile() noexcept;
   [[nodiscard]] bool running() const noexcept;
 
