@@ -52,7 +52,8 @@ std::pair<int, TemporaryName> open_beside(const fs::path& target) {
   const int unnamed = open_retrying(folder_of(target), O_TMPFILE | O_RDWR, kReadWriteForAll);
   if (unnamed == -1) return open_temporary(target);
   if (::access(name_in_proc(unnamed).c_str(), F_OK) == 0) {
-    // For later, when it gets a temporary name. Without locks it never does.
+    // The lock is for later, when the file gets a temporary name. On a file system without locks
+    // the file stays unlocked.
     (void)::flock(unnamed, LOCK_EX | LOCK_NB);
     return {unnamed, TemporaryName()};
   }

@@ -8,7 +8,7 @@
 namespace clay {
 
 [[nodiscard]] std::string to_base64(std::string_view bytes);
-/// Ignores white space; empty if anything else does not fit.
+/// Ignores white space; empty if the rest is not Base64.
 [[nodiscard]] std::optional<std::string> from_base64(std::string_view text);
 
 }  // namespace clay

@@ -1,5 +1,5 @@
 #pragma once
-// Letters of ASCII in lower case, whatever the locale; other bytes stay as they are.
+// Letters of ASCII in lower case, independent of the locale; other bytes stay as they are.
 
 #include <string>
 #include <string_view>

@@ -1,5 +1,5 @@
 #pragma once
-// Clay bodies and glazes as pictures, the window and GLB files show them: the one table of them.
+// The table of clay bodies and glazes, for pictures, the window and GLB files.
 
 #include <array>
 #include <string>
@@ -15,7 +15,7 @@ using Reflectance = std::array<float, 3>;
 /// glass, as in KHR_materials_clearcoat.
 struct Material {
   std::string_view id;     ///< as for `--material`
-  std::string_view title;  ///< as the window shows it
+  std::string_view title;  ///< name in the window
   Reflectance base{};
   float roughness = 1.0f;
   float coat = 0.0f;  ///< strength of the coat, 0: none
@@ -23,7 +23,7 @@ struct Material {
   bool glaze = false;       ///< leaves the foot bare
   Reflectance thin = base;  ///< of a glaze where it runs thin
   Reflectance bare = base;  ///< of the clay below a glaze
-  float speckle = 0.0f;     ///< how dark the specks of iron are; 0: none
+  float speckle = 0.0f;     ///< darkness of the specks of iron; 0: none
   friend bool operator==(const Material&, const Material&) = default;
 };
 

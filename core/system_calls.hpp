@@ -28,7 +28,7 @@ inline bool write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const auto count =
         uninterrupted([&] { return ::write(descriptor, bytes.data(), bytes.size()); });
-    if (count == 0) errno = EIO;  // not to wait for ever on a file that takes nothing
+    if (count == 0) errno = EIO;  // prevents an endless loop if a file accepts no bytes
     if (count <= 0) return false;
     bytes.remove_prefix(static_cast<std::size_t>(count));
   }

@@ -25,7 +25,7 @@ constexpr Beginning kBeginnings[] = {
     {"ISO-10303-21", "a STEP model"}, {"\x89PNG", "a PNG picture"},
     {"GIF8", "a GIF picture"},        {"AC10", "a DWG drawing"},
     {"%!PS", "a PostScript drawing"}, {"\x1F\x8B", "a gzip archive"}};
-// The schemas of the project's own files, JSON or CBOR, stand in their first bytes.
+// The project's own files, JSON or CBOR, have the name of their schema in their first bytes.
 constexpr Beginning kSchemas[] = {{"claystack-pot-", "a pot"},
                                   {"claystack-scene-", "a scene"},
                                   {"claystack-session-", "a session"},

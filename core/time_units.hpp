@@ -6,7 +6,7 @@
 
 namespace clay {
 
-/// The nearest double, which 1e-6 * us is not always.
+/// The nearest double; 1e-6 * us may differ from it.
 [[nodiscard]] constexpr double in_seconds(std::int64_t us) noexcept {
   return static_cast<double>(us) / 1e6;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Threads that work for another one: on the newest question, or again and again.
+// Threads that work for another one: on its newest question, or periodically.
 
 #include "core/threads.hpp"
 
@@ -15,8 +15,8 @@
 namespace clay {
 
 /// Works on the newest question only: a new question replaces a waiting one and cancels the current
-/// work. For one thread that puts the questions and reads the answers. Both are values; the lock is
-/// internal.
+/// work. For one thread, which asks the questions and reads the answers. Both are values; the lock
+/// is internal.
 template <class Question, class Answer>
 class NewestWorker {
  public:
@@ -95,7 +95,7 @@ class NewestWorker {
 /// two threads at a time. Where a program cannot start threads, run_all() calls the work instead.
 class PeriodicWorker {
  public:
-  /// `last`: the call that close() asks for; none follows.
+  /// `last`: the call that close() requests; it is the last one.
   using Work = std::function<void(bool last)>;
 
   PeriodicWorker(Work work, std::chrono::milliseconds period)
@@ -158,7 +158,7 @@ class PeriodicWorker {
 
   Work work_;
   std::chrono::milliseconds period_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // protects the members below
   std::condition_variable wake_;
   bool woken_ = false, closing_ = false;
   std::chrono::steady_clock::time_point due_;  // without threads: the next call

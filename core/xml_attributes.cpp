@@ -147,7 +147,7 @@ void XmlAttributeLimit::take_declaration(char c) {
 void XmlAttributeLimit::expect_encoding() {
   const std::string name = encoding_in(declaration_);
   const auto begins = [&](std::string_view family) { return name.starts_with(family); };
-  // libxml2 obeys a declaration of the byte order even if it is not that of the file.
+  // libxml2 applies a declared byte order even if it is not that of the file.
   const bool known = wide() ? name == "utf-16" || name == "utf16" || name == "utf-8" ||
                                   name == (high_first_ ? "utf-16be" : "utf-16le")
                             : std::ranges::find(kEncodings, name) != kEncodings.end() ||

@@ -78,7 +78,7 @@ class ObjectReader {
   /// One of `names`, in the order of the values of T.
   template <class T>
   void choice(std::string_view name, T& value, Names names);
-  /// One that files have only where it is not the usual one.
+  /// A choice that files contain only if it differs from the usual one.
   template <class T>
   void choice_unless(T usual, std::string_view name, T& value, Names names) {
     value = usual;
@@ -106,7 +106,7 @@ class ObjectReader {
   /// The same for element `index` of an array.
   void expect_element(bool holds, std::string_view name, std::size_t index,
                       std::string_view expected);
-  /// An error at element `index` of an array, with a message of its own.
+  /// An error at element `index` of an array, with this message.
   void refuse_element(std::string_view name, std::size_t index, const std::string& message);
 
  private:

@@ -39,7 +39,7 @@ inline constexpr double kBothExponents = 0x1p84 + 0x1p52;
 /// The largest size of a number that packs.hpp rounds to quanta.
 inline constexpr double kMostLaneQuanta = 0x1p50;
 
-/// How many doubles loops take at a time.
+/// Number of doubles that loops process at a time.
 class Lanes {
  public:
   /// Four, as on any machine with AVX2; otherwise two.

@@ -215,7 +215,7 @@ template <std::size_t n>
 CLAYSTACK_INLINE inline std::array<Doubles<n>, 2> halves(TwiceFloats<n> x) noexcept {
   return {doubles<n>(low_half<n>(x)), doubles<n>(high_half<n>(x))};
 }
-/// Roots to single precision: for a length that decides how far clay moves, not how much there is.
+/// Roots to single precision: for a length that decides the motion of clay, not its volume.
 template <std::size_t n>
 CLAYSTACK_INLINE inline Doubles<n> rough_roots(Doubles<n> x) noexcept {
   return doubles<n>(root(floats(x)));

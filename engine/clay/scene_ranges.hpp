@@ -1,6 +1,6 @@
 #pragma once
 // The ranges of a scene's settings. StepPlan checks a scene from memory by them, and the readers of
-// files check scenes and pots: so a pot can be read wherever its wheel could be built.
+// files check scenes and pots: so a pot can be read if its wheel could be built.
 
 #include "claystack/engine/clay.hpp"
 #include "core/range.hpp"

@@ -83,8 +83,8 @@ class StackWriter {
                  });
   }
   /// Clay along a surface, the outer one or that of a bore: amounts from the rings `from` on to the
-  /// rings `to` on. First the losses of all rings, then the gains: a ring with both would wait for
-  /// itself.
+  /// rings `to` on. First the losses of all rings, then the gains: otherwise the gain of a ring
+  /// would wait for its loss.
   void smear(std::size_t from, std::size_t to, std::span<const Quanta> amounts,
              bool outside) noexcept {
     Ring *const low = stack_.rings_.data() + from, *const high = stack_.rings_.data() + to;

@@ -118,7 +118,7 @@ class Fall {
             time);
   }
 
-  /// Ends the step where no more power is gained: a face that lands there has cost nothing before.
+  /// Ends the step where no more power is gained: a face that lands there has cost no power before.
   void move_to(const PlanePose& pose, const Twist& setting_off, const Twist& arriving,
                double time) {
     power_.place(pose_);

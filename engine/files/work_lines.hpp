@@ -118,8 +118,8 @@ void describe(auto& io, Is<SavedLine> auto& line) {
   io.template coded<HashCode>("check", line.check);
 }
 
-/// Records when each node was last current, and therefore where redo leads: to the child below
-/// which it was last. Linear in the size of the tree, for any number of changes.
+/// Records when each node was last current. Redo leads to the child whose branch had the current
+/// node last. Linear in the size of the tree, for any number of changes.
 class Visits {
  public:
   explicit Visits(std::size_t nodes = 0) : last_(nodes, 0) {}

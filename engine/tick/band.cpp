@@ -9,8 +9,8 @@ namespace {
 // entered gives way fastest, over a height that goes to zero with the ring height.
 constexpr double kBendingMm = 4.0;
 
-/// How far the surface gives way on average over `kBendingMm` about the peak, or over the contact
-/// if that is lower. The outermost rings reach to the ends of the band.
+/// Mean distance by which the surface gives way [mm], over `kBendingMm` about the peak, or over the
+/// contact if that is lower. The outermost rings reach to the ends of the band.
 double mean_give(const TouchedRings& rings, const Band& band, double h) noexcept {
   const double height = std::max(band.height_mm(), h), length = std::min(kBendingMm, height);
   const double low = std::clamp(band.peak_mm - 0.5 * length, band.low_mm,
@@ -30,7 +30,7 @@ double mean_give(const TouchedRings& rings, const Band& band, double h) noexcept
   return (h * sum - below * rings.give(first) - above * rings.give(last)) / length;
 }
 
-/// Where the contact ends beside its last ring, `next` being the one beyond it.
+/// Height of the end of the contact beside its last ring [mm]; `next` is the ring beyond it.
 double end_beside(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
                   std::size_t last, bool up) noexcept {
   const double h = stack.ring_height_mm(), middle = (static_cast<double>(last) + 0.5) * h;

@@ -26,7 +26,7 @@ class MeanGive {
     sum_up();
   }
 
-  /// Of the rings from `first` on, of which each moves by `by` [mm].
+  /// Raises the motions `by` [mm] of the rings from `first` on to that minimum.
   void move(std::size_t first, std::span<float> by) const noexcept {
     const std::size_t begin = std::max(first, rings_.from());
     const std::size_t end = std::min(first + by.size(), rings_.to());
@@ -43,8 +43,9 @@ class MeanGive {
   }
 
  private:
-  /// Running sums of how far the rings give way [mm]: before each ring, and after the last. Nothing
-  /// gives way beyond the rings, so that the mean needs no condition at their ends.
+  /// Running sums of the distances by which the rings give way [mm]: before each ring, and after
+  /// the last. Beyond the rings the distance is 0, so that the mean needs no condition at their
+  /// ends.
   void sum_up() noexcept {
     double* to = std::fill_n(sums_, whole_ + 1, 0.0);
     double sum = 0.0;
@@ -87,7 +88,8 @@ void bend_wall(const StepPlan& plan, const Motion& motion, const ClayStack& stac
                const RimLimit& rim, Shift& shift) noexcept {
   const double min_wall = plan.removal.min_wall_mm;
   const bool yields = plan.clay.thin_wall_yields;
-  // Nothing can be squeezed out of a wall of this thickness; while clay waits, out of none.
+  // Nothing can be squeezed out of a wall of at most this thickness; while clay waits above the
+  // rim, out of no wall.
   const double firm_mm = rim.waits ? kMaxRadiusMm : min_wall;
   const Shell shell =
       shell_at(stack, walls, band, firm_mm, motion.upward_mm_s, speed_into(contact.side, motion));

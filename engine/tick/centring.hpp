@@ -15,9 +15,9 @@
 
 namespace clay {
 
-/// How far each ring between two tools may be pushed away from the tool that is deeper in it [mm]:
-/// until the clay pushes back equally on both. So the energy of the overlap only falls. Storage is
-/// reserved once.
+/// Limit of the motion of each ring between two tools, away from the tool that is deeper in it
+/// [mm]: until the clay pushes back equally on both tools. So the energy of the overlap only falls.
+/// Storage is reserved once.
 class PushOver {
  public:
   /// Room for this number of rings.

@@ -73,7 +73,8 @@ void set_flow_range(const RulePress& press, const ClayStack& stack,
   }
 }
 
-/// How far the clay gives way in each contact, and the bands that the rules need.
+/// Computes the distances by which the clay gives way in each contact, and the bands that the rules
+/// need.
 template <unsigned rules>
 void give_way_to(const RulePress& press, const ClayStack& stack, std::span<ToolRemoval> removals,
                  RuleWork& work) noexcept {
@@ -272,7 +273,7 @@ WideQuanta cut_ledge(const StepPlan& plan, const Contact& contact, const ClaySta
   return writer.cut_above(tip);
 }
 
-/// A cutter cuts the crown with the top ring, which held `before`: else the same clay would stand
+/// A cutter cuts the crown with the top ring, which held `before`: otherwise the same clay would be
 /// higher on a thinner ring. Returns the clay.
 WideQuanta cut_crown(const ClayStack& stack, Quanta before, StackWriter& writer) noexcept {
   const WideQuanta crown = stack.crown(), left = crown * stack.rings().back().volume() / before;

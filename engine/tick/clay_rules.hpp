@@ -45,7 +45,8 @@ struct RuleWork {
   void reserve(const Tool& tool, const ClayStack& stack);
 };
 
-/// A part of a tick: the tool as it stands, what it touches, and whether it cuts.
+/// Input of a part of a tick: the plan, the state and the mean motion of the tool, and whether it
+/// cuts.
 struct RulePress {
   const StepPlan& plan;
   const ToolState& tool;
@@ -55,8 +56,8 @@ struct RulePress {
 
 /// The two stages for a set of rules. Their code omits a rule that is off.
 struct RuleSteps {
-  /// How far the clay gives way, and how much of that is a motion of the wall. Sets the depths of
-  /// the contacts to the rest. Writes no clay.
+  /// Computes the distances by which the clay gives way, and the part of them that is a motion of
+  /// the wall. Sets the depths of the contacts to the rest. Writes no clay.
   void (*yield)(const RulePress&, const ClayStack&, std::span<ToolRemoval>,
                 RuleWork&) noexcept = nullptr;
   /// Moves the clay.
@@ -64,7 +65,7 @@ struct RuleSteps {
                Rim&) noexcept = nullptr;
 };
 [[nodiscard]] RuleSteps rule_steps(unsigned rules) noexcept;
-/// A sponge: it moves no wall and squeezes nothing out, whatever the rules.
+/// A sponge: it moves no wall and squeezes nothing out, with any rules.
 [[nodiscard]] RuleSteps sponge_steps() noexcept;
 
 }  // namespace clay

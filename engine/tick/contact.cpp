@@ -30,10 +30,10 @@ bool candidates(const Tool& tool, const ClayStack& stack, double hip_y, Contact&
   return true;
 }
 
-/// The ring whose walls the tool stands between: the one at its centre. If it is known where the
-/// hand is, a centre in solid clay belongs to the bore through which the tool came: the first one
-/// on the way to the hand, at most the height of the tool away. A centre beside a solid ring is
-/// outside.
+/// The ring whose walls are on both sides of the tool: the one at the tool's centre. If the place
+/// of the hand is known, a centre in solid clay belongs to the bore through which the tool came:
+/// the first one on the way to the hand, at most the height of the tool away. A centre beside a
+/// solid ring is outside.
 const Ring& ring_about(const Tool& tool, const ClayStack& stack, double hip_y, double axis_distance,
                        HandAt hand) noexcept {
   const auto rings = stack.rings();

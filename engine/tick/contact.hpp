@@ -11,13 +11,13 @@ namespace clay {
 
 enum class Side { compressive, expansive };
 
-/// Where the hand is, seen from the tool that it holds.
+/// Place of the hand, relative to the tool that it holds.
 enum class HandAt { unknown, above, below };
 
 /// The rings that the tool touches (section 4). `rings` are some of bottom..top; none when there is
 /// no contact. Storage is reserved once, so that a tick allocates nothing.
 ///
-/// `conserving` feels the tool's ends to a fraction of a ring: `edges` are parts of rings whose
+/// `conserving` resolves the tool's ends to a fraction of a ring: `edges` are parts of rings whose
 /// middles lie beyond an end, and the crown. They push back, but yield only as whole rings do; see
 /// front.hpp.
 struct Contact {
@@ -60,7 +60,7 @@ struct Contact {
 
 /// Two stages: candidates by height, equations (1) and (2); then each ring by its radii. The side
 /// is decided once, at the tool's centre, by the demarcating circle r_d = (R + r) / 2.
-/// The paper puts y = 0 at the centroid of the first ring, we at the wheel head h/2 below.
+/// The paper puts y = 0 at the centroid of the first ring, this code at the wheel head, h/2 below.
 /// `moved_mm`: of the HIP since the last pose, for `conserving`.
 /// `paper` takes (2) as printed, which is a ring more than the tool reaches; `conserving` ends the
 /// range with the rings that the tool's ends lie in.

@@ -14,8 +14,8 @@ Finger finger_of(const StepPlan& plan, const ToolState& tool, const ClayStack& s
   const double widest = plan.tool.widest();
   const double bore = contact.axis_distance_mm - plan.clay.finger_behind * widest;
   if (!(bore > 0.0)) return {};
-  // A hand's tick lays far less on a wall than this, so most bores are clear of the finger. The
-  // next tick removes what a longer tick lays into it.
+  // In a tick at the speed of a hand a wall grows by far less than this, so most bores are clear of
+  // the finger. The next tick removes the clay that a longer tick lays into the finger.
   constexpr double kNearMm = 5.0;
   const Quanta near = quanta_from_radius(bore + kNearMm);
   const auto rings = stack.rings();

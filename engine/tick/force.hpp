@@ -10,7 +10,7 @@ namespace clay {
 /// E = sum K' h (depth cos theta)^2 / 2, tan theta = f', with the depth left after yielding; at the
 /// tool's end with the part of a ring that it covers, and behind the leading end with the pieces of
 /// `Contact::front`. `paper`: K sum of depth times the unit normal n_i. In both the radial part
-/// pushes the hand out of the clay; the paper's formulae, taken literally, pull it in.
+/// pushes the hand out of the clay; the paper's formulae, as printed, pull it in.
 template <Model model>
 glm::dvec3 spring_force(const ForcePlan& plan, const Contact& contact) noexcept;
 

@@ -35,8 +35,8 @@ void level_edges(Contact& contact) noexcept {
 
 /// An end of the tool in the clay, and the clay ahead of it.
 struct End {
-  bool up = false;          ///< which end of the tool
-  std::size_t ring = 0;     ///< that the end is in
+  bool up = false;          ///< the upper end of the tool; false: the lower one
+  std::size_t ring = 0;     ///< the ring that contains the end
   double covered_mm = 0.0;  ///< of it
   double ahead_mm = 0.0;    ///< depth of the end in the clay ahead
   double wall_mm = 0.0;     ///< R - r there
@@ -46,7 +46,7 @@ struct End {
 struct Lead : End {
   double decay = 0.0;  ///< kappa over the speed of the end [1/mm]
 
-  /// How far the end goes until a depth has yielded, by the logarithmic mean of the wall.
+  /// Way of the end until a depth has yielded [mm], by the logarithmic mean of the wall.
   [[nodiscard]] double way_to_yield(double depth_mm, double min_wall_mm) const noexcept {
     const double middle = std::max(wall_mm - 0.5 * depth_mm, min_wall_mm);
     const double square = middle * middle;
@@ -162,7 +162,8 @@ double depth_at_end(const Tool& tool, const ClayStack& stack, double hip_y, cons
   };
   std::size_t ring = upper ? contact.top : contact.bottom;
   std::optional<double> middle = covered_middle(ring);
-  // An end between two rings belongs to the ring inside the tool, wherever rounding puts it.
+  // An end between two rings belongs to the ring inside the tool, even if rounding puts it into the
+  // other one.
   if (!middle && contact.top > contact.bottom) {
     ring = upper ? ring - 1 : ring + 1;
     middle = covered_middle(ring);
@@ -198,8 +199,9 @@ void feel_ends(const Tool& tool, const ClayStack& stack, double hip_y, const Lea
 
 }  // namespace
 
-/// Where the tool gets deeper in the clay ahead, the force of the end stays, and where it gets less
-/// deep, the way stays: the stored energy never rises without a way.
+/// If the tool gets deeper in the clay ahead, the force of the end is unchanged; if it gets less
+/// deep, the way is unchanged. So the stored energy never rises without a motion toward the clay
+/// ahead.
 void FlatEnd::advance(double way_mm, double ahead_mm) noexcept {
   if (ahead_mm > depth_mm) pressed_mm *= depth_mm / ahead_mm;
   depth_mm = ahead_mm;

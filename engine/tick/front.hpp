@@ -9,8 +9,8 @@ namespace clay {
 
 /// A flat end of a tool that presses against the clay ahead of it. That clay is as stiff as the
 /// clay beside the tool, K' per area: it resists by K' depth per mm of way, and gives way at K'
-/// depth^2 / 2, after half the depth. The force depends on the way alone, so a slow hand and an
-/// encoder's steps feel no pulses, and it never returns more energy than it took.
+/// depth^2 / 2, after half the depth. The force depends on the way alone, so a slow hand and the
+/// steps of an encoder cause no pulses, and the force never returns more energy than it took.
 struct FlatEnd {
   double pressed_mm = 0.0;  ///< of its way, 0 to depth / 2
   double depth_mm = 0.0;    ///< in the clay ahead

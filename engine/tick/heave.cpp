@@ -38,15 +38,16 @@ struct Rows {
   std::ptrdiff_t apart;
   float spare;  ///< growth over them
 
-  /// How far the k-th ring and those above it may grow before they stand out too steeply [mm].
+  /// Maximum growth of the k-th ring, and of those above it in the same pack, before a ring stands
+  /// out too steeply [mm].
   template <class F>
   [[nodiscard]] CLAYSTACK_INLINE F room(std::ptrdiff_t k) const noexcept {
     return spare + lesser(F(lead<F>(k, k - apart)), F(lead<F>(k, k + apart)));
   }
 
  private:
-  /// By how much another ring is thicker; beside a solid ring, which has no wall, by how much it is
-  /// wider.
+  /// Difference in thickness of another ring from the k-th [mm]; beside a solid ring, which has no
+  /// wall, the difference in radius.
   template <class F>
   [[nodiscard]] CLAYSTACK_INLINE F lead(std::ptrdiff_t k, std::ptrdiff_t other) const noexcept {
     const F thicker = load<F>(wall + other) - load<F>(wall + k);
@@ -186,7 +187,7 @@ class Heaving {
     }
   }
 
-  /// From the n-th ring of the block on its way: how many take their share.
+  /// Number of consecutive rings that take their share, from the n-th ring of the block on the way.
   [[nodiscard]] std::size_t rings_that_take(std::size_t n, std::size_t count) const noexcept {
     const Block& b = block_;
     if (heap_.up ? n >= b.lacks_end : count - n <= b.first_lack) return count - n;
@@ -226,8 +227,8 @@ class Heaving {
     in_packs([=, b = &block_](auto n) CLAYSTACK_INLINE { divide<n>(*b, rows, count, way); });
   }
 
-  /// How far each ring may grow before it touches the tool [mm]; very far for a ring that is not
-  /// beside it.
+  /// Maximum growth of each ring before it touches the tool [mm]; very large for a ring that is not
+  /// beside the tool.
   void find_clearance(std::size_t first, std::size_t count) noexcept {
     std::fill_n(block_.clear, in_packs_of(count), kFar);
     beside_tool(first, count);

@@ -23,8 +23,8 @@ struct Heap {
 /// No clay makes a bore narrower than this radius, or a hole would close and enclose a cavity. [mm]
 inline constexpr double kLeastBoreMm = 0.1;
 
-/// How far from the band clay is heaved: 0.8 (c + min(w, width of the tool)), at least a ring, at
-/// most `kLongestShellMm` [mm].
+/// Maximum distance from the band at which clay is heaved: 0.8 (c + min(w, width of the tool)), at
+/// least a ring, at most `kLongestShellMm` [mm].
 [[nodiscard]] double heave_reach(const Tool& tool, const ClayStack& stack,
                                  const Band& band) noexcept;
 

@@ -1,5 +1,6 @@
 #pragma once
-// Whether neighbouring rings touch, and how tools keep them joined (docs/clay-rules.md, Joints).
+// Contact of neighbouring rings, and the rules that keep them joined under a tool
+// (docs/clay-rules.md, Joints).
 
 #include "claystack/engine/clay.hpp"
 #include "engine/clay/stack_writer.hpp"
@@ -22,10 +23,10 @@ inline constexpr double kJointPart = 0.25;
 [[nodiscard]] std::optional<std::size_t> lowest_gap(std::span<const Ring> rings, std::size_t first,
                                                     std::size_t last) noexcept;
 
-/// How rings follow a press.
+/// Rule for rings that follow a press.
 struct Following {
   bool outward = false;
-  double least_mm = 0.0;  ///< overlap that they keep, or half of the thinner wall if that is less
+  double least_mm = 0.0;     ///< minimum overlap, or half of the thinner wall if less
   double min_wall_mm = 0.0;  ///< a ring at its minimum keeps its thickness, with clay of the crown
 };
 

@@ -15,15 +15,17 @@ struct Split {
   WideQuanta inside, outside;
 };
 
-/// One ring's share, (5)-(8) in squared radii: R^2 gains, r^2 loses. Returns what found room.
+/// One ring's share, (5)-(8) in squared radii: R^2 gains, r^2 loses. Returns the clay that found
+/// room.
 template <class Amount>
 Amount place(std::size_t ring, Amount inside, Amount outside, StackWriter& writer) noexcept {
   const Amount placed = inside > 0 ? writer.put_inside(ring, inside) : 0;
   return placed + writer.put_outside(ring, outside + inside - placed);
 }
 
-/// Gives `count` rings their shares, the j-th of them being ring_of(j). Returns what is left over.
-/// With a rim the last of them is the top ring: the rim records how much more the next would get.
+/// Gives `count` rings their shares, the j-th of them being ring_of(j). Returns the clay that is
+/// left over. With a rim the last of them is the top ring: the rim records the additional clay that
+/// the next ring would get.
 template <class Amount, class RingOf>
 Amount distribute(const RayleighKernel& kernel, double offset, Amount clay_inside,
                   Amount clay_outside, std::size_t count, RingOf ring_of, Rim* rim,

@@ -25,7 +25,7 @@ namespace clay {
 /// Spreads an amount: with `up` from above the candidate range by (5), (6), else downward from
 /// below it by (7), (8). alpha goes inside as far as each bore has room (r_j^2 >= share), the rest
 /// outside. Returns the clay that finds no ring. With a rim a flow that reaches the top ring
-/// records in it how much more clay the next ring would get.
+/// records in it the additional clay that the next ring would get.
 ///
 /// `conserving` starts the kernel at the tool's ends, not at the ends of their rings (Contact's
 /// offsets).

@@ -9,7 +9,7 @@
 namespace clay {
 namespace {
 
-/// How far the surfaces of a pinched wall move in a tick: both for some of it, then one alone.
+/// Motion of the surfaces of a pinched wall in a tick: both for some time, then one alone.
 struct Pinched {
   double together_mm = 0.0;  ///< each
   double alone_mm = 0.0;     ///< the one whose tool is deeper in the clay
@@ -41,7 +41,7 @@ struct PinchedRing {
   Ring ring;
   double wall_mm = 0.0;
   std::array<RingContact, 2> touches;
-  std::array<double, 2> eps_mm;  ///< how far each surface moves
+  std::array<double, 2> eps_mm;  ///< motion of each surface
 };
 /// Number of rings that yield in one call.
 constexpr std::size_t kBatch = Yielding::kMost / 2;
@@ -78,7 +78,7 @@ void limit_to_yield(const RemovalPlan& plan, double dt_s, double least_wall,
     *eps_mm[k] = std::min(*eps_mm[k], rows.depth[k] - rows.left[k]);
 }
 
-/// Notes what one tool removes from ring i.
+/// Notes the clay that one tool removes from ring i.
 template <Model model>
 void note(ToolRemoval& removal, std::size_t i, Quanta removed, double eps_mm) noexcept {
   TouchedRings& rings = removal.contact.rings;
@@ -86,7 +86,7 @@ void note(ToolRemoval& removal, std::size_t i, Quanta removed, double eps_mm) no
   if constexpr (model == Model::conserving) rings.depth(i) -= eps_mm;
 }
 
-/// The inner tool finds what the outer one has left.
+/// The inner tool finds the clay that the outer one has left.
 template <Model model>
 void remove(PinchedRing& r, std::size_t i, ToolRemoval& outer, ToolRemoval& inner) noexcept {
   if (outer.contact.rings.has(i)) {

@@ -13,7 +13,7 @@ std::size_t kernel_length(double reach_mm, double ring_height_mm, std::size_t ma
   return static_cast<std::size_t>(std::max(rings, 0.0));
 }
 
-/// Q_p(h j) relative to Q_p(h): never 0/0, whatever sigma.
+/// Q_p(h j) relative to Q_p(h): never 0/0, for any sigma.
 double relative_weight(double j, double half_h2_per_sigma2) {
   if (j == 1.0) return 1.0;
   return j * (1.0 - one_minus_exp_neg((j * j - 1.0) * half_h2_per_sigma2));

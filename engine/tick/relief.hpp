@@ -19,9 +19,9 @@ inline constexpr double kReliefMm = 35.0;
 
 inline constexpr double kReliefSlope = 2.0;
 
-/// Where a tool's surface becomes steeper than 2 : 1 toward its ends, measured from the HIP [mm];
-/// of a tool with flat ends: its ends. A shaft that widens from there as a cone represents the rest
-/// of the finger: clay in its way yields as fast as clay that the tool touches.
+/// Heights at which a tool's surface becomes steeper than 2 : 1 toward its ends, measured from the
+/// HIP [mm]; of a tool with flat ends: its ends. A shaft that widens from there as a cone
+/// represents the rest of the finger: clay in its way yields as fast as clay that the tool touches.
 struct Shoulders {
   double low_mm = 0.0, high_mm = 0.0;
 };
@@ -35,7 +35,7 @@ struct Cone {
   bool outside = true, up = true;
   bool meets = false;  ///< clay beyond the contact
 
-  /// How far a surface at a height projects into the cone.
+  /// Depth of a surface at a height in the cone [mm]; below 0: clear of it.
   [[nodiscard]] double excess(double up_mm, double surface_mm) const noexcept {
     const double way = up ? up_mm - from_mm : from_mm - up_mm;
     return (outside ? surface_mm - base_mm : base_mm - surface_mm) - kReliefSlope * way;
@@ -44,7 +44,8 @@ struct Cone {
 
 /// The cones at the lower and the upper end of one of the contacts, which has given way. For clay
 /// in them, more is removed from the rings that the tool touches, and their depth decreases. Those
-/// of a cutter begin 1 mm inside the clay: it leaves small steps of its own shape, at a lip.
+/// of a cutter begin 1 mm inside the clay: it leaves small steps with the shape of the cutter at a
+/// lip.
 [[nodiscard]] std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoulders,
                                                   const ClayStack& stack, const ToolState& tool,
                                                   const Band& band, const Squeeze& squeeze,

@@ -10,14 +10,14 @@
 namespace clay {
 namespace {
 
-/// A ring keeps a quantum of clay and the smallest radius, whatever rounding does.
+/// A ring keeps a quantum of clay and the smallest radius in spite of rounding.
 Quanta spare_outside(const Ring& ring) noexcept {
   return ring.outer2 - std::max(ring.inner2 + 1, kSmallestOuter2);
 }
 Quanta spare_inside(const Ring& ring) noexcept { return ring.volume() - 1; }
 
-/// Of a slice of what one tool touches: the rings as the tool finds them, and the depths that their
-/// yielding leaves.
+/// Loads a slice of the rings that one tool touches, as they are before the tool, and computes
+/// their depths after yielding.
 void load_and_yield(const RemovalPlan& plan, std::span<const Ring> rings, double dt_s, bool outside,
                     const TouchedRings::Slice& slice, Yielding& block) noexcept {
   const std::size_t count = slice.size();
@@ -62,7 +62,8 @@ void yield_to_tool(const RemovalPlan& plan, std::span<const Ring> rings, double 
   }
 }
 
-/// Rings of a slice, how far each is squeezed [mm], and what that removes [quanta]. Whole packs.
+/// Rings of a slice, the distance by which each is squeezed [mm], and the clay that this removes
+/// [quanta]. Whole packs.
 struct Squeezed {
   static constexpr std::size_t kRows = TouchedRings::kBlock;
   alignas(kPackBytes) RawRings<kRows> raw;

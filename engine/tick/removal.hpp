@@ -18,7 +18,7 @@ struct ToolRemoval {
   std::vector<Quanta> removed;
 };
 
-/// Clay that has given way, and how much of it may become height.
+/// Clay that has given way, and the part of it that may become height.
 struct LooseClay {
   RimLimit rim;
   WideQuanta total = 0;
@@ -28,7 +28,7 @@ struct LooseClay {
     total += amount;
     if (rim.limits()) raise(amount, left);
   }
-  /// What is squeezed out of a ring raises the rim by no more than it would raise that ring.
+  /// Clay that is squeezed out of a ring raises the rim by no more than it would raise that ring.
   void raise(Quanta amount, const Ring& left) noexcept {
     const double part = rim.ring_mm2 * kQuantaPerMm2 / static_cast<double>(left.volume());
     raising += static_cast<double>(amount) * std::min(1.0, part);
@@ -50,7 +50,7 @@ template <Model model>
 void compute_removal(const RemovalPlan& plan, const ClayStack& stack, double dt_s, Contact& contact,
                      std::vector<Quanta>& removed) noexcept;
 
-/// Clay rules: how clay is squeezed out of rings that a shift has moved.
+/// Clay rules: parameters for squeezing clay out of rings that a shift has moved.
 struct Squeeze {
   double min_wall_mm = 0.0;
   std::size_t floor_rings = 0;   ///< RulesPlan
@@ -70,8 +70,8 @@ struct Squeeze {
   }
 };
 
-/// Clay rules, first half of `compute_removal`: writes to the contact how far each ring gives way
-/// (`TouchedRings::give`), by a shift or by being squeezed.
+/// Clay rules, first half of `compute_removal`: writes to the contact the distance by which each
+/// ring gives way (`TouchedRings::give`), by a shift or by being squeezed.
 void give_way(const RemovalPlan& plan, const ClayStack& stack, double dt_s,
               Contact& contact) noexcept;
 /// Second half: removes the part that the shift has not moved, as far as minimum wall and floor

@@ -9,13 +9,13 @@
 namespace clay {
 namespace {
 
-// A tick has a bounded length; the crown holds what is left for the next one.
+// Limits the work of a tick; the crown holds the rest of the clay for the next one.
 constexpr std::size_t kMostGrowthPerTick = 64;
 
-// How fast a thick rim tapers: loss of thickness over height.
+// Taper of a thick rim: loss of thickness over height.
 constexpr double kTaper = 0.5;
 
-// Bounds of what a tick moves.
+// Limits of the lip that a tick moves.
 constexpr double kHighestLipMm = 12.0, kMostLiftedRings = 4096.0;
 // A wall stretches where its rings hold this much more clay than those of the rim.
 constexpr double kWiderWall = 1.25;
@@ -130,7 +130,7 @@ Ring as_thick(const Ring& ring, const Ring& other) noexcept {
   return reshaped.inner2 > 0 && reshaped.volume() > 0 ? reshaped : ring;
 }
 
-/// What a tool of radius f leaves of a ring above the rim.
+/// The part of a ring above the rim that a tool of radius f leaves.
 Ring left_beside(const Ring& ring, double f, const Contact& contact) noexcept {
   if (!(depth_of(ring, f, contact) > 0.0)) return ring;
   const double d = contact.axis_distance_mm;

@@ -22,8 +22,8 @@ void grow_rings(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim,
 
 // For the clay rules.
 
-/// Where two tools stretch a wall that they lift: the index of the lowest ring above them, which
-/// rises with all rings above it as it is. Empty: it grows at the rim.
+/// Index of the lowest ring above two tools that stretch a wall as they lift it; this ring and all
+/// rings above it rise unchanged. Empty: the wall grows at the rim.
 [[nodiscard]] std::optional<std::size_t> place_of_stretch(
     const StepPlan& plan, const ClayStack& stack, double hip_y,
     std::span<const ToolRemoval> removals) noexcept;

@@ -7,15 +7,15 @@
 
 namespace clay {
 
-/// How the clay under one tool gives way: in part aside, as at a wall, and in part down, where the
-/// rim sinks.
+/// The two parts of the clay that gives way under one tool: aside, as at a wall, and down, where
+/// the rim sinks.
 struct RimPress {
   double aside = 1.0;   ///< the part of the motion that goes aside; 1: the rim does not sink
   WideQuanta down = 0;  ///< clay that leaves the rim in this tick [quanta]
 };
 
-/// For a contact whose rings have given way. What each ring gives (`TouchedRings::give`) becomes
-/// the part that goes aside.
+/// For a contact whose rings have given way. Reduces the distance by which each ring gives way
+/// (`TouchedRings::give`) to the part that goes aside.
 [[nodiscard]] RimPress press_rim(const Tool& tool, const Motion& motion, const ClayStack& stack,
                                  double hip_y, Contact& contact) noexcept;
 /// Call when the clay that goes aside has left the rings. The clay that goes down is at most the

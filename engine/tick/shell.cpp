@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPunch = 2.570796326794897;  // (2 + pi) / 2: a flat punch on a Tresca half-space
 constexpr double kNoFoot = -1e300;
-constexpr double kRoot = 0.5;  // of the wall: how far up the solid clay holds it
+constexpr double kRoot = 0.5;  // of the wall: height up to which solid clay holds it
 
 /// The wall at a height, between the middles of two rings. [mm]
 struct Wall {
@@ -110,8 +110,8 @@ bool surely_free(const ClayStack& stack, WallRadii& walls, std::size_t first, st
   return static_cast<double>(stiffness.sum) * h * per_stop < 0.99;
 }
 
-/// How far the wall is free to bend from an end of the band: to the floor, to a solid part, or
-/// farther than `most`. `foot_mm`: the top of the first solid ring below, if there is one.
+/// Free length of the wall from an end of the band [mm]: to the floor, to a solid part, or at least
+/// `most`. `foot_mm`: the top of the first solid ring below, if there is one.
 double free_length(const ClayStack& stack, WallRadii& walls, double end_mm, bool up, double most,
                    double stop, double* foot_mm = nullptr) noexcept {
   const double h = stack.ring_height_mm(), per_stop = 1.0 / stop;
@@ -125,7 +125,7 @@ double free_length(const ClayStack& stack, WallRadii& walls, double end_mm, bool
   alignas(kPackBytes) double stops[kRows];
   double length = 0.0, stopped = 0.0;
   for (std::size_t done = 0; length < most; done += kRows) {
-    if (done >= there) return up ? most : length;  // nothing above the rim holds the wall
+    if (done >= there) return up ? most : length;  // no clay above the rim holds the wall
     const std::size_t some = std::min(kRows, there - done);
     const Ring* const from = rings.data() + (up ? first + done : first + 1 - done - some);
     stops_of(from, some, h * per_stop, stops);
@@ -146,7 +146,7 @@ double free_length(const ClayStack& stack, WallRadii& walls, double end_mm, bool
   return most;
 }
 
-/// Top of the solid clay that a contact reaches down to; far below where it does not.
+/// Top of the solid clay, if the contact reaches down to it; otherwise kNoFoot, far below.
 double foot_of(const ClayStack& stack, const Band& band) noexcept {
   const auto rings = stack.rings();
   const double h = stack.ring_height_mm();

@@ -1,5 +1,5 @@
 #pragma once
-// How a wall responds to a tool on one side of it: as a plastic shell, by limit analysis.
+// Response of a wall to a tool on one side of it: a plastic shell, by limit analysis.
 
 #include "claystack/engine/clay.hpp"
 #include "engine/clay/packs.hpp"
@@ -23,20 +23,20 @@ template <class Number>
   return t * t * (3.0f - 2.0f * t);
 }
 
-/// How the wall moves about a band. u(x) = share * give * tent(x), x the distance from the peak:
+/// Motion of the wall about a band: u(x) = share * give * tent(x), x the distance from the peak:
 ///
 ///     below  trail_below * smooth(1 - x / below_mm)
 ///     above  trail_above * smooth(1 - turn x / above_mm), and for turn <= 0: 1 - turn x / above_mm
 ///
 /// Near the peak the two trails blend.
 struct Shell {
-  double share = 0.0;  ///< of the give: the wall moves by it instead of being squeezed
-  double below_mm = 1.0, above_mm = 1.0;        ///< where the wall stands still again
+  double share = 0.0;  ///< part of the give by which the wall moves instead of being squeezed
+  double below_mm = 1.0, above_mm = 1.0;        ///< distances at which the wall is at rest again
   double turn = 1.0;                            ///< below 1 near the rim, which turns with the wall
-  double trail_below = 1.0, trail_above = 1.0;  ///< less than 1 on the side the tool comes from
+  double trail_below = 1.0, trail_above = 1.0;  ///< less than 1 behind the moving tool
   double wall_mm = 1.0;                         ///< at the peak
-  double foot_mm = -1e300;                      ///< where the wall stands on solid clay
-  double root_mm = 1.0;                         ///< above the foot: in it the solid holds the wall
+  double foot_mm = -1e300;                      ///< height at which the wall stands on solid clay
+  double root_mm = 1.0;                         ///< height above the foot that solid clay holds
 
   /// Less than 1 where the solid clay below holds the wall.
   [[nodiscard]] double hold(double up_mm) const noexcept {

@@ -19,7 +19,7 @@ constexpr float kLargest2 = static_cast<float>(kMaxRadiusMm * kMaxRadiusMm) * (1
 constexpr float kSmallest2 = static_cast<float>(kMinRadiusMm * kMinRadiusMm) * (1.0f + kRounding);
 constexpr float kMost = static_cast<float>(kMostLaneQuanta * kMm2PerQuantum);  // for conversions
 
-/// How far R^2 and r^2 of some rings go down, where the wall is pushed in by u: no R becomes less
+/// Decrease of R^2 and r^2 of some rings [mm^2] where the wall is pushed in by u: no R becomes less
 /// than the smallest radius.
 template <class F>
 CLAYSTACK_INLINE inline F pushed_in(F outer, F inner, F u) noexcept {
@@ -27,8 +27,8 @@ CLAYSTACK_INLINE inline F pushed_in(F outer, F inner, F u) noexcept {
   return lesser(F(lesser(u, outer) * (2.0f * outer - lesser(u, outer))),
                 F(lesser(F(kMostOfBore * inner * inner), F(spare > 0.0f ? spare : F{}))));
 }
-/// How far they go up, where it is pushed out by u: not beyond the largest radius, and no wall
-/// becomes thinner than the minimum.
+/// Increase of R^2 and r^2 [mm^2] where the wall is pushed out by u: not beyond the largest radius,
+/// and no wall becomes thinner than the minimum.
 template <class F>
 CLAYSTACK_INLINE inline F pushed_out(F outer, F inner, F u, float per_min_wall) noexcept {
   const F wall = outer - inner - kRounding * outer;
@@ -38,7 +38,7 @@ CLAYSTACK_INLINE inline F pushed_out(F outer, F inner, F u, float per_min_wall) 
   return lesser(F(by * (2.0f * inner + by)), F(left > 0.0f ? left : F{}));
 }
 
-// How far rings move, in three short loops: with one long chain of operations the processor works
+// The motion of rings, in three short loops: with one long chain of operations the processor works
 // on few rows at once.
 
 /// Less where the wall is not thin. `rises`: (R^2 - r^2) / (R^2 + r^2); times the change of R^2 it
@@ -118,7 +118,7 @@ void Shift::begin(const ClayStack& stack, const Band& band, const Shell& shell) 
   const double low = std::clamp(std::floor((band.peak_mm - shell.below_mm) / h), 0.0, count - 1.0);
   const double high = std::clamp(std::ceil((band.peak_mm + above) / h), low + 1.0, count);
   from_ = static_cast<std::size_t>(low);
-  // Within what was reserved: a band and a shell on either side of it.
+  // Within the reserved storage: a band and a shell on either side of it.
   count_ = std::min(static_cast<std::size_t>(high) - from_, changes_.size());
 }
 
@@ -195,7 +195,7 @@ void Shift::move(const ClayStack& stack, const WallRadii& walls, const Push& pus
   if (hair_thin) keep_quanta(stack.rings(), first, count);
 }
 
-/// Every ring keeps a quantum, whatever rounding does.
+/// Every ring keeps a quantum in spite of rounding.
 void Shift::keep_quanta(std::span<const Ring> rings, std::size_t first,
                         std::size_t count) noexcept {
   for (std::size_t i = first; i < first + count; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Moving the wall, ring by ring, without changing how much clay a ring holds.
+// Motion of the wall, ring by ring, without a change of the clay in a ring.
 
 #include "claystack/engine/clay.hpp"
 #include "engine/tick/shell.hpp"
@@ -11,7 +11,7 @@
 
 namespace clay {
 
-/// How much clay may raise the rim, where a narrow rim closes. By default any.
+/// Limit of the clay that may raise the rim, where a narrow rim closes. No limit by default.
 struct RimLimit {
   double ring_mm2 = 1e30;  ///< R^2 - r^2 of the ring by which the rim rises
   bool waits = false;      ///< clay waits above the rim: a press bends the wall and raises nothing
@@ -67,8 +67,8 @@ class Shift {
     RimLimit rim = {};
     bool stretch = false;  ///< outward, a wall at its minimum keeps its thickness and loses height
   };
-  /// Lays the wall's motion about a band. `limit(first, by)` may change how far the rings from
-  /// `first` on move [mm], and so may `least(first, by)`, after the part that trails.
+  /// Lays the wall's motion about a band. `limit(first, by)` may change the motions of the rings
+  /// from `first` on [mm], and so may `least(first, by)`, after the part that trails.
   template <class Limit, class Least>
   void lay(const ClayStack& stack, WallRadii& walls, const Band& band, const Shell& shell,
            const Push& push, Limit limit, Least least) noexcept {
@@ -99,8 +99,8 @@ class Shift {
   /// The wall behind a moving tool moves less: scales `by` [mm].
   static void trail(double h, const Band& band, const Shell& shell, std::size_t first,
                     std::size_t count, float* by) noexcept;
-  /// `by`, of whole packs: how far the rings move [mm], less where the wall is not thin. Afterwards
-  /// by how much R^2 and r^2 change [mm^2].
+  /// `by`, of whole packs: motions of the rings [mm], less where the wall is not thin. Afterwards
+  /// the changes of R^2 and r^2 [mm^2].
   void move(const ClayStack& stack, const WallRadii& walls, const Push& push, std::size_t first,
             std::size_t count, float* by) noexcept;
   void keep_quanta(std::span<const Ring> rings, std::size_t first, std::size_t count) noexcept;

@@ -45,9 +45,10 @@ class Smear {
   }
 
  private:
-  /// Places and how much a ring there may give before it is too thin, and get before it stands in
-  /// the tool's way: half of it, for each ring is of two pairs. [quanta] The rows from `apart` on
-  /// are the upper places of the pairs; where they overlap the lower ones, a place has one row.
+  /// Places, the clay that a ring there may give before it is too thin, and the clay that it may
+  /// get before it is in the tool's way: half of each, because each ring is in two pairs. [quanta]
+  /// The rows from `apart` on are the upper places of the pairs; where they overlap the lower ones,
+  /// a place has one row.
   struct Places {
     static constexpr std::size_t kAll = 2 * kRows + kWidestPack;
     alignas(kPackBytes) double surface[kAll], give[kAll], get[kAll];
@@ -179,7 +180,7 @@ void smear(const Tool& tool, const ClayStack& stack, double hip_y, double dt_s,
   const double wet = std::min(1.0, 4.0 * band.deepest_mm / how.yield_depth_mm);
   const double film = how.sponge ? kSpongeFilmMm : kFilmMm;
   const double spread = film * radius * how.surface_per_s * wet * dt_s;  // D dt
-  // Far enough apart that a step is stable.
+  // Distance of the places at which a step is stable.
   const double apart = std::max(1.0, std::ceil(std::sqrt(spread / kMostOfStep) / h));
   const double middle = 0.5 * (band.low_mm + band.high_mm);
   const double size = static_cast<double>(rings.size());

@@ -119,7 +119,7 @@ std::optional<Failure> StabilityWatch::check(const StabilityPlan& plan, const Cl
   return worst;
 }
 
-/// A ring that does not touch the one above it fails, whatever its stress.
+/// A ring that does not touch the one above it fails at any stress.
 void StabilityWatch::note_parted(const StabilityPlan& plan, const ClayStack& stack,
                                  const Flow& flow, std::optional<Failure>& worst) noexcept {
   const bool lip = flow.lip < SIZE_MAX;

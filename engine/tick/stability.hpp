@@ -1,5 +1,5 @@
 #pragma once
-// Section 7: does every ring carry the load on it?
+// Section 7: the check that every ring carries the load on it.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/engine/plan.hpp"
@@ -28,7 +28,7 @@ class StabilityWatch {
   explicit StabilityWatch(const ClayStack& stack);
 
   /// Before the flow: computes the weight above ring `highest`. It takes at most a constant number
-  /// of steps plus the length of the last flow, wherever that was.
+  /// of steps plus the length of the last flow, at any distance from it.
   void move_to(const ClayStack& stack, std::size_t highest) noexcept;
 
   /// After it, with `highest` as given to move_to: the ring of greatest stress among those above

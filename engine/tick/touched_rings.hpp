@@ -16,7 +16,7 @@ struct RingContact {
   double depth_mm = 0.0;    ///< R + f - d outside, d + f - r inside; > 0
   double slope = 0.0;       ///< f'(t); `paper` alone
   double coverage = 1.0;    ///< part of the ring's height that the tool's ends leave to it
-  Facing facing = {};       ///< `conserving` alone, as what follows
+  Facing facing = {};       ///< `conserving` alone, as the members below
   double advance_mm = 0.0;  ///< the part of the depth that the tool has gone since the last pose
   double since = 1.0;       ///< part of the time since then in which the tool was at the ring
   double surface_mm = 0.0;  ///< radius of the surface that the tool meets
@@ -33,10 +33,10 @@ class TouchedRings {
     return (rings + 3) / 4 * 4;
   }
   using Row = std::array<double, kBlock + 4>;
-  /// RingContact's members and what gives way, each of 32 rings.
+  /// RingContact's members and the yielding distance, each of 32 rings.
   struct Block {
     Row depth, slope, coverage, normal2, lean, turn, advance, since, surface;
-    Row give;  ///< how far the surface gives way in this tick; for the clay rules alone [mm]
+    Row give;  ///< distance by which the surface gives way; for the clay rules alone [mm]
   };
   /// Of one block, rows begin..end-1; the first of them is of `ring`.
   template <class Rows>

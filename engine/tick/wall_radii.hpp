@@ -10,7 +10,7 @@
 namespace clay {
 
 /// Some neighbouring rings as a part of a tick finds them, to single precision: these lengths
-/// decide how far clay moves, not how much there is. Storage is reserved once. [mm]
+/// decide the motion of clay, not its volume. Storage is reserved once. [mm]
 class WallRadii {
  public:
   /// Room for all rings that the rules reach from a contact with the tool.

@@ -9,7 +9,7 @@
 namespace clay {
 namespace {
 
-/// How a tool comes to each of some rings.
+/// The approach of a tool to each of some rings.
 struct Approach {
   using Row = std::array<double, Yielding::kMost>;
   Row advance;  ///< part of the depth that the tool has gone in the clay [mm]
@@ -45,8 +45,8 @@ CLAYSTACK_INLINE inline void approach_rings(const Pace& all, const Yielding& rin
       q = turn * part;
       at_most *= part * (1.0 + 0.5 * turn * (1.0 - part));
 
-      // Above the knee: how much of the time passes until it is reached, by the logarithmic mean
-      // of the wall.
+      // Above the knee: the fraction of the time until it is reached, by the logarithmic mean of
+      // the wall.
       const double over = greater(depth - advance - knee, 0.0), middle = wall - 0.5 * over;
       const double closing = q * (middle - over * over / (12.0 * middle)) - advance;
       rest = closing > over ? 1.0 - over / closing : over > 0.0 ? 0.0 : 1.0;
@@ -93,7 +93,8 @@ void yield_all(const RemovalPlan& plan, const Pace& all, Yielding& rings,
   });
 }
 
-/// Writes to `other` which rings are not plain: 0 for those that are. Whether there is one.
+/// Marks in `other` the rings that are not plain; 0 marks plain ones. Returns whether there is one
+/// that is not.
 bool find_others(double knee, const Yielding& rings, std::size_t count,
                  std::int64_t* other) noexcept {
   bool found = false;

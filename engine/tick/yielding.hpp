@@ -1,6 +1,6 @@
 #pragma once
-// How clay gives way to a tool in it, for some rings at once: plain loops over arrays, compiled for
-// two or four rows at a time, with operations that IEEE 754 defines exactly.
+// The yielding of clay to a tool in it, for some rings at once: plain loops over arrays, compiled
+// for two or four rows at a time, with operations that IEEE 754 defines exactly.
 
 #include "claystack/engine/plan.hpp"
 

@@ -72,7 +72,7 @@ RulePress rule_press(const WheelState& s, const ToolState& tool) noexcept {
   return {s.plan, tool, s.motion, trims(s, tool)};
 }
 
-/// How far the clay gives way, for the stack and for the force.
+/// Computes the yielding of the clay, for the stack and for the force.
 template <unsigned stages>
 void yield(WheelState& s, const ToolState& tool, std::span<ToolRemoval> removals) noexcept {
   if constexpr (stages & kRules)

@@ -72,8 +72,8 @@ class AtomicFile {
 };
 
 /// Publishes all files or none: if one cannot be named, the files already named are restored. Then
-/// all are discarded, and the error lists what could not be restored. Pipes, devices and standard
-/// output keep the bytes written to them.
+/// all are discarded, and the error lists the files that could not be restored. Pipes, devices and
+/// standard output keep the bytes written to them.
 Result<void> commit_all(std::span<AtomicFile* const> files);
 
 /// Syncs the names in `folder` to disk, where the system supports it: not for a folder without read

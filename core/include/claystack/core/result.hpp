@@ -17,7 +17,7 @@ enum class ErrorKind {
 
 struct Error {
   ErrorKind kind = ErrorKind::bad_input;
-  std::string message;  ///< which file, where in it, what was expected, what was found
+  std::string message;  ///< file, place in it, what was expected, what was found
 };
 
 template <class T>

@@ -155,11 +155,11 @@ struct Ledger {
   WideQuanta trimmed = 0;  ///< cut off by a trimming tool (the paper's chiselling)
   WideQuanta outside = 0;  ///< model `paper` only: excess not yet enough for a ring (section 5.1)
 
-  /// Clay unaccounted for, given what the stack holds; 0 in a sound engine.
+  /// Clay unaccounted for, given the clay in the stack; 0 in a sound engine.
   [[nodiscard]] WideQuanta imbalance(WideQuanta in_stack) const noexcept {
     return in_stack + trimmed + outside - initial - added;
   }
-  /// The clay that the body has too much (negative: lacks): the paper's volume error.
+  /// The excess of clay in the body (negative: a lack): the paper's volume error.
   [[nodiscard]] WideQuanta volume_error(WideQuanta in_stack) const noexcept {
     return in_stack + trimmed - initial - added;
   }
@@ -204,8 +204,8 @@ struct Rim {
   friend bool operator==(const Rim&, const Rim&) = default;
 };
 
-/// How the tool last moved, as the clay rules remember it: a mean over the last few hundredths of a
-/// second. The rules split what a tool displaces by it.
+/// Last motion of the tool, for the clay rules: a mean over the last few hundredths of a second.
+/// The rules use it to divide displaced clay.
 struct Motion {
   double upward_mm_s = 0.0;
   double outward_mm_s = 0.0;  ///< away from the axis
@@ -223,8 +223,8 @@ struct Pot {
   std::optional<Rounding> rounding;
   Rim rim{};        ///< for the next stroke; zero in the model `paper`
   Motion motion{};  ///< for the next stroke; zero in scenes without clay rules
-  /// The settings of the last stroke, for the next one. Empty: the pot was made otherwise, such as
-  /// from a drawing.
+  /// The settings of the last stroke, for the next one. Empty: the pot was made in another way,
+  /// such as from a drawing.
   std::optional<ThrowSettings> thrown_with{};
   /// The tool that left the marks on the walls, if the last stroke was a needle or a wire, which
   /// leave none. Empty otherwise: `thrown_with` has that tool.
@@ -243,8 +243,8 @@ struct Pot {
 /// tools, from which the export takes the smoothing, stay as they are; `Pot::rim`, which a next
 /// stroke would need, is zero. Rounded pots round again to the same precision or a coarser one.
 ///
-/// Refuses, naming the ring, what would change the topology: a wall that would vanish, rings that
-/// would no longer touch each other, an outer radius beyond the limits of ClayStack.
+/// Refuses changes of the topology, and names the ring: a wall that would vanish, rings that would
+/// no longer touch each other, an outer radius beyond the limits of ClayStack.
 Result<Pot> rounded_pot(const Pot& pot, double precision_mm);
 
 /// The clay that rounding added (negative: took away) [mm^3]; 0 of a pot that is not rounded.

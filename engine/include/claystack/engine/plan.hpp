@@ -1,6 +1,6 @@
 #pragma once
-// What one tick of a scene needs, and nothing more: settings checked once and turned into
-// the numbers the stages use.
+// The data of one tick of a scene, and nothing more: settings checked once and converted to the
+// numbers that the stages use.
 
 #include "claystack/core/result.hpp"
 #include "claystack/engine/scene.hpp"
@@ -14,7 +14,7 @@
 
 namespace clay {
 
-inline constexpr double kPaperRateHz = 1000.0;  ///< the paper's tick, for what it states per tick
+inline constexpr double kPaperRateHz = 1000.0;  ///< the paper's rate, for its values per tick
 
 /// Stages that a scene can omit. An omitted stage is not compiled into the tick that runs.
 enum Stage : unsigned {

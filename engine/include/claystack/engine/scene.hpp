@@ -11,7 +11,7 @@
 
 namespace clay {
 
-/// How closely the engine follows the paper. `paper`: removal k(R-r) per tick, stiffness per ring,
+/// The model of the clay. `paper`, as in the paper: removal k(R-r) per tick, stiffness per ring,
 /// growth by whole rings with the rest kept outside the body. `conserving`: exponential removal,
 /// stiffness per mm of contact height, the rest of growth shown as the crown.
 enum class Model { conserving, paper };
@@ -127,8 +127,8 @@ struct ClaySpec {
   double floor_mm = 0.0;     ///< no tool opens the solid bottom below this height; 0: no stop
   /// Length of the finger in a bore; no thick wall closes behind it. Absent: the tool alone.
   std::optional<double> finger_mm = std::nullopt;
-  /// How far from the tool's middle, toward the axis, the finger stands, in radii of the tool.
-  /// Absent: 2. A finger close behind the tool leaves a mouth as wide as the bottom.
+  /// Distance of the finger from the tool's middle, toward the axis, in radii of the tool. Absent:
+  /// 2. A finger close behind the tool leaves a mouth as wide as the bottom.
   std::optional<double> finger_behind = std::nullopt;
   /// At the minimum wall. False: a tool from inside goes through the wall, and two tools that go
   /// out leave it behind. True: they bend it (needs `shift`), and the rim sinks to supply the clay;
@@ -161,8 +161,8 @@ struct SceneSpec {
   friend bool operator==(const SceneSpec&, const SceneSpec&) = default;
 };
 
-/// What a pot remembers of its last scene, so that the next stroke finds the same tool and clay:
-/// everything but the name, the model and the lump.
+/// The part of its last scene that a pot stores, so that the next stroke has the same tool and
+/// clay: all fields except the name, the model and the lump.
 struct ThrowSettings {
   ToolSpec tool;
   RemovalSpec removal;

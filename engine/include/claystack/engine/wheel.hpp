@@ -47,10 +47,10 @@ class Wheel {
  public:
   /// Puts the scene's lump on the wheel. Refuses a lump that cannot carry itself.
   static Result<Wheel> build(const SceneSpec& scene);
-  /// Continues an existing pot. If the first pose repeats the last one, the bits are as if it had
-  /// never been taken off; but without clay rules, clay flows up until the tool rises or sinks.
-  /// A pot that stands upside down (ToolMode::trim_foot) is placed by its height, which a cut
-  /// through its rim can change by less than a ring.
+  /// Continues an existing pot. If the first pose repeats the last one, the result is the same to
+  /// the bit as without the interruption; but without clay rules, clay flows up until the tool
+  /// rises or sinks. A pot that stands upside down (ToolMode::trim_foot) is placed by its height,
+  /// which a cut through its rim can change by less than a ring.
   /// Growth stops at lump.max_rings, or at the pot's own limit if that is 0; the lump's other sizes
   /// are not used. Refuses a model or density other than the scene's, and a pot that has collapsed,
   /// is rounded (its clay is not the counted clay), or cannot carry itself.
