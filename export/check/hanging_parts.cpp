@@ -106,7 +106,7 @@ class Parts {
       if (stands(root)) continue;
       RayUpward ray(mesh_, highest.at(root));
       const auto own = [&](std::uint32_t t) { return sets_.of(mesh_.triangles[t][0]) == root; };
-      // Where surfaces intersect, the nearest one does not decide.
+      // If surfaces intersect, the nearest one does not decide whether the part is enclosed.
       const auto hit = intersect ? ray.enclosing_hit(tree, own) : ray.first_hit(tree, own);
       if (hit && hit->from_back) inside.emplace_back(root, mesh_.triangles[hit->triangle][0]);
       if ((steps += ray.steps()) > kMostRaySteps) return false;

@@ -123,7 +123,7 @@ class ClayBelowMesh {
   }
 
   [[nodiscard]] double slope(const glm::dvec3& place, std::uint32_t triangle) const {
-    // Clay that faces up holds what lies on it.
+    // Clay that faces up supports the clay that lies on it.
     constexpr double kFacesUp = 0.1;
     const glm::dvec3 normal = doubled_area(mesh_, triangle);
     const double lift = normal.z > kFacesUp * glm::length(normal) ? kLevelMm : 0.0;

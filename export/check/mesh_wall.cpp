@@ -50,7 +50,7 @@ struct Thickest {
 struct Found {
   SampledWall wall;  ///< only its counts
   Shortest least;
-  Thickest at_an_end;  ///< where the clay ends close to the ray
+  Thickest at_an_end;  ///< of the rays near which the clay ends
 
   void add(const Found& other) {
     const SampledWall& found = other.wall;
@@ -174,7 +174,7 @@ class WallProbe {
       if (nearer.mm > farther.mm) std::swap(nearer, farther);
       beside.nearest_mm = std::min(beside.nearest_mm, nearer.mm);
       const bool longer = farther.mm >= middle.thickness_mm && farther.mm > kOneSided * nearer.mm;
-      // Beside a leaning face the clay goes on; the sides of a bar lean alike.
+      // Beside a leaning face the clay continues; the sides of a bar lean alike.
       const bool leans = farther.facing < kGrazing && farther.facing < nearer.facing - kLeansMore;
       const double end = nearer.mm / middle.thickness_mm;
       if (end < beside.end && (longer || leans))

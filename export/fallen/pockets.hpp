@@ -1,5 +1,6 @@
 #pragma once
-// Where two rough walls meet, their union encloses pockets of air too small to matter.
+// Fills pockets of air that are too small to matter, which a union encloses where two rough walls
+// meet.
 
 #include "claystack/export/solid.hpp"
 

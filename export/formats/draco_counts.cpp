@@ -61,7 +61,7 @@ Result<DracoCounts> draco_counts(std::string_view bytes, std::string_view name) 
   CountReader reader(bytes, version >= (edgebreaker ? kPackedConnectivity : kPackedCounts));
   DracoCounts counts;
   if (edgebreaker) {
-    (void)reader.byte();  // how the traversal is coded
+    (void)reader.byte();  // the coding of the traversal
     if (version < kNoNewVertices) (void)reader.next();
     counts.points = reader.next();
     counts.triangles = reader.next();

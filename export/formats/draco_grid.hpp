@@ -17,11 +17,11 @@ struct DracoGrid {
   int bits = 1;
 };
 
-/// The file that a grid is for, as messages name it.
+/// The file of a grid, for messages.
 struct GridFile {
   std::string_view ending = ".drc";
   double unit_mm = 1.0;   ///< of the points and of the error in the settings
-  double other_mm = 0.0;  ///< how far the file moves its vertices in other ways
+  double other_mm = 0.0;  ///< displacement of the file's vertices by other causes
 };
 
 /// Chooses the coarsest grid within the error, which takes the least bytes: the smallest number of

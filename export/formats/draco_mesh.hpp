@@ -24,7 +24,8 @@ namespace clay::solid::inline formats {
     const TriangleMesh& mesh, const std::vector<glm::vec3>& points,
     std::span<const std::array<std::uint16_t, 4>> colours = {});
 
-/// A stream as `encode_drc` makes it without claims, with what the decoded mesh holds.
+/// A stream as `encode_drc` makes it without claims, with the counts and bounds of the decoded
+/// mesh.
 struct EncodedDraco {
   std::string bytes;
   std::size_t points = 0, triangles = 0;

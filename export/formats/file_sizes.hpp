@@ -1,5 +1,5 @@
 #pragma once
-// The usual sizes of mesh files: what exports announce, and what readers expect of a file that
+// The usual sizes of mesh files: the estimates of exports, and those of readers for a file that
 // states its triangles at no fixed place.
 
 #include "claystack/export/formats.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// How the text formats begin. The readers and `mesh_format_of_bytes` use the same rules.
+// The beginnings of the text formats. The readers and `mesh_format_of_bytes` use the same rules.
 
 #include <string_view>
 

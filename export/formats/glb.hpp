@@ -44,7 +44,7 @@ namespace clay::solid::inline formats {
   return glb::to_mm(file_point(glb::to_metres(mm)));
 }
 
-/// How often each coordinate is rounded to float32 on its way through a file, at most: a GLB rounds
+/// Maximum number of roundings of a coordinate to float32 on its way through a file: a GLB rounds
 /// in metres, perhaps again on Draco's grid, and in mm when it is read.
 [[nodiscard]] constexpr double roundings_of(MeshFormat format) noexcept {
   return format == MeshFormat::glb ? 3.0 : 1.0;

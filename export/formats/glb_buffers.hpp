@@ -17,7 +17,7 @@ struct Values {
   [[nodiscard]] const char* at(std::size_t i) const { return bytes.data() + i * stride; }
 };
 
-/// Every function throws BadGlb for what is not within the buffer.
+/// Every function throws BadGlb for data outside the buffer.
 class Buffers {
  public:
   /// Both outlive this.

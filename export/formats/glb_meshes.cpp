@@ -12,10 +12,10 @@
 namespace clay::solid::inline formats::glb {
 namespace {
 
-/// How a coordinate is stored.
+/// Storage of a coordinate.
 struct Component {
-  std::size_t size = 0;  ///< bytes; 0: no coordinate is stored so
-  double most = 0.0;     ///< the number that means 1, if normalised; 0: none
+  std::size_t size = 0;  ///< bytes; 0: not a type of coordinates
+  double most = 0.0;     ///< number that stands for 1, if normalised; 0: none
   double (*read)(const char* at) = nullptr;
 };
 

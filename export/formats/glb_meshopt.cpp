@@ -128,7 +128,7 @@ Streams smallest(const TriangleMesh& metres, const std::vector<Vertices>& vertic
   return other.size() < best.size() ? other : best;
 }
 
-/// Every point is used: the codec's order of vertices is that of their use.
+/// Checks that every point is used: the codec orders vertices by their use.
 Result<void> check(const TriangleMesh& metres) {
   std::vector<bool> used(metres.points.size(), false);
   for (const auto& triangle : metres.triangles)
@@ -182,7 +182,7 @@ Bounds stored_bounds(const std::vector<Cell>& cells) {
 
 OrderedJson corner_accessor(Views& views, const Streams& streams, std::size_t points,
                             std::size_t corners) {
-  const bool small = points < 65535;  // which restarts a strip
+  const bool small = points < 65535;  // 65535 restarts a strip
   return {{"bufferView", views.add(streams.indices, "TRIANGLES", corners, small ? 2 : 4)},
           {"componentType", small ? kUint16 : kUint32},
           {"count", corners},

@@ -1,5 +1,5 @@
 #pragma once
-// The nodes of a GLB: which meshes its scene shows, and where.
+// The nodes of a GLB: the meshes of its scene, and their places.
 
 #include "export/formats/glb_json.hpp"
 

@@ -93,7 +93,7 @@ Error kind_stated(Error error, std::string_view head, std::uint64_t file_bytes, 
   if (error.kind != ErrorKind::bad_input || facts.ending.empty()) return error;
   const std::string_view kind = kind_of(head, file_bytes);
   if (kind.empty() || kind.find(facts.title) != std::string_view::npos) return error;
-  const bool vowel = facts.title[0] == 'S' || facts.title[0] == 'O';  // as it is spoken
+  const bool vowel = facts.title[0] == 'S' || facts.title[0] == 'O';  // as pronounced
   return {error.kind, std::string(name)
                           .append(vowel ? ": expected an " : ": expected a ")
                           .append(facts.title)

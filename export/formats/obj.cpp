@@ -28,7 +28,7 @@ struct VertexList {
   std::size_t count = 0;
   std::size_t highest_used = 0;
   std::size_t line_of_highest = 0;
-  std::size_t bad_line = 0;  ///< the first that names one which cannot be; 0: none
+  std::size_t bad_line = 0;  ///< the first line with an invalid index; 0: none
 };
 
 /// Lines of one kind, and the first of them.
@@ -39,7 +39,7 @@ struct Lines {
   }
 };
 
-/// A face's corner: "v", "v/vt", "v//vn" or "v/vt/vn". Some programs write the strokes without the
+/// A face's corner: "v", "v/vt", "v//vn" or "v/vt/vn". Some programs write the slashes without the
 /// numbers.
 struct CornerWords {
   std::string_view point;
@@ -84,7 +84,7 @@ class ObjReader {
  private:
   void read_statement(std::string_view keyword) {
     // Names, groups, materials, smoothing, lines and points are not part of the surface. A material
-    // library is another file, which a mesh must not make the program open.
+    // library is another file: a mesh must not cause the program to open it.
     static constexpr std::array<std::string_view, 7> kPassedOver = {"o",      "g", "s", "mtllib",
                                                                     "usemtl", "l", "p"};
     const bool mesh = keyword == "v" || keyword == "f" || keyword == "vt" || keyword == "vn";
@@ -112,7 +112,7 @@ class ObjReader {
   void read_unknown(std::string_view keyword) {
     const bool begun =
         points_.count + textures_.count + normals_.count + mesh_.triangles.size() > 0;
-    // Curves and surfaces: without them, the mesh is not all that the file holds.
+    // Curves and surfaces: without them, the mesh would not be the whole surface in the file.
     static constexpr std::array<std::string_view, 14> kFreeForm = {
         "vp",   "cstype", "deg",  "bmat", "step", "curv", "curv2",
         "surf", "parm",   "trim", "hole", "scrv", "sp",   "con"};

@@ -90,7 +90,7 @@ class HeaderReader {
     if (words[0] == "format" && words.size() == 3) return read_format(words);
     if (words[0] == "element" && words.size() == 3) return read_element(words);
     if (words[0] == "property" && !header_.elements.empty()) return read_property(words, line);
-    // Before the elements such a line cannot change what the numbers mean.
+    // Before the elements such a line cannot change the meaning of the numbers.
     const bool keyword = words[0] == "format" || words[0] == "element" || words[0] == "property";
     if (!keyword && header_.elements.empty()) {
       if (header_.stray_lines++ == 0) header_.stray_line = header_.lines;

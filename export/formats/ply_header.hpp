@@ -1,5 +1,5 @@
 #pragma once
-// The header of a PLY file: what its elements hold, and where they begin.
+// The header of a PLY file: the contents of its elements, and the offset of the first one.
 
 #include "claystack/core/result.hpp"
 

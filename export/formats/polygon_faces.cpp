@@ -14,7 +14,7 @@ namespace {
 /// Of a face that programs take for flat: the distance of its corners from their plane, in sizes.
 constexpr double kFlat = 0.01;
 
-/// A kind of faces that deserves a note.
+/// A kind of faces that gets a note.
 struct OddFaces {
   std::size_t count = 0;
   glm::dvec3 first{0.0};

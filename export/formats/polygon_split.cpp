@@ -83,7 +83,7 @@ class PolygonTriangulation {
             {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
     const std::size_t holes = ends_.size() - 1;
     if (inside.size() != corners_.size() + 2 * holes - 2) return std::nullopt;
-    // An order of its own: that of the library is not documented.
+    // A fixed order: that of the library is not documented.
     for (auto& t : inside) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     std::ranges::sort(inside);
     return inside;

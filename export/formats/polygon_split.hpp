@@ -19,8 +19,8 @@ namespace clay::solid::inline formats {
 bool split_polygon(const std::vector<std::uint32_t>& corners, const std::vector<glm::dvec3>& points,
                    const glm::dvec3& area, std::span<std::array<std::uint32_t, 3>> triangles);
 
-/// The triangles between an outline and the holes in it, in the turn of the area. `corners` and
-/// `points` are those of all outlines, those of the holes after the outer one; `ends` has the
+/// The triangles between an outline and the holes in it, in the orientation of the area. `corners`
+/// and `points` are those of all outlines, those of the holes after the outer one; `ends` has the
 /// number of corners up to the end of each. Empty if the outlines cross or touch, or a hole is no
 /// hole of the outer one.
 std::vector<std::array<std::uint32_t, 3>> split_around_holes(

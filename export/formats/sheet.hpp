@@ -14,7 +14,7 @@ namespace clay::solid::inline formats {
 
 enum class SheetLayer { outside, section, axis, dimensions, rib, text, scale };
 
-/// How a layer is drawn.
+/// Style of a layer.
 struct LayerStyle {
   std::string_view name;    ///< in SVG and DXF
   double red, green, blue;  ///< 0 to 1

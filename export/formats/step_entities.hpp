@@ -1,5 +1,5 @@
 #pragma once
-// The entities of a STEP file, for its judge: each access checks what it finds.
+// The entities of a STEP file, for its verification: each access checks the entity.
 
 #include "export/formats/step_text.hpp"
 

@@ -34,7 +34,7 @@ class StepJudge {
  private:
   static constexpr std::size_t kUnused = ~std::size_t{0};
 
-  /// An edge of the shell, and how many loops use it in its own direction and against it.
+  /// An edge of the shell, and the numbers of loops that use it in its direction and against it.
   struct ShellEdge {
     std::string_view ref;
     StepEdge edge;
@@ -92,7 +92,7 @@ class StepJudge {
     edges_.clear();
   }
 
-  /// The place in `edges_`: an edge is read once, however often it is used.
+  /// The place in `edges_`: an edge is read once, even if several loops use it.
   std::size_t place_of(std::string_view ref) {
     std::size_t& place = places_[step_.place(ref)];
     if (place == kUnused) {

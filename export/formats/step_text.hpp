@@ -27,7 +27,7 @@ struct StepFile {
   }
 };
 
-/// The number of a reference, 12 of "#12"; 0 if the word is none.
+/// The number of a reference, 12 of "#12"; 0 if the word is not a reference.
 [[nodiscard]] std::size_t step_number(std::string_view word) noexcept;
 
 /// Reads files that number their entities from 1, one after the other, and have no comments, as

@@ -169,7 +169,7 @@ tl::unexpected<Error> no_stl(std::string_view head, std::uint64_t bytes, std::st
 }
 
 /// The whole facets of a file whose size and count disagree: at most as many as it counts, unless
-/// what follows the prologue is nothing but facets.
+/// only facets follow the prologue.
 std::size_t facets_there(std::uint64_t bytes, std::uint64_t counted) {
   const std::uint64_t whole = (bytes - kPrologueBytes) / kFacetBytes;
   const bool only_facets = (bytes - kPrologueBytes) % kFacetBytes == 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Which element of a 3MF model may stand in which.
+// The permitted nesting of the elements of a 3MF model.
 
 #include <cstdint>
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace clay::solid::inline formats::three_mf {
 
-/// Where a reader is: in an element of the core specification, or outside the model.
+/// Position of a reader: in an element of the core specification, or outside the model.
 enum class Place : std::uint8_t {
   outside,
   model,
@@ -32,7 +32,7 @@ enum class Place : std::uint8_t {
 /// The place of an element in its parent; none where the specification does not allow it.
 [[nodiscard]] std::optional<Place> place_of(std::string_view name, Place parent);
 
-/// The message about an element that is not allowed where it is.
+/// The message about an element that is not allowed at its place.
 [[nodiscard]] std::string misplaced(std::string_view name, Place parent);
 
 }  // namespace clay::solid::inline formats::three_mf

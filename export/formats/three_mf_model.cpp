@@ -351,7 +351,7 @@ void ModelReader::add_placed(XmlReader& reader, const XmlElement& element,
     dropped_.add(*negative);
     return no_clay_.add(*negative);
   }
-  // Not in the core specification, but PrusaSlicer and Bambu Studio write and obey it.
+  // Not in the core specification, but PrusaSlicer and Bambu Studio write and apply it.
   const std::string_view printable = element.value_of("printable").value_or("1");
   if (places_.back() == Place::item && (printable == "0" || printable == "false"))
     ++not_printed_;

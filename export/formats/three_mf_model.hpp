@@ -75,7 +75,7 @@ class ModelReader final : public XmlReader::Events {
   void add_resource(XmlReader& reader, const XmlElement& element);
   void check_property(XmlReader& reader, const XmlElement& element);
 
-  /// What ids and units of one part mean.
+  /// Meaning of the ids and of the unit of one part.
   struct Part {
     double unit_mm = 1.0;
     std::set<std::uint32_t> resources;  ///< ids of all kinds

@@ -112,7 +112,7 @@ Result<void> read_part(const ZipPackage& package, std::string_view path, std::st
 }
 
 /// The model parts to which the start part has a relationship. Slicers such as Bambu Studio keep
-/// each object in a part of its own.
+/// each object in a separate part.
 Result<std::vector<std::string>> other_parts(const ZipPackage& package, const std::string& path,
                                              std::string_view name) {
   const std::size_t file = path.rfind('/') + 1;

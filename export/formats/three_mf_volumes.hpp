@@ -1,6 +1,6 @@
 #pragma once
 // The volumes of a slicer's project that are not printed as they are: modifiers, supports, and
-// volumes that are subtracted. The model does not tell them apart; a part beside it does.
+// volumes that are subtracted. The model does not distinguish them; a part beside it does.
 
 #include "export/formats/xml_reader.hpp"
 

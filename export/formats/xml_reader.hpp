@@ -1,6 +1,6 @@
 #pragma once
 // Reads XML by events, piece by piece, by libxml2: no document in memory, no network, no document
-// types and so no entities of the file's own, and a limit on the attributes of a tag.
+// types and so no entities defined by the file, and a limit on the attributes of a tag.
 
 #include "claystack/core/result.hpp"
 #include "core/xml_attributes.hpp"

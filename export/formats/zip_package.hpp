@@ -1,5 +1,5 @@
 #pragma once
-// Zip archives in memory, by libzip, with limits on what they unpack to.
+// Zip archives in memory, by libzip, with limits on the size of their unpacked contents.
 
 #include "claystack/core/result.hpp"
 

@@ -25,7 +25,7 @@ constexpr double kCloseAtJump = 1e-3;
 constexpr int kMostSteps = 40;
 constexpr double kFarthest = 50.0;  // of a factor from 1
 
-/// One requested number, and how it grows with the factor that is solved for.
+/// One requested number, and the powers of the factors on radius and height by which it grows.
 struct Aim {
   std::string name;
   double target = 0.0;
@@ -76,7 +76,7 @@ struct Scale {
   double radius = 1.0, height = 1.0;
 };
 
-/// Without what costs time and changes no figure of the pot.
+/// Removes options that cost time and change no figure of the pot.
 ExportOptions to_measure(ExportOptions options) {
   options.wall_spacing_mm.reset();
   options.measure_left_out = options.full_verification = false;
@@ -173,7 +173,7 @@ class GoalSearch {
     return {};
   }
 
-  /// Why the pot holds nothing.
+  /// Reason why the pot holds nothing.
   [[nodiscard]] std::string nothing(const ExportReport& report) const {
     if (state(report).capacity_ml > 0.0)
       return ": expected a fill line above the floor of the pot, found one " +

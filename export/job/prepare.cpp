@@ -24,8 +24,8 @@ Ring times(const Ring& ring, double factor) {
   return larger;
 }
 
-/// The crown keeps its fraction of a ring, however that ring was rounded. It exceeds a ring where
-/// the stack has no room for another.
+/// The crown keeps its fraction of a ring in spite of the rounding of that ring. It exceeds a ring
+/// where the stack has no room for another.
 WideQuanta crown_of(const ClayStack& stack, const Ring& larger_top) {
   const Quanta top = stack.rings().back().volume(), larger = larger_top.volume();
   const double part = static_cast<double>(stack.crown()) / static_cast<double>(top);

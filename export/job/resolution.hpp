@@ -25,9 +25,9 @@ Result<void> check_triangles(std::size_t triangles, std::size_t segments,
 /// far below that limit.
 Result<void> check_height(double height_mm);
 
-/// How far the vertices of a file may lie from their places [mm]: the tolerance, or less if a wall
-/// that meets its limit would not meet it in the file. `wall_mm`: lower bound of the wall before
-/// its vertices, on both sides of it, are moved.
+/// Maximum distance of the vertices of a file from their places [mm]: the tolerance, or less if a
+/// wall that meets its limit would not meet it in the file. `wall_mm`: lower bound of the wall
+/// before its vertices, on both sides of it, are moved.
 double vertex_error_mm(double tolerance_mm, double wall_mm, const std::optional<WallLimit>& limit);
 
 /// Several pieces are an error unless permitted; the message names the first rings that do not

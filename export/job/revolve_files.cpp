@@ -35,7 +35,7 @@ Result<void> check_sound(const TriangleMesh& mesh, const std::string& name) {
   return failure(ErrorKind::unsound, name + ": found " + describe(report.problems.front()));
 }
 
-/// What float32 cannot represent: usually the thinnest wall.
+/// The part of the pot that float32 cannot represent: usually the thinnest wall.
 std::string lost_part(const Profile& profile, double rounding_mm) {
   constexpr double kThin = 8.0;  // roundings: both faces move, in two directions
   const Wall wall = min_wall(profile);

@@ -112,7 +112,8 @@ class RevolvedExport {
     return std::max(coarsest, options_.tolerance_mm);
   }
 
-  /// Smoothing respects a limit only if the walls keep it with that and not without.
+  /// Smoothing respects the limit only where that is necessary and sufficient: the walls keep the
+  /// limit with it, and not without it.
   Result<Design> design_at(double tolerance_mm) {
     auto free = design_with(std::nullopt, tolerance_mm);
     if (!prepared_.limit) return free;
@@ -141,7 +142,7 @@ class RevolvedExport {
         .and_then([&](std::size_t segments) {
           design.size.segments = segments;
           design.size.triangles = triangle_count(design.section.profile(), segments);
-          // Without a mesh, as for a drawing, their number costs nothing.
+          // Without a mesh, as for a drawing, the number of triangles costs nothing.
           if (!outputs_.empty())
             if (auto few = check_triangles(design.size.triangles, segments, options_); !few)
               return Result<Design>(tl::make_unexpected(few.error()));

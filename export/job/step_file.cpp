@@ -15,7 +15,7 @@ namespace clay::solid::inline job {
 namespace {
 
 /// In the proof, curves count as lines within this part of the tolerance and of the thinnest wall,
-/// but at most and at least so far.
+/// but at most kFarthestMm and at least kNearestMm.
 constexpr double kPart = 0.05, kFarthestMm = 2e-4, kNearestMm = 1e-7;
 /// Parts of the tolerance for curves that must be closer.
 constexpr double kCloser = 0.25, kClosest = 0.01;
@@ -31,7 +31,7 @@ Result<void> agrees(const StepSolid& found, const RevolvedBrep& brep) {
                                          number_text(found.volume_mm3));
 }
 
-/// A solid for CAD, and what is proved of it: an error where its walls cross each other.
+/// A solid for CAD and its proof: an error if its walls cross each other.
 struct FittedBrep {
   RevolvedBrep brep;
   Result<StepReport> proof;
@@ -78,7 +78,8 @@ tl::unexpected<Error> crossing_curves(const Wall& thinnest, double tolerance_mm)
                      ", and a smaller tolerance brings the curves closer");
 }
 
-/// Closer curves, as long as those so far cross, or only they make a wall thinner than its limit.
+/// Fits closer curves while the curves cross, or while they alone make a wall thinner than its
+/// limit.
 Result<FittedBrep> fitted_closely(const ExportReport& report, const ExportOptions& options,
                                   Stages& stages) {
   const std::optional<WallLimit>& limit = report.walls.limit;

@@ -48,7 +48,8 @@ std::string coordinates(const TriangleMesh& mesh, const Fault& fault) {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-/// Where a segment passes through a triangle; not if it lies in its plane.
+/// The point at which a segment passes through a triangle; empty if the segment lies in the
+/// triangle's plane.
 std::optional<glm::dvec3> pierced(const glm::dvec3& from, const glm::dvec3& to, const Corners& t) {
   const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
   const double a = glm::dot(normal, from - t[0]), b = glm::dot(normal, to - t[0]);

@@ -50,15 +50,15 @@ bool certain(double sum, double absolute) {
 
 double sum_of_sizes(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-/// On which side of the plane through `origin` with that normal the point certainly is: 1, -1, or
-/// 0 where that is not certain. Any vector is a normal, so its own rounding does not matter.
+/// Side of the plane through `origin` with that normal on which the point certainly is: 1, -1, or 0
+/// if that is not certain. Any vector is a normal, so its own rounding does not matter.
 int side_of_plane(const glm::dvec3& normal, const glm::dvec3& origin, const glm::dvec3& point) {
   const glm::dvec3 terms = normal * (point - origin);
   const double sum = terms.x + terms.y + terms.z;
   return certain(sum, sum_of_sizes(terms)) ? (sum > 0.0 ? 1 : -1) : 0;
 }
 
-/// On which side of the line from `v` to `w` a point certainly is, seen along an axis.
+/// Side of the line from `v` to `w` on which a point certainly is, seen along an axis.
 int side_of_line(std::size_t axis, const glm::dvec3& v, const glm::dvec3& w, const glm::dvec3& p) {
   const auto x = static_cast<int>((axis + 1) % 3), y = static_cast<int>((axis + 2) % 3);
   const double left = (w[x] - v[x]) * (p[y] - v[y]), right = (w[y] - v[y]) * (p[x] - v[x]);

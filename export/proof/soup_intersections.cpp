@@ -99,7 +99,7 @@ bool SoupIntersections::distribute() {
   return true;
 }
 
-/// Where many triangles are long, wider slabs hold fewer of them twice.
+/// Joins slabs in pairs: if many triangles are long, fewer of them are in several wider slabs.
 void SoupIntersections::halve_slabs() {
   for (std::size_t slab = 1; 2 * slab < begins_.size(); ++slab) begins_[slab] = begins_[2 * slab];
   begins_.resize((begins_.size() + 1) / 2);

@@ -10,8 +10,8 @@
 namespace clay::solid::inline repair {
 namespace {
 
-/// Walks along one border. Where it meets a place again, what lies between becomes a border of its
-/// own; each place is looked up once, so that long borders are fast.
+/// Walks along one border. Where it meets a place again, the edges between become a separate
+/// border; each place is looked up once, so that long borders are fast.
 class BorderWalk {
  public:
   BorderWalk(Surface& surface, Surface::Halfedge_index start)

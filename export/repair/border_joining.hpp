@@ -4,7 +4,7 @@
 namespace clay::solid::inline repair {
 
 /// A border that passes the same place twice bounds two holes that touch there. Its vertices in
-/// that place become one, so that each hole has a border of its own, if each then has at least
+/// that place become one, so that each hole has a separate border, if each border then has at least
 /// three edges. Returns the number of vertices that were removed.
 std::size_t join_borders(Surface& surface);
 

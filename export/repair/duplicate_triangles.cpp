@@ -51,7 +51,7 @@ class Duplicates {
 
   [[nodiscard]] bool rising(const Item& item) const { return rises(mesh_.triangles[item.second]); }
 
-  /// How many more of the triangles rise than fall.
+  /// Number of rising triangles minus the number of falling ones.
   [[nodiscard]] std::ptrdiff_t excess(Group group) const {
     const auto up = std::ranges::count_if(group, [&](const Item& item) { return rising(item); });
     return 2 * up - std::ssize(group);
@@ -94,7 +94,7 @@ class Duplicates {
     return found;
   }
 
-  /// As many of their triangles stay as prevail.
+  /// Keeps as many triangles of these faces as the excess of the prevailing orientation.
   void keep_faces_of_solids() {
     const std::vector<bool> of_solid = dropped_of_solids();
     if (of_solid.empty()) return;

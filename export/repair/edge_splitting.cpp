@@ -33,7 +33,7 @@ struct Side {
   std::uint32_t triangle;
   std::size_t corner;
   glm::dvec3 from, way;
-  double reach_mm;  ///< how far a vertex on it may lie off it
+  double reach_mm;  ///< maximum distance of a vertex on it
 };
 
 class Splitting {
@@ -57,7 +57,8 @@ class Splitting {
 
  private:
   void add_side(const SoupEdge& edge) {
-    // The corner of a flat triangle that is missing is near the edge, too: that hole is filled.
+    // A hole whose missing triangle is flat also has a vertex near the edge: hole filling closes
+    // it.
     constexpr double kOfLength = 1e-4, kOfHeight = 0.25;
     const Triangle& t = mesh_.triangles[edge.triangle];
     std::size_t c = 0;

@@ -37,7 +37,7 @@ struct SoupVertex {
 struct Cover {
   int sheets = 0;
   bool known = false;
-  std::array<int, 3> steps{};  ///< how many more lie on the other side of each edge
+  std::array<int, 3> steps{};  ///< increase of their number across each edge
 };
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<SoupVertex, ExactKernel>;
 using FaceBase = CGAL::Triangulation_face_base_with_info_2<
@@ -276,7 +276,7 @@ class Refinement {
 
   struct Side {
     std::uint32_t low, high;
-    int sheets;  ///< how many more lie left of it than right, seen from low to high
+    int sheets;  ///< those left of it minus those right of it, from low to high
   };
   [[nodiscard]] Side side_of(std::uint32_t t, std::size_t c) const {
     const std::uint32_t a = mesh_.triangles[t].at(c), b = mesh_.triangles[t].at((c + 1) % 3);

@@ -19,8 +19,8 @@ struct ExactSoup {
   std::size_t first_new = 0;
   std::vector<ExactPoint> exact;  ///< of the new points
   std::vector<Triangle> triangles;
-  /// By triangle, at least 1: how many sheets of the input cover it in its direction, less those
-  /// that cover it in the opposite one.
+  /// By triangle, at least 1: number of sheets of the input that cover it in its direction, minus
+  /// those that cover it in the opposite one.
   std::vector<int> sheets;
   std::vector<bool> at_cut;  ///< by point of the input: whether a triangle that was cut uses it
 

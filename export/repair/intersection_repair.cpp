@@ -183,7 +183,7 @@ class Resolution {
       MeshReport of_next = completed_check(next.mesh);
       const std::size_t faults = faults_of(of_next);
       if (fewest && faults >= *fewest)
-        worse += faults == *fewest ? kMostWorse : 1;  // the same faults: they are not the steps'
+        worse += faults == *fewest ? kMostWorse : 1;  // same faults: not caused by the steps
       else
         worse = 0;
       if (fewest && *fewest <= faults) continue;

@@ -51,7 +51,8 @@ Result<TriangleMesh> wrapped_or_error(const TriangleMesh& soup, double offset_mm
 }
 
 /// A wall around an open surface. On curved surfaces the triangles of a wrap lie too low, so that
-/// the wall would be thinner there: the wrap is repeated farther out, by what rays find missing.
+/// the wall would be thinner there: the wrap is repeated farther out, by the missing thickness that
+/// rays find.
 Result<TriangleMesh> thickened(const TriangleMesh& soup, double asked_mm, const Error& reason,
                                ThickenedWall& wall) {
   constexpr int kMostWraps = 8;
@@ -110,7 +111,7 @@ bool is_closed(const TriangleMesh& soup) {
 }
 
 /// The union of closed solids that share edges, as the parts of a stacked cup do. No surface joins
-/// all of their triangles, but winding numbers show what they enclose. Empty for an open soup, and
+/// all of their triangles, but winding numbers show the enclosed space. Empty for an open soup, and
 /// if a solid is inside out: only half-edges can show which one.
 std::optional<TriangleMesh> united_solids(TriangleMesh soup, std::vector<Repair>& repaired,
                                           StageReport& stage) {
@@ -177,7 +178,7 @@ struct RepairAttempt {
   bool wrap_may_help = false;
 };
 
-/// Exceptions of the library become errors. It may fail on a mesh that it can wrap.
+/// Exceptions of the library become errors. The library may fail to repair a mesh that it can wrap.
 RepairAttempt attempted(const TriangleMesh& soup, const RepairOptions& options,
                         RepairedMesh& report, StageReport& stage) try {
   auto mesh = repaired(soup, options, report, stage);

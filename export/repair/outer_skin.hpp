@@ -1,5 +1,5 @@
 #pragma once
-// The boundary of what a soup of closed sheets encloses, by exact winding numbers.
+// The boundary of the region that a soup of closed sheets encloses, by exact winding numbers.
 
 #include "claystack/core/result.hpp"
 #include "export/repair/exact_soup.hpp"

@@ -178,8 +178,8 @@ class Farthest {
     return made.nearest;
   }
 
-  /// The distance changes by no more than the way. The distance to one triangle is convex, so it is
-  /// largest at a corner.
+  /// Along a way, the distance changes by at most the length of the way. The distance to one
+  /// triangle is convex, so it is largest at a corner.
   Piece piece(const Corners& corners, std::uint32_t hint) {
     const glm::dvec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     const Near near = near_to(middle, hint);

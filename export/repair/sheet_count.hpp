@@ -7,7 +7,8 @@ namespace clay::solid::inline repair {
 
 struct SheetCount {
   std::vector<Triangle> triangles;  ///< no two on the same vertices, in the order of the first
-  /// By triangle, at least 1: how many have its direction, less those of the opposite one.
+  /// By triangle, at least 1: number of triangles in its direction, minus those in the opposite
+  /// one.
   std::vector<int> sheets;
 };
 

@@ -6,8 +6,8 @@
 namespace clay::solid::inline repair {
 
 /// Half-edges for a clean soup, with consistent orientation: edges and vertices where sheets touch
-/// are cut apart, borders in the same place are stitched, holes that touch in a vertex get borders
-/// of their own, and each connected part keeps the orientation of most of its triangles. Triangles
+/// are cut apart, borders in the same place are stitched, holes that touch in a vertex get separate
+/// borders, and each connected part keeps the orientation of most of its triangles. Triangles
 /// without area and lone triangles are removed. An error (`unsound`) if the library finds no
 /// surface.
 Result<Surface> make_surface(const TriangleMesh& soup, std::vector<Repair>& repaired);

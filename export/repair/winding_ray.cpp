@@ -9,8 +9,8 @@ using Point2 = ExactKernel::Point_2;
 
 Point2 seen_along(int axis, const ExactPoint& p) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
 
-/// How often the corners go counterclockwise around a point. Points on the border of two triangles
-/// belong to one of them, as if moved by an infinitesimal.
+/// Number of counterclockwise turns of the corners around a point. Points on the border of two
+/// triangles belong to one of them, as if moved by an infinitesimal.
 int turns_around(const Point2& middle, const std::array<Point2, 3>& corners) {
   int turns = 0;
   for (std::size_t c = 0; c < 3; ++c) {

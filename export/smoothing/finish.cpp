@@ -112,7 +112,8 @@ class FootCut {
 
 // ---- fillet of the floor -------------------------------------------------------------
 
-/// Upside down and from the rim to the floor, the air inside is what clay is at a lip.
+/// The bore upside down, from the rim to the floor: the air inside it then lies like the clay at a
+/// lip.
 Polygon turned(const Polygon& line) {
   Polygon result(line.rbegin(), line.rend());
   for (ProfilePoint& p : result) p.y = -p.y;
@@ -167,7 +168,7 @@ class FloorFillet {
 
 // ---- all of it -----------------------------------------------------------------------
 
-/// NaN is no length.
+/// Refuses NaN, infinity and negative lengths; 0 unless `zero_allowed`.
 Result<void> check_length(const std::string& name, double mm, bool zero_allowed) {
   if (std::isfinite(mm) && (mm > 0.0 || (zero_allowed && mm == 0.0))) return {};
   return wrong(name, std::string("expected ") + (zero_allowed ? "0 mm or more" : "more than 0 mm") +

@@ -28,7 +28,7 @@ class FlangeGuard {
                                                   const Wall& thinnest) const;
 
  private:
-  /// The limit, or the minimum wall of the steps, whichever is less.
+  /// The limit or the minimum wall of the steps, the smaller one [mm].
   double required_mm();
   [[nodiscard]] std::size_t ring_at(double y) const;
   [[nodiscard]] std::vector<double> walls_below(double required_mm, const Profile& profile,

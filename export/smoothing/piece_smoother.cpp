@@ -28,7 +28,8 @@ constexpr double kLeastOfChords = 0.5;
 /// from a corner leans a little.
 constexpr double kSlack = 1e-3;
 constexpr double kThick = 10.0;  // tolerances
-/// Covers the allowance of a limit, so that whatever passes with chords passes.
+/// Covers the allowance of a limit, so that a wall that meets the limit with chords also meets it
+/// here.
 constexpr double kMeetsLimit = 0.99;
 
 /// A length below two rings has no effect.
@@ -126,8 +127,8 @@ class PieceSmoother {
            plan_.keep_steps(thin);
   }
 
-  /// The same for flanges, clay between two places of one wall, and for what fairing made thinner
-  /// than chords.
+  /// The same for flanges, clay between two places of one wall, and for places that fairing made
+  /// thinner than chords.
   bool flange_guard_found_more() {
     const Profile profile{{outline_of(lines_)}};
     const Wall thinnest = min_wall(profile);

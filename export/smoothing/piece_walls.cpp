@@ -38,7 +38,7 @@ struct Widest {
   }
 };
 
-/// `ends` marks where the wall begins and ends; steps beyond belong to another wall.
+/// `ends` marks the ends of the wall; steps beyond them belong to another wall.
 bool is_feature(const PieceWalls& piece, const WallRings& wall, const CutFlags& ends,
                 std::size_t interface) {
   const double tread = tread_mm(wall, interface);

@@ -137,7 +137,7 @@ bool SmoothingPlan::use_chords_everywhere() {
   return more;
 }
 
-/// Where rings have chords, so that these are the same as without fairing.
+/// Keeps the corners beside a ring with chords, so that the chords are the same as without fairing.
 void SmoothingPlan::keep_marks_beside(std::size_t ring) {
   for (const std::size_t k : {ring, ring + 1}) {
     if (k == 0 || k == piece_.size() || chords_[k - 1] == 0 || chords_[k] == 0) continue;

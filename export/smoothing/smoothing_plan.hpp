@@ -98,8 +98,8 @@ class SmoothingPlan {
   Cuts cuts_;
   Cuts marks_;                     ///< corners without fairing; empty without it
   std::vector<char> chords_;       ///< a flag for each ring; empty without fairing
-  std::size_t chord_reach_ = 0;    ///< rings around thin ones, beside what their thickness requires
-  std::vector<char> refinement_;   ///< how often each ring's tolerance was reduced
+  std::size_t chord_reach_ = 0;    ///< rings around thin ones, in addition to their thickness
+  std::vector<char> refinement_;   ///< number of reductions of each ring's tolerance
   std::vector<std::size_t> next_;  ///< for each interface, a link towards the next open one
   KeptStretches thinned_, jumps_;
 };

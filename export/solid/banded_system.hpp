@@ -1,5 +1,6 @@
 #pragma once
-// Least squares whose unknowns meet only their neighbours, as the control points of a spline do.
+// Least squares in which each unknown is coupled only with its neighbours, such as the control
+// points of a spline.
 
 #include "core/cancel.hpp"
 

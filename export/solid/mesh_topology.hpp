@@ -40,11 +40,11 @@ struct MeshTopology {
   Fault duplicates;     ///< triangles on the same three vertices as an earlier one
   Fault open_edges;     ///< of one triangle only
   Fault crowded_edges;  ///< of three or more triangles
-  Fault flipped_edges;  ///< whose two triangles have the same direction along it
+  Fault flipped_edges;  ///< edges with the same direction in both triangles
   /// Along each edge as many triangles run one way as the other: otherwise the signed volume
   /// depends on the origin of the coordinates.
   bool balanced = true;
-  Fault split_vertices;                     ///< whose triangles form more than one fan
+  Fault split_vertices;                     ///< vertices with more than one fan of triangles
   std::size_t components = 0;               ///< sets of triangles joined by edges
   std::vector<std::uint32_t> component_of;  ///< by triangle, where there are several
 

@@ -147,8 +147,8 @@ WallCurve enclosing(const WallCurve& curve, double volume_mm3, Move move) {
   return move(curve, out);
 }
 
-/// Moves the largest curve so that the body holds this volume: all of it, and then one point for
-/// what the coarser grid leaves.
+/// Moves the largest curve so that the body holds this volume: first the whole curve, then one
+/// point for the difference that the coarser grid leaves.
 void correct_volume(BrepBody& body, double target_mm3, double grid_mm) {
   BrepWall* largest = nullptr;
   for (BrepShell& shell : body)

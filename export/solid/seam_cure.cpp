@@ -98,7 +98,7 @@ class Cure {
            (on_seam(mesh_.from_vertex_handle(h)) || on_seam(mesh_.to_vertex_handle(h)));
   }
 
-  /// Where possible, keeps a point of the parts and removes one of the seam.
+  /// Keeps a point of the parts and removes one of the seam, if possible.
   bool collapse(EdgeHandle edge) {
     HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
     if (!on_seam(mesh_.from_vertex_handle(h))) h = mesh_.opposite_halfedge_handle(h);

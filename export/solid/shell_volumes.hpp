@@ -10,8 +10,8 @@ namespace clay::solid {
 
 /// The signed volume of each shell [mm^3], by Gauss' theorem: below 0 where the normals point
 /// inward; 0 for a number that no triangle has. `shell_of(t)`: the shell of a triangle, below
-/// `shells`. Each shell is measured about a corner of its own: about a distant point, the volume of
-/// a small one would cancel.
+/// `shells`. Each shell is measured about one of its corners: about a distant point, cancellation
+/// would make the volume of a small shell inexact.
 template <class ShellOf>
 [[nodiscard]] std::vector<double> volumes_of_shells(const TriangleMesh& mesh, std::size_t shells,
                                                     ShellOf shell_of) {

@@ -19,7 +19,7 @@ constexpr double kShortestSpan = 0x1p-20;
 /// 0.535 per span, the largest root of the Gram matrix of uniform cubic B-splines. After 40 spans
 /// it is below 2e-11 of its size at the knot.
 constexpr std::size_t kReachOfKnot = 40;
-constexpr double kNearly = 1.0 - 1e-9;  ///< what a knot may still move beyond its reach
+constexpr double kNearly = 1.0 - 1e-9;  ///< margin for the change beyond the reach of a knot
 
 /// Spans of a curve, `end` excluded.
 struct Window {

@@ -1,5 +1,6 @@
 #pragma once
-// How far rounding may move the vertices of a solid before it could intersect itself.
+// Margins for rounding: displacements of the vertices of a solid that cannot make it intersect
+// itself.
 
 #include "claystack/export/section.hpp"
 

@@ -5,7 +5,7 @@
 
 namespace clay::solid::inline walls {
 
-/// By which fraction the disc found may be smaller than the largest.
+/// Maximum relative difference of the disc found from the largest one.
 inline constexpr double kDiscTolerance = 1e-3;
 
 struct Disc {

@@ -79,7 +79,7 @@ class ClayBelow {
       std::tie(bottom, top) = std::minmax(of.from.y, of.to.y);
     }
 
-    /// How far the edge is from the vertical line through the place [mm].
+    /// Distance of the edge from the vertical line through the place [mm].
     [[nodiscard]] double beside(const ProfilePoint& place) const {
       return std::max({inner - place.rho, place.rho - outer, 0.0});
     }

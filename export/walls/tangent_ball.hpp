@@ -64,7 +64,7 @@ class LeafFaces {
 
 /// The inward normals of opposite faces are more than 90 degrees apart, by more than rounding: the
 /// faces of a step are not opposite. That keeps the search away from neighbouring faces; `kSpan`
-/// decides what is a wall.
+/// decides which clay is a wall.
 inline constexpr double kTurnSlack = 1e-9;                                ///< [rad]
 inline constexpr double kOpposite = std::numbers::pi / 2.0 + kTurnSlack;  ///< [rad]
 [[nodiscard]] inline bool opposite(const Vec2& normal, const Vec2& other) {

@@ -31,7 +31,7 @@ class WallSearch {
 /// the result is the diameter of a smaller ball with too little boundary, or a lower bound of it.
 class PlaceSearch {
  public:
-  /// Finds only what is thinner than `below`.
+  /// Finds only walls thinner than `below` [mm].
   PlaceSearch(const EdgeTree& tree, const Face& face, double place,
               double below = std::numeric_limits<double>::infinity())
       : tree_(tree),

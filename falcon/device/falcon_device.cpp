@@ -18,7 +18,7 @@ constexpr std::uint8_t kZeroFrame[] = {'<', 'A', 'A', 'A', 'A', 'A', 'A', 'A',
                                        'A', 'A', 'A', 'A', 'A', 'A', 'A', '>'};
 // A transport with less remaining room than this may have stopped because of it.
 constexpr std::size_t kMostInPiece = 64;
-// More than a transport keeps: a device that floods the line must not hold the servo.
+// More than a transport keeps: a device that floods the line must not block the servo.
 constexpr int kMostReads = 8;
 constexpr int kQuestions = 10;
 constexpr std::int64_t kAnswerUs = 20'000;  // ten times the duration of a frame and its answer

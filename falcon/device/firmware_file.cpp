@@ -51,7 +51,7 @@ class WordReader {
     return begun_ == bytes_.size();
   }
 
-  /// Where the last item begins, read or not.
+  /// Offset of the last item [bytes], whether or not it was read.
   [[nodiscard]] std::size_t begun() const { return begun_; }
 
   /// ", found ...": the bytes of the last item, which is a word or an address.

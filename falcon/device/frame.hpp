@@ -16,7 +16,7 @@
 namespace clay::falcon::inline device {
 
 inline constexpr std::size_t kFrameBytes = 16;
-inline constexpr std::int16_t kMotorLimit = 4095;  ///< where the vendor's driver saturates
+inline constexpr std::int16_t kMotorLimit = 4095;  ///< saturation limit of the vendor's driver
 
 /// One number for each leg: top, right, left, as the user sees them.
 using LegCounts = std::array<std::int16_t, 3>;

@@ -58,8 +58,8 @@ class Kinematics {
   [[nodiscard]] Solved<glm::dvec3> inverse(const glm::dvec3& position_mm) const noexcept;
 
   /// Position [mm] of the grip at these thigh angles [rad], to rounding. Newton's method from
-  /// `start_mm`, at most 16 steps: start at the last position when following the hand, at the
-  /// centre when nothing is known. Outside the workspace some angles allow two poses, and the start
+  /// `start_mm`, at most 16 steps: start at the last position to follow the hand, and at the centre
+  /// if the position is not known. Outside the workspace some angles allow two poses, and the start
   /// selects one. Also `not_converged` if the pose found has a knee turned inward.
   [[nodiscard]] Solved<glm::dvec3> forward(
       const glm::dvec3& angles_rad, const glm::dvec3& start_mm = kFalconCentreMm) const noexcept;

@@ -1,7 +1,7 @@
 #pragma once
-// One axis of a mass with a damper and a spring, w'' + g w' + k w = 0 for its velocity w: where it
-// is after a time, exactly. No case distinction between under- and overdamped, and only + - * /,
-// so that every platform gives the same bits.
+// One axis of a mass with a damper and a spring, w'' + g w' + k w = 0 for its velocity w: its exact
+// state after a time. No case distinction between under- and overdamped, and only + - * /, so that
+// every platform gives the same bits.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

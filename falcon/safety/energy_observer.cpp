@@ -33,7 +33,7 @@ bool EnergyObserver::observe(double dt_s, const glm::dvec3& held_n, const glm::d
   const bool asks = glm::length(asked_n) > 0.0;
   quiet_ticks_ = asks ? 0 : quiet_ticks_ + 1;
   if (asks && !in_contact_) begin_contact(dt_s, way_mm);
-  // When a contact stops requesting force, its last forces are still delayed.
+  // After a contact has stopped requesting force, its last forces are still delayed.
   const bool ends = in_contact_ && quiet_ticks_ >= drain_ticks_;
   if (ends) end_contact();
   return ends;

@@ -85,7 +85,7 @@ Received LoopbackTransport::read(std::span<std::uint8_t> bytes, std::int64_t wai
 }
 
 /// Serializes packets, as a real wire does. A signal handler that interrupted its own thread in the
-/// model would wait for ever, so it continues after a while.
+/// model would wait without end, so it continues after a while.
 bool LoopbackTransport::hold_model() noexcept {
   for (int looks = 0; looks < kPatience; ++looks)
     if (!model_held_.exchange(true, std::memory_order_acquire)) return true;

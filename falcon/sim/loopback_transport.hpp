@@ -51,7 +51,7 @@ class LoopbackTransport final : public Transport {
   std::int64_t answer_us_ = kFalconAnswerUs;
   std::atomic<bool> model_held_{false};  // by `write` or `write_last`
   std::atomic<bool> open_{false};
-  std::int64_t stepped_us_ = 3'600'000'000;  // an hour: clocks of computers are not near 0
+  std::int64_t stepped_us_ = 3'600'000'000;  // an hour: the clock of a computer is not near 0
   std::int64_t asked_us_ = 0;
   std::array<OnTheWay, 64> queue_{};  // a ring: from first_, size_ of them
   std::size_t first_ = 0, size_ = 0;

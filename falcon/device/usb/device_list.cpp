@@ -49,7 +49,7 @@ std::string narrow(const wchar_t* text) {
 }
 
 // A device may have several HID interfaces: a receiver those of a keyboard, a bridge one for its
-// log. hidapi's libusb backend does not tell them apart: their usage page is 0.
+// log. hidapi's libusb backend does not distinguish them: their usage page is 0.
 
 bool is_multi_axis(const hid_device_info& info) {
   constexpr int kGenericDesktop = 1, kMultiAxis = 8;

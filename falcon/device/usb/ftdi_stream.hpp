@@ -24,7 +24,7 @@ class FtdiStream {
 
   /// Queues the reads. The handle must be claimed, and must outlive `stop`.
   [[nodiscard]] bool start(libusb_context* context, libusb_device_handle* handle);
-  /// Cancels all queued transfers: what was written but not sent is never sent.
+  /// Cancels all queued transfers: bytes that were written but not sent are never sent.
   void stop() noexcept;
 
   WireStatus write(std::span<const std::uint8_t> bytes) noexcept;

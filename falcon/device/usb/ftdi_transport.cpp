@@ -111,8 +111,8 @@ class FtdiTransport final : public Transport {
  private:
   using Packet = std::array<std::uint8_t, kMostWritten>;
 
-  /// A stalled line took the queued forces, but not the last packet: without it, the arm would push
-  /// on after the line has recovered. Call when nothing is queued any more.
+  /// A stalled line took the queued forces, but not the last packet: without it, the arm would
+  /// continue to push after the line has recovered. Call when nothing is queued any more.
   void send_owed_packet() noexcept {
     for (int i = 0; i < kLastPacketTries && owed_size_.load() > 0; ++i) {
       Packet packet{};
@@ -122,8 +122,8 @@ class FtdiTransport final : public Transport {
     owed_size_.store(0);
   }
 
-  /// The codes of libftdi are not those of libusb, so the device is asked whether it is there: on
-  /// the line, because libusb answers other questions from what the system has stored.
+  /// The codes of libftdi are not those of libusb, so a request on the line checks whether the
+  /// device is connected: libusb answers other requests from data that the system has stored.
   [[nodiscard]] DeviceError line_error(const char* action, const char* why) const {
     std::array<unsigned char, 2> status{};
     const int code =

@@ -21,8 +21,9 @@ class HidNode {
   /// openers, so a lock decides; the libusb backend permits one in any case.
   enum class Use { shared, exclusive };
 
-  /// The first time, the device at `place`; later the same device, wherever it is: while it was
-  /// away, another one may have taken its place. `busy` if another program has it exclusively too.
+  /// The first time, opens the device at `place`; later the same device at any place: while it was
+  /// disconnected, another one may have taken its place. `busy` if another program has it
+  /// exclusively too.
   DeviceResult<void> open(const std::string& place, Use use);
   void close() noexcept;
   [[nodiscard]] bool is_open() const noexcept { return device_ != nullptr; }
@@ -38,7 +39,7 @@ class HidNode {
   void write_last(std::span<const std::uint8_t> report) noexcept;
 
  private:
-  /// What remains the same when a device is unplugged and plugged in again.
+  /// Properties of a device that remain the same when it is unplugged and plugged in again.
   struct Identity {
     unsigned short vendor, product;
     unsigned short usage_page, usage;

@@ -1,6 +1,6 @@
 #pragma once
-// The use of a foreign mesh: whether it prints without being sound, its undersides, and how thin
-// its walls are.
+// The use of a foreign mesh: whether it prints without being sound, its undersides, and the
+// thickness of its walls.
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/proof.hpp"
@@ -14,7 +14,7 @@
 
 namespace clay::solid::inline check {
 
-/// A judgement: of the meshes of docs/repair.md (Real meshes) whose only fault is
+/// Chosen by judgement: of the meshes of docs/repair.md (Real meshes) whose only fault is
 /// self-intersection, half have fewer pairs.
 inline constexpr std::size_t kMostUnitedPairs = 200;
 

@@ -24,7 +24,7 @@ struct CollapsedParts {
   PlanarCertificate lower_certificate;
   PlanarCertificate upper_certificate;
   Smoothing smoothing = Smoothing::none;  ///< as applied, the same for both parts
-  std::string no_smoothing;               ///< why it was not applied although requested
+  std::string no_smoothing;               ///< reason why it was not applied although requested
 
   /// All pieces, lower ones first.
   [[nodiscard]] Profile together() const;

@@ -107,11 +107,11 @@ Result<std::string> encode_drc(const TriangleMesh& mesh, const DracoSettings& se
 std::string encode_ply(const TriangleMesh& mesh, std::string_view object_name,
                        std::span<const float> wall_mm = {});
 
-/// How a GLB holds its mesh: as plain float32, which every reader of glTF takes, by Draco, or by
+/// Encoding of the mesh in a GLB: plain float32, which every reader of glTF accepts; Draco; or
 /// meshoptimizer, which viewers unpack faster.
 enum class GlbMesh { core, draco, meshopt };
 
-/// Contents of a file beside the surface; each format takes what it has a place for.
+/// Contents of a file beside the surface; each format stores those that it supports.
 struct FileContents {
   std::string_view name = "pot";        ///< of the solid or object
   std::span<const float> wall_mm = {};  ///< thickness at each point [mm]; empty: unknown
@@ -140,8 +140,8 @@ struct ModelPart {
   std::vector<std::size_t> bodies;  ///< triangles of each; their objects have the ids 1, 2, ...
 };
 ModelPart encode_3mf_model(const TriangleMesh& mesh, const FileContents& contents);
-/// The package around that part: thumbnail, pot and certificate as parts of their own, and the pot
-/// once more as a note of each object, which PrusaSlicer keeps where it keeps no metadata. No other
+/// The package around that part: thumbnail, pot and certificate as separate parts, and the pot once
+/// more as a note of each object, which PrusaSlicer keeps where it keeps no metadata. No other
 /// setting. No dates, no random ids: equal contents give equal bytes.
 Result<std::string> pack_3mf(const ModelPart& model, const FileContents& contents);
 
@@ -154,14 +154,14 @@ Result<std::string> pack_3mf(const ModelPart& model, const FileContents& content
 /// meshoptimizer also needs a triangle at every point. `bad_input` for an unknown material.
 Result<std::string> encode_glb(const TriangleMesh& mesh, const FileContents& contents);
 
-/// What messages call `ReadOptions::repair`, and the repair of the mesh that follows.
+/// Name in messages of `ReadOptions::repair`, and of the repair of the mesh that follows.
 inline constexpr const char* kByRepair = "a repair";
 
 /// Input that a reader accepts beyond its format.
 struct ReadOptions {
-  /// Binary STL whose size differs from what its count requires: the whole facets that are there.
-  /// Without the faces of an OBJ of fewer than 3 corners, and the triangles of a 3MF that use a
-  /// vertex twice.
+  /// Of a binary STL whose size differs from the size that its count requires: the complete facets
+  /// in it. Without the faces of an OBJ of fewer than 3 corners, and the triangles of a 3MF that
+  /// use a vertex twice.
   bool repair = false;
   /// Gets a line for each kind of fault that was passed over, none of which changes the surface.
   /// May be null.
@@ -200,9 +200,9 @@ Result<TriangleMesh> read_stl(const ByteSource& source, std::string_view name,
 Result<TriangleMesh> read_obj(const ByteSource& source, std::string_view name,
                               const ReadOptions& options = {});
 
-/// A file of exactly the size that its count requires is binary, whatever its first word; any other
-/// file must be complete text from "solid" to "endsolid"; for repairs, the last endsolid may be
-/// missing. The solids of a text file make one mesh.
+/// A file of exactly the size that its count requires is binary, even if it begins with "solid";
+/// any other file must be complete text from "solid" to "endsolid"; for repairs, the last endsolid
+/// may be missing. The solids of a text file make one mesh.
 /// Corners with equal float32 coordinates are welded. Normals are not used: binary ones and
 /// attributes are ignored, text ones must be finite.
 Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name,

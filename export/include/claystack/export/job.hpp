@@ -159,7 +159,7 @@ struct FileRequest {
   std::string bytes = {};                      ///< of a given file
 };
 
-/// The endings of files that are made from the section, without a mesh, and what they hold.
+/// The endings of files that are made from the section, without a mesh, and their contents.
 struct SectionFile {
   FileKind kind;
   std::string_view ending;  ///< in lower case
@@ -239,8 +239,8 @@ struct SolidSize {
 
 struct WallReport {
   /// Lower bound for the solid with its facets, rounded as in a binary STL: the wall of the pot. Of
-  /// a fallen pot that of its parts, less what the seam and rounding move. An estimate for a fallen
-  /// pot with `max_triangles`: decimation is measured at the vertices.
+  /// a fallen pot that of its parts, less the displacement by the seam and rounding. An estimate
+  /// for a fallen pot with `max_triangles`: decimation is measured at the vertices.
   double min_wall_mm = 0.0;
   Wall thinnest;  ///< the thinnest place of the section
   /// Smoothing `exact`: the minimum wall of the steps, if overshoot made a thinner edge.

@@ -79,8 +79,8 @@ struct SolidCertificate {
 /// All claims except those on the bytes of a file. Requires a certified `profile` and `rounding_mm`
 /// as an upper bound of vertex displacement. The wall of an n-gon revolve is that of the profile
 /// with rho scaled by f cos(pi/n) in the middle of a facet and by f at its sides, f being the
-/// equal-volume factor. The volume changes by less than the rounding times the area, itself
-/// enlarged by what rounding may add.
+/// equal-volume factor. The volume changes by less than the rounding times the area, which includes
+/// the possible increase by rounding.
 SolidCertificate claims_of(const Profile& profile, std::size_t segments, double rounding_mm);
 
 /// Proves every claim again and compares the file with them: size and hashes, number of triangles,
@@ -105,7 +105,7 @@ Result<SolidCertificate> parse_certificate(std::string_view bytes, std::string_v
 struct MeshProblem {
   std::string what;       ///< "open edge", "inside out", "self-intersection", ...
   std::string where;      ///< triangle numbers and coordinates in mm, for people
-  std::size_t count = 1;  ///< how many of this kind; `where` shows the first
+  std::size_t count = 1;  ///< number of this kind; `where` shows the first
   bool at_least = false;  ///< counting stopped at `count`
 };
 
@@ -121,7 +121,7 @@ struct MeshReport {
   bool bounds_volume = false;
   std::size_t components = 0;
   std::size_t cavities = 0;  ///< inward shells of a mesh that bounds a volume
-  /// The volume they enclose without the bodies in them: what traps resin or powder.
+  /// The volume that they enclose, without the bodies in them: it traps resin or powder.
   double trapped_mm3 = 0.0;
   std::size_t degenerate = 0;  ///< triangles of zero area
   std::size_t triangles = 0;
@@ -150,7 +150,7 @@ MeshReport check_mesh(const TriangleMesh& mesh);
 /// intersections, vertices or shells, and so much faster than `check_mesh`.
 struct MeshEnclosure {
   std::size_t open_edges = 0;                ///< of one triangle only
-  std::size_t flipped_edges = 0;             ///< whose two triangles face opposite ways
+  std::size_t flipped_edges = 0;             ///< edges of two triangles that face opposite ways
   glm::dvec3 open_at{0.0}, flipped_at{0.0};  ///< the middle of the first of each [mm]
   std::optional<double> volume_mm3;  ///< negative if the triangles face inward; empty without one
 

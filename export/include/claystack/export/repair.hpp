@@ -14,7 +14,7 @@ namespace clay::solid::inline repair {
 // ---- mesh repair ---------------------------------------------------------------------
 // Repairs of foreign meshes.
 
-/// One kind of repair, and how often it was made.
+/// One kind of repair, and its number.
 struct Repair {
   std::string what;  ///< "hole filled", "shell turned", ...
   std::size_t count = 0;
@@ -49,12 +49,12 @@ struct RepairOptions {
   /// Called at the start of each stage with the share 0, and during long ones again with the share
   /// of the stage that is done, 0 to 1.
   std::function<void(std::string_view stage, double share)> progress = {};
-  /// Asked repeatedly, from several threads. True ends the work: an error of kind `io`, "repair
+  /// Called repeatedly, from several threads. True ends the work: an error of kind `io`, "repair
   /// stopped: cancelled".
   std::function<bool()> cancelled = {};
 };
 
-/// What messages call the settings that help: `thicken_mm`, `cap_openings` and `wrap_mm`.
+/// Names in messages of the settings that help: `thicken_mm`, `cap_openings` and `wrap_mm`.
 inline constexpr const char* kThickening = "thickening";
 inline constexpr const char* kCapping = "capping";
 inline constexpr const char* kWrapping = "wrapping";

@@ -75,7 +75,7 @@ struct FairingReport {
   std::vector<ShortenedFairing> shortened;  ///< by piece and height
 };
 
-/// Why the fillet of a lip has a smaller radius than requested.
+/// Reason why the fillet of a lip has a smaller radius than requested.
 enum class FilletLimit { none, lip_width, height_below };
 /// "half the height between ... does not allow more"; empty for `none`.
 [[nodiscard]] std::string_view reason_of(FilletLimit limit);
@@ -151,7 +151,7 @@ Result<SmoothedProfile> smooth_profile_of(const ClayStack& stack,
 // glaze. All lengths are those of the solid as written.
 
 /// A ring on which the pot stands. Inside it the foot is cut away to the depth, and outside it too
-/// if it has a diameter of its own.
+/// if `diameter_mm` is set.
 struct FootRing {
   double width_mm = 0.0;
   double depth_mm = 0.0;

@@ -86,8 +86,8 @@ struct DecimatedMesh {
 struct DecimateOptions {
   /// Called repeatedly with the share of the work that is done, 0 to 1.
   std::function<void(double share)> progress = {};
-  /// Asked repeatedly, from several threads. True ends the work: an error of kind `io`, "decimation
-  /// stopped: cancelled".
+  /// Called repeatedly, from several threads. True ends the work: an error of kind `io`,
+  /// "decimation stopped: cancelled".
   std::function<bool()> cancelled = {};
 };
 
@@ -97,7 +97,7 @@ inline constexpr std::size_t kFewestTriangles = 4;
 /// (Garland, Heckbert, "Surface simplification using quadric error metrics"); no collapse may flip
 /// a face. A mesh within the limit is returned unchanged. Walls may come to intersect: check the
 /// result. Errors of kind `unsound`: the mesh is not a closed, oriented manifold; `bad_input`: a
-/// limit below 4, or below what this mesh can reach (the message holds that number); `io`: not
+/// limit below 4, or below the minimum that this mesh can reach (the message states it); `io`: not
 /// enough memory, cancelled, or the library failed.
 Result<DecimatedMesh> decimate(const TriangleMesh& sound_mesh, std::size_t max_triangles,
                                const DecimateOptions& options = {});

@@ -40,7 +40,7 @@ struct DeviceError : Error {
   DeviceError(DeviceFault device_fault, std::string found, std::string help = {});
 
   DeviceFault fault;
-  std::string what;    ///< which device, what was expected, what was found
+  std::string what;    ///< device, what was expected, what was found
   std::string remedy;  ///< the action that may help; empty if none is known
 };
 

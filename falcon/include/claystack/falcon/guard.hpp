@@ -175,8 +175,8 @@ class ForceGuard {
 // ---- force gate ----------------------------------------------------------------------
 // Ensures that one thread at a time commands a force, and that the last packet is zero. The servo
 // enters the gate for each packet that it writes. The watchdog, a signal handler, or the end of the
-// program shuts the gate and then writes zero. A servo that was inside meanwhile finds out when it
-// leaves, and writes zero once more. So for every order of events the last whole packet is zero.
+// program shuts the gate and then writes zero. A servo that was inside meanwhile detects that when
+// it leaves, and writes zero once more. So for every order of events the last whole packet is zero.
 
 class ForceGate {
  public:

@@ -130,8 +130,8 @@ class PassivityLaw;
 
 class PassivityController {
  public:
-  /// Refuses what `check` of the loop refuses; a step outside 0 to 10 mm; limits that are not
-  /// above 0, or windows above 10 s. The other functions do not allocate.
+  /// Refuses the loops that `check` refuses; a step outside 0 to 10 mm; limits that are not above
+  /// 0, or windows above 10 s. The other functions do not allocate.
   static tl::expected<PassivityController, OutOfRange> build(const PassivitySettings& settings);
   PassivityController(PassivityController&&) noexcept;
   PassivityController& operator=(PassivityController&&) noexcept;

@@ -46,7 +46,7 @@ struct ArmEnergy {
 
 class SimulatedArm {
  public:
-  /// Starts at rest at `start_mm`. Refuses what `check` of the loop refuses, friction outside 0 to
+  /// Starts at rest at `start_mm`. Refuses the loops that `check` refuses, friction outside 0 to
   /// 100 N, steps outside 0 to 10 mm, a hand stiffer than 1000 N/mm, damped more than 10 N s/mm or
   /// pushing more than 100 N, and a start beyond 10 m.
   static tl::expected<SimulatedArm, OutOfRange> build(const ArmSettings& arm,
@@ -164,8 +164,8 @@ struct SimulatedFalcon {
 
 /// The arm follows the times of the frames: it makes one tick per period that has passed, at most
 /// 50 ms of them after a pause. Buttons are sent over the wire; a Falcon measures no grip, so the
-/// grip value bypasses the wire, with the same frame. `bad_setting` names what SimulatedArm
-/// refuses.
+/// grip value bypasses the wire, with the same frame. `bad_setting` names the setting that
+/// SimulatedArm refuses.
 [[nodiscard]] DeviceResult<SimulatedFalcon> make_simulated_falcon(
     const SimulatedSettings& settings);
 

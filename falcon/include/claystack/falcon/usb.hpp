@@ -76,7 +76,7 @@ class RateControl {
 };
 
 /// Reports of a HID device that one reading takes at most, as many as the kernel keeps: a device
-/// that floods the line must not hold the servo.
+/// that floods the line must not block the servo.
 inline constexpr int kMostReportsPerRead = 64;
 
 /// The reports of an open HID device, by any medium.
