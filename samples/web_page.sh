@@ -1,9 +1,9 @@
 #!/bin/sh
 # samples/web_page.sh [TARGET...]: builds the web page, the folder build/web/site, which any web
 # server can serve, and further targets of app/web. Installs the toolchain first, a Debian 13 system
-# with Emscripten in a folder of its own (3.5 GB): by default ${XDG_CACHE_HOME:-~/.cache}/claystack-web,
-# otherwise the folder CLAYSTACK_WEB_SYSTEM. Needs root (or sudo) for chroot and mounts; the mounts end
-# with the command.
+# with Emscripten in a separate folder (3.5 GB): by default
+# ${XDG_CACHE_HOME:-~/.cache}/claystack-web, otherwise the folder CLAYSTACK_WEB_SYSTEM. Needs root
+# (or sudo) for chroot and mounts; the mounts end with the command.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -29,7 +29,7 @@ if [ ! -x "$system/usr/bin/apt-get" ]; then
   $as_root mv "$system.part" "$system"
 fi
 $as_root unshare --mount true || fail "expected the right to mount, which containers often lack"
-# A mount namespace: nothing stays mounted, whatever happens to this command.
+# A mount namespace: nothing stays mounted, even if this command fails.
 # $1: a command for the shell of that system, in the sources.
 inside() {
   $as_root unshare --mount sh -c '

@@ -52,7 +52,7 @@ wrong||check jobs.jsonl
 usage||throw --nothing
 "
 
-# fault TEXT: the arguments and the condition are in the names of the caller.
+# fault TEXT: reports a fault. $name and $condition are set by the caller.
 fault() {
   faults=$((faults + 1))
   echo "fault: $name, $condition: $1"
@@ -67,7 +67,7 @@ fresh() {
   cd "$scratch/run" || exit 3
 }
 
-# Judges the status and what was left. $1: status; $2: signal that may have ended it, or 0.
+# Checks the status and the remaining files. $1: status; $2: signal that may have ended it, or 0.
 judge() {
   runs=$((runs + 1))
   if [ "$1" -eq 124 ] || [ "$1" -eq 137 ]; then

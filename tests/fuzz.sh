@@ -1,9 +1,9 @@
 #!/bin/sh
 # fuzz.sh [SECONDS [READER...]]: builds the libFuzzer programs and runs each for SECONDS (default
-# 600), as many at once as JOBS says (default 2). Inputs that found new code stay in
-# build/fuzz/corpus for the next run. Prints one line for each reader; exit status 1 if an input
-# crashes a reader, takes it longer than 5 s or more than 512 MiB. Such an input is kept in
-# build/fuzz/findings, and its report beside the log.
+# 600), JOBS of them at once (default 2). Inputs that found new code stay in build/fuzz/corpus for
+# the next run. Prints one line for each reader; exit status 1 if an input crashes a reader, takes
+# it longer than 5 s or more than 512 MiB. Such an input is kept in build/fuzz/findings, and its
+# report beside the log.
 set -eu
 cd "$(dirname "$0")/.."
 seconds=${1:-600}
@@ -19,7 +19,7 @@ for format in svg dxf csv; do
   cp samples/drawings/*.$format build/fuzz/corpus/drawing_$format
 done
 
-# An input that took more than 5 s on a busy machine, but not of a processor, is no finding.
+# An input that took more than 5 s on a busy machine, but less processor time, is not a finding.
 # shellcheck disable=SC2016  # the inner shell expands these
 printf '%s\n' $readers | xargs -P "${JOBS:-2}" -I{} sh -c '
   program=$1/fuzz_{} log=build/fuzz/findings/{}.log end=$(($(date +%s) + $2))

@@ -2,7 +2,7 @@
 //
 //   node manifold_status.mjs FOLDER_OF_MANIFOLD_3D FILE.stl
 //
-// Vertices of the same place are one, as everywhere that reads STL.
+// Vertices at the same place are merged, as in every reader of STL.
 import { readFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 import { join } from "node:path";

@@ -68,7 +68,7 @@ echo '{"id": "a", "run": ["check", "bowl.stl"]}' | claystack batch - -q
 claystack devices -q
 claystack doctor || test $? -eq 1
 claystack --version
-# What a file manager calls.
+# The command that a file manager runs.
 sed -n 's/^Exec=//p' /usr/share/thumbnailers/claystack.thumbnailer |
   sed 's|%s|128|g; s|%o|out/thumb.png|; s|%i|out/vase.pot.json|' | sh
 test -s out/thumb.png

@@ -1,11 +1,11 @@
 #!/bin/sh
 # tests/random_seeds.sh [RUNS [CASES [BUILD]]]: runs every test of random inputs RUNS times (10), each
 # time with another seed and with CASES inputs (1000), from the programs in BUILD (build/release).
-# Prints the seeds that fail, and how to repeat them. Exit status 1 if a test fails.
+# Prints the seeds that fail, and the commands to repeat them. Exit status 1 if a test fails.
 set -u
 cd "$(dirname "$0")/.."
 runs=${1:-10} cases=${2:-1000} build=${3:-build/release}
-# GoogleTest lists a test by its suite and its name; the sources say which of them are random.
+# GoogleTest lists a test by its suite and its name; the sources show the tests that are random.
 tests=$(grep -rhoE 'RC_GTEST_(FIXTURE_)?PROP\([A-Za-z]+, *[A-Za-z0-9]+' tests |
   sed -E 's/.*\(([A-Za-z]+), *([A-Za-z0-9]+)/\1.\2/' | paste -sd:)
 failed=0

@@ -54,7 +54,7 @@ for package in "$here"/packages/*; do
   esac
 done
 
-# The notices of all that the page contains.
+# The copyright notices of all parts of the page.
 for notice in "$top"/unpacked/usr/share/doc/*/copyright "$top"/sources/*/debian/copyright \
     /usr/share/doc/emscripten/copyright /usr/share/doc/libc++-18-dev/copyright; do
   [ -f "$notice" ] || continue

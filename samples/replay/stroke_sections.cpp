@@ -1,5 +1,5 @@
-// stroke_sections WORK: what each stroke of a work leaves with the clay rules, as a table, and how
-// far it depends on the ring height. stroke_sections WORK OUT.svg NODE...: sections of the pots
+// stroke_sections WORK: a table of the result of each stroke of a work with the clay rules, and of
+// its dependence on the ring height. stroke_sections WORK OUT.svg NODE...: sections of the pots
 // after these strokes, above as thrown without the clay rules, below by the same strokes with them.
 
 #include "app/bench/hands/pot_measures.hpp"

@@ -28,7 +28,7 @@ sed -e 's/"rings": [0-9]*/"rings": 100000/' -e 's/"ring_height_mm": [0-9.]*/"rin
 sed -e 's/"rings": [0-9]*/"rings": 1/' -e 's/"ring_height_mm": [0-9.]*/"ring_height_mm": 4/' \
   -e 's/"outer_radius_mm": [0-9.]*/"outer_radius_mm": 120/' samples/vase.scene.json >"$pots/plate.scene.json"
 
-# The scripts name files below samples; what they export stays in FOLDER.
+# The scripts name files below samples; their exports stay in FOLDER.
 ln -sfn "$PWD/samples" "$out/samples"
 cd "$out"
 

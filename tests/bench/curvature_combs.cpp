@@ -2,7 +2,7 @@
 //   curvature_combs SAMPLE LENGTH_MM OUT_PREFIX
 // writes OUT_PREFIX-outside.svg and OUT_PREFIX-inside.svg, and prints the largest values.
 //   curvature_combs
-// prints what the fairing of all samples moves, and its processor time.
+// prints the displacement by the fairing of all samples, and its processor time.
 
 #include "app/chart/plot.hpp"
 #include "claystack/core/atomic_file.hpp"

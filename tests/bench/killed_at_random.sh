@@ -1,9 +1,9 @@
 #!/bin/sh
-# sh tests/bench/killed_at_random.sh PROGRAM [COUNT [SEED]]: what a crash loses. Ends the window with
-# kill -9 at COUNT random moments of a stroke (default 50), and lets the disk of the journal fill up
-# at as many random moments. Prints a line for each, and fails if a killed stroke lost more than the
-# last 100 ms, if a full disk was not reported, or if the next window did not offer the work. Needs
-# xvfb and xdotool; the full disk needs the right to mount a small tmpfs.
+# sh tests/bench/killed_at_random.sh PROGRAM [COUNT [SEED]]: measures the work that a crash loses.
+# Ends the window with kill -9 at COUNT random moments of a stroke (default 50), and lets the disk
+# of the journal fill up at as many random moments. Prints a line for each, and fails if a killed
+# stroke lost more than the last 100 ms, if a full disk was not reported, or if the next window did
+# not offer the work. Needs xvfb and xdotool; the full disk needs the right to mount a small tmpfs.
 set -u
 [ $# -ge 1 ] || { sed -n '2,6s/^# //p' "$0" >&2; exit 2; }
 program=$(realpath "$1") count=${2:-50} seed=${3:-1}
@@ -17,7 +17,7 @@ random() {
   awk -v seed="$seed$round$1" -v low="$1" -v high="$2" \
     'BEGIN { srand(seed); rand(); printf "%d\n", low + rand() * (high - low) }'
 }
-# begin_stroke: a stroke into the lump that goes on until the button is released.
+# begin_stroke: a stroke into the lump that continues until the button is released.
 begin_stroke() {
   xdotool mousemove --window "$window" 833 420 mousedown 1
   until_line "stroke started"
@@ -43,7 +43,7 @@ killed_round() {
   journal=$(ls "$folder"/state/claystack/recovery/*)
   after_ms=$(random 0 1500)
   sleep "$(printf '%d.%03d' $((after_ms / 1000)) $((after_ms % 1000)))"
-  # Stopped, it writes no more; so the last line is that of the moment of the kill.
+  # A stopped window writes no more, so the last line is that of the moment of the kill.
   kill -STOP "$studio"
   stopped=$(date +%s%N)
   written=$(date -r "$journal" +%s%N)

@@ -1,7 +1,7 @@
 #!/bin/sh
-# sh tests/bench/motion_to_picture.sh PROGRAM: how long the picture of the window is behind the
-# mouse, and how many frames a second there are while throwing, at 1280x800. Moves the mouse over the
-# sample bowl under Xvfb, 60 times a second for 5 s, then throws a stroke of 5 s in the same way, and
+# sh tests/bench/motion_to_picture.sh PROGRAM: measures the delay of the picture of the window
+# behind the mouse, and the frame rate while throwing, at 1280x800. Moves the mouse over the sample
+# bowl under Xvfb, 60 times a second for 5 s, then throws a stroke of 5 s in the same way, and
 # prints the figures of the window. Needs xvfb and xdotool.
 set -eu
 [ $# -eq 1 ] || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }

@@ -35,7 +35,7 @@ inline std::string dxf_of(std::string_view words) {
   return text + "\n";
 }
 
-/// Small drawings that use most of what a reader knows: their mutations reach deep code.
+/// Small drawings that use most features of a reader: their mutations reach deep code.
 inline std::vector<std::string> good_drawings(std::string_view format) {
   if (format == "csv")
     return {"radius_mm,height_mm\n30,0\n32,4\n33.5,40\n36,80\n", "0,0\n30,0\n30,60\n26,60\n26,5\n",

@@ -30,7 +30,7 @@ bool write_files(const std::filesystem::path& folder, const std::vector<std::str
   return true;
 }
 
-/// In the syntax of libFuzzer: all bytes as \xAB, so that none needs an escape of its own.
+/// In the syntax of libFuzzer: all bytes as \xAB, so that no byte needs a special escape.
 bool write_dictionary(const std::filesystem::path& path, const auto& words) {
   std::ofstream file(path);
   for (const std::string_view word : words) {

@@ -17,7 +17,7 @@ namespace clay::test {
 /// libraries, so numbers are drawn by remainder.
 class Mutator {
  public:
-  /// `words`: of the format, or hostile to it; they replace what is between two `delimiters`.
+  /// `words`: of the format, or hostile to it; they replace the text between two `delimiters`.
   Mutator(unsigned seed, std::span<const std::string_view> words,
           std::string_view delimiters = " \n")
       : words_(words.begin(), words.end()), delimiters_(delimiters), random_(seed) {}

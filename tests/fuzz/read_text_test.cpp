@@ -28,7 +28,7 @@ TEST(ReadText, ReadsValidFiles) {
   EXPECT_TRUE(certificate) << certificate.error().message;
 }
 
-/// Else no mutant reaches what is behind the checksum of a line.
+/// Otherwise no mutant would reach the code behind the check of a line's checksum.
 TEST(ReadText, AChangedLineGetsItsChecksum) {
   const auto readers = samples::text_readers(CLAYSTACK_SAMPLES);
   for (const auto& [name, from, to] : {std::array{"session", R"("t_us":0)", R"("t_us":7)"},

@@ -31,8 +31,8 @@ struct TextReader {
   /// Of a format whose lines have checksums: the message of its error, empty for a value.
   std::function<std::string(std::string_view)> error = {};
 
-  /// A damaged file, whose lines get the checksums that the reader expects: else it would refuse
-  /// every such line before it looks at what is in it.
+  /// A damaged file, whose lines get the checksums that the reader expects: otherwise the reader
+  /// would refuse every such line before it reads the contents.
   [[nodiscard]] std::string with_checksums(std::string bytes) const {
     static const std::regex wrong(
         "expected ([0-9a-f]{16}) for th(?:ese poses|is line), found \"?([0-9a-f]{16})");

@@ -15,7 +15,7 @@ namespace clay::rig {
 /// The grip position set by the hand at each frame [mm], in the frame of Kinematics.
 using Trajectory = std::function<glm::dvec3(std::uint64_t frame)>;
 
-/// What one frame set: the position, the force and the motors.
+/// The values that one frame set: the position, the force and the motors.
 struct FrameLog {
   glm::dvec3 position_mm;
   glm::dvec3 force_n;

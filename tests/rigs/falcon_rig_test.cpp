@@ -245,7 +245,7 @@ TEST_F(FalconRig, ReportsUnpluggingAndReconnects) {
   }
 }
 
-/// Unplugged at the nth look at it, whatever the host does then.
+/// A Falcon that is unplugged at the n-th call of `unplugged()`, during any action of the host.
 class VanishingFalcon final : public FalconGadget {
  public:
   VanishingFalcon(const FalconModelSettings& model, int looks)

@@ -52,7 +52,7 @@ class UsbGadget {
   std::vector<Bytes> refused;  ///< writes of the host to a removed device
 };
 
-/// How the system handles the device. Change it under the gadget's lock while a program runs.
+/// State of the connection to the device. Change it under the gadget's lock while a program runs.
 struct UsbManners {
   bool kernel_driver = false;  ///< bound until it is detached
   /// A stalled line takes writes and does not deliver them, and answers no read. It recovers after

@@ -167,7 +167,7 @@ class PotSize : public testing::TestWithParam<const char*> {};
 TEST_P(PotSize, TwoHundredRingsFitIntoFourKilobytesAndRoundedIntoOne) {
   Pot pot = pot_of_200_rings(GetParam());
   ASSERT_LT(pot.stack.size(), 210u);
-  pot.thrown_with.reset();  // some 400 bytes, however many rings there are
+  pot.thrown_with.reset();  // some 400 bytes for any number of rings
   const auto exact = write_pot(pot, PotEncoding::cbor).size();
   const auto rounded = write_pot(rounded_pot(pot, 0.001).value(), PotEncoding::cbor).size();
   RecordProperty("rings", static_cast<int>(pot.stack.size()));

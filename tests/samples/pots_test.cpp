@@ -106,8 +106,8 @@ TEST_P(Sample, SessionMatchesItsScript) {
 
 TEST_P(Sample, UsesTheClayRules) { EXPECT_TRUE(scene_of(GetParam()).clay); }
 
-/// 150 mm/s is the speed of a hand that rests on nothing; a potter presses at 20 to 60 mm/s, and
-/// the tremor of 0.05 mm at 9 Hz adds up to three times 2.8 mm/s on each axis.
+/// 150 mm/s is the speed of a hand without support; a potter presses at 20 to 60 mm/s, and the
+/// tremor of 0.05 mm at 9 Hz adds up to three times 2.8 mm/s on each axis.
 TEST_P(Sample, HasTheSpeedOfAHand) {
   const Played& play = played(GetParam());
   EXPECT_LE(play.fastest_press_mm_s, 60.0 + 15.0);
@@ -163,7 +163,8 @@ TEST_P(StandingPot, HasEvenWallsAFloorAndARoundedLip) {
 TEST_P(StandingPot, HasATrimmedFoot) {
   const Played& play = played(GetParam());
   EXPECT_GT(play.wheel.ledger().trimmed, 0);
-  // Bevelled where it stands, and from there on no ring juts out.
+  // The foot is bevelled: in its lowest 12 mm no ring is more than 0.2 mm narrower than the ring
+  // below.
   const auto foot = between(play.wheel.stack(), 0.0, 12.0);
   for (std::size_t i = 1; i < foot.size(); ++i)
     EXPECT_GE(foot[i].outer_mm(), foot[i - 1].outer_mm() - 0.2) << i;

@@ -1,5 +1,5 @@
-// For programs with the address sanitizer: what fontconfig and Mesa's drivers keep until the
-// process ends is no leak of the program.
+// For programs with the address sanitizer: memory that fontconfig and Mesa's drivers keep until the
+// process ends is not a leak of the program.
 
 extern "C" {
 /// Mesa closes its driver before leaks are counted, and those of a closed library have no name.

@@ -1,5 +1,5 @@
-// A browser with the page in it, for the tests: starts it, opens pages, waits for what they
-// announce. Chromium by CDP, Firefox by WebDriver BiDi.
+// A browser with the page in it, for the tests: starts it, opens pages, waits for their
+// announcements. Chromium by CDP, Firefox by WebDriver BiDi.
 import assert from 'node:assert/strict';
 import {existsSync, readdirSync} from 'node:fs';
 import {join} from 'node:path';
@@ -27,7 +27,7 @@ export async function launch(name, folder, flags = []) {
   });
 }
 
-/// A page at `url` that has opened its window. `says(text)` waits until it has announced that.
+/// A page at `url` that has opened its window. `says(text)` waits until it has announced the text.
 export async function openPage(browser, folder, url, size, before = null) {
   const page = await browser.newPage();
   page.hosts = new Set();
@@ -37,8 +37,8 @@ export async function openPage(browser, folder, url, size, before = null) {
   });
   page.on('pageerror', error => page.problems.push(error.message));
   page.on('console', line => { if (line.type() === 'error') page.problems.push(line.text()); });
-  // When the page announced each line, the longest time without a frame since then, and the time of
-  // the wheel since then, of which a frame counts for 100 ms at most [ms].
+  // For each announced line [ms]: its time, the longest time without a frame since then, and the
+  // time of the wheel since then, of which a frame counts for 100 ms at most.
   await page.evaluateOnNewDocument(() => {
     window.announced = [];
     let last = 0;

@@ -1,4 +1,4 @@
-// Pen, gamepad and 3Dconnexion controller in the page. What reaches the clay is read from the
+// Pen, gamepad and 3Dconnexion controller in the page. The motion at the clay is read from the
 // recorded work: its poses are the tool's path, in mm and ms. Expected speeds: docs/studio.md, "Pen
 // and gamepad", and docs/devices.md.
 import assert from 'node:assert/strict';
@@ -137,7 +137,7 @@ export async function pen({open, folder}) {
     await event('mouseMoved', kBesidePx, {button: 'none', buttons: 0, force: 0});
     await pause(300);
     await event('mousePressed', kBesidePx);
-    // The hand slows down in contact. It learns of that with the next event of the pen.
+    // The hand slows down in contact, from the next event of the pen on.
     for (const x of [kSurfacePx, kWithinPx, kWithinPx - 1, kWithinPx]) {
       await event('mouseMoved', x);
       await turns(page, 400);
@@ -155,7 +155,7 @@ export async function pen({open, folder}) {
   await page.browserContext().close();
 }
 
-/// What the page reads of a gamepad, before its scripts run. The test sets axes and buttons.
+/// The gamepad that the page reads, made before its scripts run. The test sets axes and buttons.
 function fakePad() {
   const pad = {id: 'Test Pad (Vendor: 045e Product: 028e)', index: 0, connected: true, mapping: 'standard',
     axes: [0, 0, 0, 0], buttons: Array.from({length: 17}, () => ({pressed: false, value: 0}))};
@@ -214,8 +214,8 @@ export async function gamepad({open, folder}) {
   await page.browserContext().close();
 }
 
-/// What the page finds by WebHID, before its scripts run: a SpaceMouse Compact. `report` sends the
-/// bytes of the device.
+/// The device that the page finds by WebHID, made before its scripts run: a SpaceMouse Compact.
+/// `report` sends the bytes of the device.
 function fakeHid() {
   const device = {vendorId: 0x256f, productId: 0xc635, productName: 'SpaceMouse Compact', opened: false,
     async open() { this.opened = true; }, async close() { this.opened = false; }, async sendReport() {}};
@@ -242,8 +242,8 @@ function translation(x, y, z) {
   return [...bytes];
 }
 
-/// A receiver has several parts, each a device of WebHID: the page opens one. A browser that refuses
-/// says so.
+/// A receiver has several parts, each a device of WebHID: the page opens one. The page reports that
+/// a browser refuses.
 export async function partsOfOneController({open}) {
   const page = await open(() => {
     const part = () => ({vendorId: 0x256f, productId: 0xc635, opened: false, async open() { this.opened = true; }});

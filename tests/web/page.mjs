@@ -297,7 +297,7 @@ async function drawn(browser) {
   console.log('a drawing was dropped and stands on the wheel');
 }
 
-/// What people hear who do not see the picture, and that keys reach every control.
+/// The texts for people who do not see the picture; and the Tab key reaches every control.
 async function words(browser) {
   const page = await openPage(browser, kDesktop);
   await choose(page, '#open', join(folder, 'bowl.work'));
@@ -332,8 +332,8 @@ async function storageLimit(browser) {
     {origin: server.address.slice(0, -1), quotaSize});
 }
 
-/// The storage is full: a message, and what was stored before remains. As soon as there is room the
-/// work is stored again.
+/// The storage is full: a message, and the files that were stored before remain. As soon as there
+/// is room the work is stored again.
 async function quota() {
   const kFull = /^The browser cannot store the work: its storage is full\. What it stored before remains/;
   const kLeft = 1000;  // bytes, less than a work takes
@@ -381,7 +381,7 @@ async function quota() {
   console.log('storage full: a message; the work stored before it is offered again');
 }
 
-/// A browser that lacks something says what.
+/// The page names the feature that a browser lacks.
 async function lacking() {
   const browser = await launch();
   const cases = [
@@ -487,7 +487,7 @@ async function lesson(browser) {
   console.log('the guide played a step and planned the next');
 }
 
-/// Devices work on what reaches the clay, see devices.mjs.
+/// Pen, gamepad and 3Dconnexion controller, see devices.mjs.
 async function devices(browser) {
   const open = async before => {  // without the works of other tests
     const context = await browser.createBrowserContext();
@@ -521,7 +521,7 @@ async function browsing(browser) {
   console.log('theme, hidden tab, clipboard, keys, links and versions of the browser');
 }
 
-/// What becomes of the works, see storage.mjs.
+/// The works after unusual events, see storage.mjs.
 async function storage(browser) {
   await each(browser, twoTabs, twoTabsWithoutLocks, savedPot, closedWithoutStorage, clearedStorage, unreadStorage, lostGraphics, pickedAgain, listedWorks, reloadedLink);
   console.log('a second tab, a reload, cleared or unreadable storage: no work is lost');

@@ -1,4 +1,5 @@
-// What becomes of the works: a second tab, a reload, storage that was cleared or cannot be read.
+// The works after unusual events: a second tab, a reload, storage that was cleared or cannot be
+// read.
 import assert from 'node:assert/strict';
 import {join} from 'node:path';
 import {beginBowl, choose, chord, closeClean, drag, openBowl, pause} from './browser.mjs';
@@ -147,7 +148,7 @@ export async function unreadStorage({open}) {
   await context.close();
 }
 
-/// The browser takes the graphics away: the page says whether the work is stored.
+/// The browser takes the graphics away: the page reports whether the work is stored.
 export async function lostGraphics({open}) {
   const first = await open();
   const second = await open('', first.browserContext());

@@ -1,4 +1,4 @@
-// How long a tick takes, in any program that throws. In contact: the time to throw a session on its
+// The time of a tick, in any program that throws. In contact: the time to throw a session on its
 // lump, less the time to play it where there is no clay to touch, by the number of ticks in contact
 // (the reading of the session is in both). On average: the time to throw it, the reading of the
 // session included, by the number of all ticks.

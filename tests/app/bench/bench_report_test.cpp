@@ -24,7 +24,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const std::string kHostile = "</td><script>alert(1)</script>\"'& \x01\xff\xC0\x80 end]]>";
 
-/// A report with something of every kind, including unusual values.
+/// A report with a value of every kind, including unusual ones.
 Report odd_report() {
   Section section;
   section.id = "odd";

@@ -119,7 +119,7 @@ TEST(StrokeRun, DeviationIsZeroOnlyFromItself) {
   EXPECT_GT(other.profile_max_mm, 0.0);
   EXPECT_GE(other.profile_max_mm, other.profile_mean_mm);
   EXPECT_GT(other.force_max_n, 0.0);
-  // Sampled at the same instants, whatever the rate: 2.4 s by 8 ms, and the first.
+  // Sampled at the same instants for any rate: 2.4 s by 8 ms, and the first.
   EXPECT_EQ(coarse.force_n.size(), 301u);
   EXPECT_EQ(fine.force_n.size(), 301u);
   EXPECT_EQ(coarse.volume_error, 0.0);

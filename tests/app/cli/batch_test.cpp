@@ -1,4 +1,4 @@
-// Many jobs in processes of their own: results, resumption, isolation.
+// Many jobs in separate processes: results, resumption, isolation.
 
 #include "tests/support/run_program.hpp"
 #include "tests/support/schema_check.hpp"
@@ -73,7 +73,7 @@ TEST_F(Batch, ResumesAfterTheJobsThatHaveAVerdict) {
   const Ran first = run("-o " + results);
   ASSERT_EQ(first.status, 1);
   EXPECT_EQ(first.out, "2 jobs: 1 done, 1 failed\n");
-  // As a killed batch leaves it.
+  // An unfinished last line, as of a killed batch.
   write_text(results, read_text(results) + R"({"schema":"claystack-ba)");
   std::filesystem::remove(folder.file("a.pot.json"));
   ASSERT_EQ(

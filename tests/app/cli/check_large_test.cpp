@@ -156,7 +156,7 @@ TEST(MemoryLimit, GivesNoVerdictOnAPotWhoseMeshDoesNotFit) {
 }
 
 TEST(MemoryLimit, EndsWorkThatGrowsBeyondIt) {
-  // The estimate does not cover what an export makes of the pot.
+  // The estimate does not cover the data that an export makes of the pot.
   const ScratchFolder folder;
   write_text(folder.file("tall.pot.json"), tall_pot(600'000));
   const Ran run = claystack("export --json --memory 85MiB " + folder.file("tall.pot.json") + " " +

@@ -397,7 +397,7 @@ TEST_F(CheckRepair, WarnsIfAWallClosesACup) {
   EXPECT_GT(share("9", true), 0.4);  // almost all places inside
 }
 
-/// The library names the operation; a file name with the same words stays as it is.
+/// The library names the operation; a file name with the same words is not changed.
 TEST_F(CheckRepair, NamesTheOptionThatReadsADamagedFile) {
   const std::string bytes = read_text(write("whole.stl", open_cup()));
   const std::string cut = folder.file("after a repair.stl");

@@ -1,4 +1,5 @@
-// What is missing on a machine; and the manual pages and completions made from the options.
+// The parts that are missing on a machine; and the manual pages and completions made from the
+// options.
 
 #include "tests/support/run_program.hpp"
 #include "tests/support/schema_check.hpp"
@@ -65,8 +66,8 @@ TEST(Doctor, NamesWhatIsMissingAndTheFix) {
 #endif
 }
 
-/// An installed program finds its rule beside itself, wherever the folder was moved to. A machine
-/// that has the rule, and a program without devices, need no fix.
+/// An installed program finds its rule beside itself, even if its folder was moved. A machine that
+/// has the rule, and a program without devices, need no fix.
 TEST(Doctor, NamesTheRuleBesideTheProgram) {
   const ScratchFolder folder;
   namespace fs = std::filesystem;
@@ -83,7 +84,7 @@ TEST(Doctor, NamesTheRuleBesideTheProgram) {
     }
 }
 
-/// An installed program names the samples beside itself, wherever the folder was moved to.
+/// An installed program names the samples beside itself, even if its folder was moved.
 TEST(Manual, NamesTheSamplesBesideTheProgram) {
   const ScratchFolder folder;
   namespace fs = std::filesystem;

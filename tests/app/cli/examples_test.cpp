@@ -70,7 +70,7 @@ class Examples : public testing::Test {
     }
   }
 
-  /// With the installed program, in a folder of its own.
+  /// Runs an example with the installed program, in a separate folder.
   [[nodiscard]] Ran run(const std::string& folder, const std::string& example) const {
     return shell("cd " + folder + " && env -u DISPLAY -u WAYLAND_DISPLAY HOME=" + folder +
                  " PATH=" + folder_.file("usr/bin") + ":$PATH " + example);

@@ -14,7 +14,7 @@ namespace {
 class ExportFinish : public ExportedBowl {};
 
 TEST_F(ExportFinish, ReportsTheFairing) {
-  EXPECT_EQ(run("--json").json().at("fairing").at("length_mm"), 10.0);  // the tool of the bowl
+  EXPECT_EQ(run("--json").json().at("fairing").at("length_mm"), 10.0);  // from the tool of the bowl
   EXPECT_FALSE(run("--json --tolerance 0.11").json().contains("fairing"));
   EXPECT_FALSE(run("--json --smooth-length 0").json().contains("fairing"));
   const std::string page = folder.file("r.html");

@@ -109,7 +109,7 @@ TEST_F(ExportOptions, RefusesOptionsOfFacetsForFilesWithoutFacets) {
 }
 
 TEST_F(ExportOptions, AGlazeAloneFinishesAPot) {
-  // The glazed pot holds what is asked for, with and without a shrinkage that is almost none.
+  // The glazed pot has the requested capacity, without a shrinkage and with one of almost 0.
   for (const char* shrinkage : {"", " --shrinkage 0.0001%"}) {
     const Ran scaled =
         run("--json --holds 100ml --fired --glaze-allowance 0.5" + std::string(shrinkage));

@@ -26,7 +26,7 @@ TEST_F(ExportSize, AShrinkageMakesTheFilesLarger) {
   EXPECT_NEAR(fired.at("fired_height_mm").get<double>(), plain.at("height_mm").get<double>(), 1e-9);
   EXPECT_NEAR(fired.at("fired_volume_mm3").get<double>(), plain.at("volume_mm3").get<double>(),
               1e-2);
-  // The file itself, by a program of another house.
+  // The size in the file itself, by a program of another vendor.
   const std::string info = shell("prusa-slicer --info " + stl).out;
   const auto size_z = info.find("size_z = ");
   ASSERT_NE(size_z, std::string::npos) << info;
@@ -47,7 +47,7 @@ TEST_F(ExportSize, AShrinkageIsAPercentage) {
 }
 
 TEST_F(ExportSize, RefusesFiguresOfFiringWithoutAShrinkage) {
-  // The second of each pair is what applies without the option.
+  // The second of each pair is the default without the option.
   for (const std::string option :
        {"--water 15%", "--water 20%", "--ignition-loss 5%", "--ignition-loss 9%",
         "--drying-shrinkage 4%", "--drying-shrinkage 0%"}) {

@@ -9,7 +9,8 @@
 namespace clay::test {
 namespace {
 
-/// Volume [mm^3] of a binary STL by the divergence theorem in double: independent of our reader.
+/// Volume [mm^3] of a binary STL by the divergence theorem in double: independent of the reader of
+/// Claystack.
 double stl_volume(const std::string& bytes) {
   std::uint32_t count = 0;
   std::memcpy(&count, bytes.data() + 80, 4);
@@ -205,7 +206,7 @@ TEST_F(ExportBowl, RefusesAndWritesNothing) {
 TEST_F(ExportBowl, AFullDiskLeavesTheOldFile) {
   const std::string stl = folder.file("old.stl");
   write_text(stl, "the old file");
-  // 100 blocks of 512 bytes: the file can't grow to its size.
+  // 100 blocks of 512 bytes: the file cannot grow to its size.
   const Ran run =
       shell("trap \"\" XFSZ; ulimit -f 100; " CLAYSTACK_PROGRAM " export -q " + pot + " " + stl);
   EXPECT_EQ(run.status, 3) << run.err;
@@ -289,7 +290,7 @@ TEST_F(ExportCollapsed, HasSizeAndWeightButNoCapacity) {
   const Ran made = claystack("export --json --report " + page + " " + pot + " " + stl);
   const auto json = made.json();
   const auto &maker = json.at("maker"), &thrown = maker.at("thrown");
-  // All the clay weighs, also where both parts overlap.
+  // The weight is that of all clay, also where both parts overlap.
   EXPECT_NEAR(thrown.at("weight_g"),
               1e-3 * counted * maker.at("clay").at("density_g_cm3").get<double>(), 1e-6);
   EXPECT_EQ(thrown.at("diameter_mm"), json.at("diameter_mm"));

@@ -87,7 +87,7 @@ TEST_F(ProgressLine, IsAbsentFromPipesAndWhenQuiet) {
   }
 }
 
-/// A warning in the middle of a line would be hard to read.
+/// Otherwise the warning would begin in the middle of the line.
 TEST_F(ProgressLine, GoesBeforeAWarningIsPrinted) {
   const std::string text =
       on_a_terminal("throw " + sample("vase.scene.json") + " -s " + sample("bowl.session"));

@@ -103,7 +103,7 @@ TEST_F(SectionFiles, TheReportIsOnePage) {
         "wall of the round section", "steepest overhang", "distance from the round solid",
         "Left out", "Time", "closed and embedded", "</html>"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
-  // The report and the text agree on how far the facets are from the pot.
+  // The report and the text agree on the distance of the facets from the pot.
   const std::string within = "within ", of = " of the round solid";
   const std::size_t from = made.out.find(within) + within.size(), to = made.out.find(of);
   ASSERT_NE(to, std::string::npos) << made.out;

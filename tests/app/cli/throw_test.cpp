@@ -53,7 +53,7 @@ TEST(Throw, RefusesAListOfAPot) {
 #endif
 }
 
-/// The strokes of a bowl on the clay of a vase push the wall far out at its foot.
+/// The strokes of a bowl on the clay of a vase push the wall far outward at its foot.
 TEST(Throw, AThinWallThatYieldsStaysInOnePiece) {
   const auto json =
       claystack("throw --json " + sample("vase.scene.json") + " -s " + sample("bowl.session"))
@@ -231,7 +231,7 @@ TEST(Throw, APotGoesOnWithoutItsScene) {
   EXPECT_EQ(read_text(folder.file("alone.pot.json")), read_text(folder.file("scene.pot.json")));
   EXPECT_EQ(nlohmann::json::parse(read_text(once)).at("thrown_with").at("flow"),
             nlohmann::json::parse(read_text(scene)).at("flow"));
-  // Another scene wins.
+  // A scene on the command line takes precedence.
   auto other = nlohmann::json::parse(read_text(scene));
   other["flow"]["reach_mm"] = 11;
   write_text(folder.file("other.scene.json"), other.dump());

@@ -1,4 +1,4 @@
-// One wall for one pot, whichever command states it. CLAYSTACK_WALL_POTS=500 throws 500 pots.
+// All commands state the same wall for one pot. CLAYSTACK_WALL_POTS=500 throws 500 pots.
 
 #include "claystack/engine/files.hpp"
 #include "claystack/export/walls.hpp"
@@ -85,8 +85,8 @@ TEST(WallVerdict, IsTheSameOfThrowExportCheckAndCertificate) {
         !least.is_null() && 3.0 * wall < height) {
       EXPECT_GE(least, wall - 1e-4) << read_text(scene);
     }
-    // A limit that the pot keeps changes nothing, nor one that it cannot keep. In between, it keeps
-    // it with less smoothing.
+    // A limit that the pot meets anyway, or cannot meet, changes nothing. Between these, the pot
+    // meets the limit with less smoothing.
     const std::string unlimited = read_text(stl);
     for (const double asked : {wall, just_above(wall)}) {
       std::ostringstream limit_text;

@@ -1,5 +1,5 @@
-// Every write call of a command fails once, or is where the program is killed (fault_shim.cpp):
-// either all outputs exist or none, and no other files.
+// Every write call of a command fails once, or the program is killed at it (fault_shim.cpp): either
+// all outputs exist or none, and no other files.
 
 #include "tests/support/run_program.hpp"
 
@@ -184,7 +184,7 @@ TEST_P(WriteFaults, WriteAllOrNothing) {
                          });
 }
 
-// What is written again has the same bytes, apart from the times in reports.
+// Files that are written again have the same bytes, apart from the times in reports.
 const std::string kExport =
     "export -q --segments 16 @/a.pot.json #/a.stl #/b.obj #/c.drc #/d.ply #/e.3mf #/f.glb";
 const std::vector<std::string> kMeshes = {"a.stl", "b.obj", "c.drc", "d.ply", "e.3mf", "f.glb"};
@@ -239,7 +239,7 @@ bool has_pot(const std::string& path) {
   return json.is_object() && json.value("schema", "") == "claystack-pot-1";
 }
 
-// Whatever fails in a throw by hand, there is a pot: the new one, also beside the planned place, or
+// After any fault in a throw by hand there is a pot: the new one, also beside the planned place, or
 // the old one if the throw did not begin.
 TEST(WriteFaultsOfAThrowByHand, LoseNoPotAndNoSession) {
   const Folders folders;

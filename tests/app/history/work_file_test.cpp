@@ -78,7 +78,7 @@ TEST(WorkFile, RefusesTooManyPosesInAdvance) {
   EXPECT_EQ(read.error().message.substr(0, 51),
             "w: expected at most 10000000 poses, found 10000543,")
       << read.error().message;
-  const auto salvaged = salvage_work(text, "w");  // what stands before is not lost
+  const auto salvaged = salvage_work(text, "w");  // the lines before are not lost
   ASSERT_TRUE(salvaged) << salvaged.error().message;
   EXPECT_EQ(salvaged->work.nodes, sample_record().nodes);
 }

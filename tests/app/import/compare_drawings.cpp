@@ -1,5 +1,5 @@
 // compare_drawings COUNT: imports COUNT generated drawings, a third of each format, and compares
-// them with what librsvg paints. CONTRIBUTING.md has the command.
+// them with the pictures of librsvg. CONTRIBUTING.md has the command.
 
 #include "tests/app/import/generated_drawings.hpp"
 

@@ -32,7 +32,7 @@ TEST(CsvDrawing, ReadsTablesWithEmptyCells) {
 }
 
 TEST(CsvDrawing, ARowOfEmptyCellsIsEmpty) {
-  // As spreadsheets write it: with all separators of its columns.
+  // An empty row as spreadsheets write it: with all separators of its columns.
   for (const char* empty : {";", ";;", "\t", " , ", "\"\";\"\"", ";;\r"}) {
     const std::string row = std::string(empty) + "\n";
     const auto drawing =

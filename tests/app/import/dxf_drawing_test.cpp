@@ -82,7 +82,7 @@ TEST(DxfDrawing, ReadsEveryEndOfLine) {
 }
 
 TEST(DxfDrawing, ACircleIsABall) {
-  // Whatever the number of its chords.
+  // For any number of chords.
   for (const double radius : {10.0, 20.0, 33.3, 50.0}) {
     const auto section = section_of(
         file(groups({{0, "CIRCLE"}, {10, "20"}, {20, "5"}, {40, fmt::format("{}", radius)}})),
@@ -192,7 +192,8 @@ TEST(DxfDrawing, AFullTurnMayBeWrittenWithFewDigits) {
 }
 
 TEST(DxfDrawing, ABulgeOfAlmostNothingIsStraight) {
-  // A cylinder of radius 40 and height 80. The square of the last one's radius is no double.
+  // A cylinder of radius 40 and height 80. The square of the radius of the last bulge exceeds the
+  // range of a double.
   for (const char* bulge : {"1e-9", "1e-100", "1e-300"}) {
     const auto polyline = groups({{0, "LWPOLYLINE"},
                                   {8, "0"},
@@ -270,7 +271,7 @@ TEST(DxfDrawing, RefusesBrokenSplinesAndOtherFiles) {
                               {10, "3"},
                               {20, "4"}});
   EXPECT_THAT(refusal_of(read_drawing(file(spline), "pot.dxf")), HasSubstr("expected splines"));
-  // All knots are equal: the spline has no length, and would be left out without a word.
+  // All knots are equal: the spline has no length, and would be left out without a message.
   const auto none = groups({{0, "SPLINE"},
                             {8, "0"},
                             {71, "1"},

@@ -1,6 +1,6 @@
 #pragma once
-// Random sections of pots as SVG, DXF and CSV files, and the comparison of what `import` makes of
-// them with what librsvg paints.
+// Random sections of pots as SVG, DXF and CSV files, and the comparison of the results of `import`
+// with the pictures of librsvg.
 
 #include <random>
 #include <string>
@@ -34,8 +34,8 @@ std::string csv_file(const Outline& outline, std::mt19937& random);
 /// The outline alone, to be painted.
 std::string plain_svg(const Outline& outline);
 
-/// Imports drawing number `number` of its format and compares it. Returns what is wrong, or
-/// nothing.
+/// Imports drawing number `number` of its format and compares it. Returns the difference; empty:
+/// none.
 std::string difference(const std::string& format, unsigned number);
 
 }  // namespace clay::importing::generated

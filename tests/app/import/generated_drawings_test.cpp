@@ -5,7 +5,7 @@
 namespace clay::importing {
 namespace {
 
-// compare_drawings does the same for as many as asked for.
+// compare_drawings does the same for any number of drawings.
 TEST(GeneratedDrawings, ImportAsTheyArePainted) {
   for (const char* format : {"svg", "dxf", "csv"})
     for (unsigned number = 0; number < 7; ++number)

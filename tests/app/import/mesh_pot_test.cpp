@@ -209,7 +209,7 @@ TEST(MeshPot, CommandWarnsOfNoise) {
                                  "revolution, found noise of about 0.01"));
   ASSERT_EQ(run.json().at("warnings").size(), 1u) << run.out;
   EXPECT_NEAR(run.json().at("noise_mm").get<double>(), 0.02, 0.01);
-  // A height asked for does not bring the noise of the floor back.
+  // A requested ring height does not bring the noise of the floor back.
   const auto asked = test::claystack("import --json --ring-height 1 " + file + " -o " + pot);
   EXPECT_LE(asked.json().at("deviation_mm").get<double>(), 0.13) << asked.out;
   EXPECT_LE(asked.json().at("rings"), 160) << asked.out;
@@ -219,7 +219,7 @@ TEST(MeshPot, CommandWarnsOfNoise) {
   EXPECT_EQ(test::claystack("check -q " + stl).status, 0);
 }
 
-/// A wall that is missing in some half-planes is no deviation of the rings.
+/// A wall that is missing in some half-planes does not count as a deviation of the rings.
 TEST(MeshPot, MeasuresTheDeviationWhereTheMeshHasAWall) {
   TriangleMesh cup = noisy_cup(0.0);
   // A sixth of the outside, from the foot to the rim.
@@ -256,7 +256,7 @@ TEST(MeshPot, ReportsADeviationThatIsNotMeasured) {
   EXPECT_EQ(pot->deviation.mm, 0.0);
 }
 
-/// An edge against two halves of it is no opening.
+/// An edge that meets two edges of half its length is not an opening.
 TEST(MeshCuts, AreCompleteAtTJunctions) {
   TriangleMesh mesh = noisy_cup(0.0);
   const std::vector<bool> all(kMeshCuts, true);
@@ -280,7 +280,7 @@ TEST(MeshPot, RefusesWhatIsNotOfRevolution) {
   ASSERT_FALSE(found);
   EXPECT_THAT(found.error().message,
               HasSubstr("box.stl: expected a pot that is nearly of revolution"));
-  // Smaller than half a millimetre, as of a file in metres: still no pot.
+  // Smaller than half a millimetre, as from a file in metres: still not a pot.
   solid::TriangleMesh small = box;
   for (glm::dvec3& p : small.points) p *= 1e-3;
   const auto small_found = mesh_pot(small, {}, "small.stl");

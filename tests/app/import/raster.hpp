@@ -1,5 +1,5 @@
 #pragma once
-// Drawings as pixels: by an own rasteriser, and by librsvg.
+// Drawings as pixels: by a rasteriser of these tests, and by librsvg.
 
 #include "app/import/drawing.hpp"
 

@@ -227,7 +227,7 @@ TEST(SvgDrawing, IgnoresHiddenElements) {
         "<g fill-opacity='0'>" + hidden + "</g>",
         "<g style='stroke:red;fill-opacity:0;stroke-opacity:0%'>" + hidden + "</g>"})
     EXPECT_NEAR(volume_of(wrapped + pot), wanted, 1e-6) << wrapped;
-  // Its stroke is still seen, or its fill.
+  // Its stroke or its fill is still visible.
   for (const char* style : {"fill-opacity:0;stroke:red", "stroke-opacity:0", "fill-opacity:0.5"})
     EXPECT_NEAR(volume_of(std::string("<g style='") + style + "'>" + pot + "</g>"), wanted, 1e-6)
         << style;
@@ -331,7 +331,7 @@ TEST(SvgDrawing, RefusesFilesThatAreNotDrawings) {
 }
 
 TEST(SvgDrawing, ReplacesEntitiesOnceOnly) {
-  // As Adobe Illustrator writes them.
+  // Entities as Adobe Illustrator writes them.
   const std::string start =
       "<?xml version='1.0'?><!DOCTYPE svg [<!ENTITY ns 'http://www.w3.org/2000/svg'>"
       "<!ENTITY st0 'display:none'>";

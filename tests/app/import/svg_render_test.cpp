@@ -1,4 +1,4 @@
-// What `import` reads from SVG against what librsvg paints.
+// The shapes that `import` reads from SVG, compared with the pictures of librsvg.
 #include "tests/app/import/raster.hpp"
 #include "tests/support/run_program.hpp"
 

@@ -1,4 +1,4 @@
-// The public component, as a program uses it that embeds the servo.
+// The public component, as used by a program that embeds the servo.
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
@@ -259,7 +259,7 @@ TEST(LiveThrow, RefusesAContactTooStiffForTheArm) {
   EXPECT_EQ(soften(scene, settings).value(), 1.0);
 }
 
-// A Falcon answers 1000 times a second, however often the servo asks.
+// A Falcon answers 1000 times a second, even if the servo asks more often.
 TEST(LiveThrow, ARateAboveThatOfTheDeviceAcceptsNoStifferContact) {
   const auto accepted = [](double rate_hz, double device_hz = 1000.0) {
     SceneSpec scene = rib_scene();

@@ -85,7 +85,7 @@ TEST(LiveLoop, DeviceReceivesOnlyTheGuardedForce) {
 }
 
 // In at a fifth of the force, out at the full force: the hand gets more energy than it gave. The
-// controller must know of the ramp to damp it.
+// controller must include the ramp to damp this energy.
 TEST(LiveLoop, PassivityControllerCountsARampDuringContact) {
   SceneSpec scene = rib_scene();
   scene.removal.rate_per_s = 1e-9;
@@ -345,7 +345,8 @@ Ending press_again(VirtualThrow& live) {
   return live.run(3.2);
 }
 
-// The arm may be pulled out because something is wrong: only the user ends what the user began.
+// The user may have unplugged the arm because of a fault: only the user ends a pause or a zeroed
+// force that the user began.
 TEST(LiveLoop, KeepsPauseAndZeroedForceWhenTheDeviceIsReopened) {
   for (const auto& [hold, release] :
        {std::pair{Command{CommandKind::zero, 0.0}, Command{CommandKind::rearm, 0.0}},

@@ -212,7 +212,7 @@ TEST(Recorder, RefusesAFileThatCannotBeWritten) {
   }
 }
 
-/// Kills a recorder; `lost_us` is how much of the accepted time is missing in the file [us].
+/// Kills a recorder; `lost_us`: the part of the accepted time that is missing in the file [us].
 void kill_one(std::int64_t& lost_us) {
   const test::ScratchFolder folder;
   const std::string path = folder.file("s.session");

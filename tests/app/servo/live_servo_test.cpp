@@ -105,8 +105,8 @@ TEST(Servo, WatchdogEndsTheForceDuringAHang) {
   EXPECT_GE(threads.loop.events().watchdog, 1u);
 }
 
-/// Time stands still, so a servo that ticks is never late, however busy the machine is. Counts the
-/// looks of the watchdog, which sleeps for longer than a tick.
+/// A clock that stands still, so that a servo that ticks is never late, even on a busy machine.
+/// Counts the readings of the watchdog, which sleeps for longer than a tick.
 class StoppedClock final : public Clock {
  public:
   std::int64_t now_ns() noexcept override { return kNowNs; }

@@ -1,7 +1,7 @@
 // servo_soak [FRAMES [SEED]]: throws on the emulated Falcon with random faults of the wire and
 // random commands, a million frames by default, and checks each tick against bounds that follow
-// from the faults alone. The clock is virtual, so a second takes milliseconds. Prints what happened
-// and how the memory of the process grew; exit status 1 if a bound was broken or memory grew.
+// from the faults alone. The clock is virtual, so a second takes milliseconds. Prints the events
+// and the growth of the memory of the process; exit status 1 if a bound was broken or memory grew.
 
 #include "tests/app/servo/live_bench.hpp"
 
@@ -37,7 +37,7 @@ struct Counts {
                 poses = 0;
 };
 
-/// How far the force rose: its distance from the nearest fraction of the last one.
+/// Rise of the force [N]: its distance from the nearest fraction of the last force.
 double rise(const glm::dvec3& now, const glm::dvec3& before) {
   const double square = glm::dot(before, before);
   const double part = square > 0.0 ? std::clamp(glm::dot(now, before) / square, 0.0, 1.0) : 0.0;

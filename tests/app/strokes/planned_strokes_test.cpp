@@ -1,4 +1,4 @@
-// Strokes that are planned on the pot: where the tool goes, from the geometry of tool and clay.
+// Strokes that are planned on the pot: the places of the tool, from the geometry of tool and clay.
 
 #include "app/strokes/strokes.hpp"
 
@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kToolMm = 10.0, kRadiusMm = 40.0, kHeightMm = 60.0, kBoreMm = 30.0;
 
-/// A tube of 10 mm that does not yield, so that it stays as the hand saw it.
+/// A tube of 10 mm that does not yield, so that it keeps the shape for which the stroke was
+/// planned.
 SceneSpec tube() {
   SceneSpec scene;
   scene.lump = {.rings = 120,
@@ -120,8 +121,8 @@ TEST(Pull, ClosesOnTheWallAndRisesOverTheRim) {
 TEST(Lip, RollsTheToolAroundASemicircle) {
   Stroke stroke = stroke_of(StrokeKind::lip);
   const double middle = 0.5 * (kRadiusMm + kBoreMm), round = 0.5 * (kRadiusMm - kBoreMm);
-  // The tube has the minimum wall, and the least wall keeps the lip as wide as it is: none is left
-  // to round. With less of a minimum the tool's surface touches the semicircle.
+  // The tube has the minimum wall, so its lip must keep its width: there is no clay to round. With
+  // less of a minimum the tool's surface touches the semicircle.
   SceneSpec scene = tube();
   scene.removal.min_wall_mm = 1.0;
   scene.removal.rate_per_s = 1e-9;

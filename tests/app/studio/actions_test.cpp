@@ -1,4 +1,5 @@
-// Actions on the state of the window, without a window: what each changes and when it asks first.
+// Actions on the state of the window, without a window: their changes, and the questions before
+// them.
 
 #include "tests/app/studio/actions.hpp"
 #include "app/studio/app_state.hpp"
@@ -142,7 +143,7 @@ TEST_F(ActionsTest, AHoveringToolIsOnTheWheelAndNotInIt) {
   EXPECT_NEAR(state.scene.tool_view(view_model(state))->place_mm.y, 0.0, 1e-9) << "where it cuts";
 }
 
-/// A change in its middle is for the next stroke.
+/// A change of the tool during a stroke applies to the next stroke.
 TEST_F(ActionsTest, AStrokeIsShownWithItsOwnTool) {
   change();  // a groove: upside down, the pot looks different
   state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});

@@ -110,7 +110,7 @@ TEST_F(Arms, RecordedPosesReplayToEveryPot) {
   EXPECT_NE(*again.pot(1).value(), *again.pot(0).value());
 }
 
-/// What an arm can render is a matter of that arm; the stiffness of the work is the user's choice.
+/// The accepted stiffness depends on the arm; the stiffness of the work is the choice of the user.
 TEST_F(Arms, TheWorkKeepsItsStiffness) {
   constexpr double kTooStiff = 5.0;  // N/mm^2
   apply(state(), SetStiffness{kTooStiff});
@@ -224,7 +224,8 @@ TEST_F(Arms, PauseContinuesAfterTheStroke) {
   ASSERT_GT(arm.last_force_n, 0.1);
   play("key Space\nexpect paused yes\n");
   arm.max_force_n = 0.0;
-  // Each starts a new stroke with what the force needs: off the clay for a while, then in.
+  // After each of these a new stroke begins as the force requires: off the clay for a while, then
+  // in the clay.
   for (const char* what : {"key ]", "key T", "key Ctrl+Z", "do file.new_vase\nkey Ctrl+D"}) {
     arm.goal_mm = 80.0;
     play(std::string(what) + "\nwait 3\n");
@@ -272,7 +273,7 @@ TEST_F(Arms, AChangedStiffnessIsFelt) {
   EXPECT_GT(touch(), 2.0 * undone_n) << "at once";
 }
 
-/// It never rests.
+/// The arm throws all the time.
 TEST_F(Arms, TheTimelineShowsThePotAfterEveryStroke) {
   const test::ScratchFolder folder;
   for (int press = 0; press < 2; ++press) play(std::string(kMousePresses) + "release left\n");
@@ -287,7 +288,7 @@ TEST_F(Arms, TheTimelineShowsThePotAfterEveryStroke) {
 
 constexpr std::size_t kLearned = 3;  // the cylinder
 
-/// A stroke of an arm has no end of its own: in a lesson it ends when the tool leaves the clay.
+/// A stroke of an arm does not end by itself: in a lesson it ends when the tool leaves the clay.
 TEST_F(Arms, LeadsThroughALesson) {
   ArmScript& arm = arms_.emplace_back();
   plug_and_engage(arm);

@@ -1,4 +1,4 @@
-// Dialogs in an ImGui context without a window: their controls, and where they stand.
+// Dialogs in an ImGui context without a window: their controls and their layout.
 
 #include "tests/app/studio/panels.hpp"
 #include "tests/support/run_program.hpp"
@@ -48,7 +48,7 @@ TEST_F(Dialogs, EnterSavesUnderTheTypedName) {
   EXPECT_TRUE(std::holds_alternative<EditPath>(again[0]));
 }
 
-/// Such as that of a save; a banner from before the dialog stays behind it.
+/// An error such as that of a save; a banner from before the dialog stays behind the veil.
 TEST_F(Dialogs, TheErrorOfADialogIsOverItsVeil) {
   const auto draw = [this](const ViewModel& model, Actions& actions) {
     draw_dialog(model, actions, kView);
@@ -85,7 +85,7 @@ TEST_F(Dialogs, TheSameErrorIsOverTheVeilOfAnyDialog) {
   }
 }
 
-/// The list of choices is no stop between the arrow keys and its controls.
+/// The arrow keys reach the controls of the list of choices without a stop at the list.
 TEST_F(Dialogs, TheKeyboardStartsInTheFirstControlOfTheExport) {
   ImGuiIO& io = ImGui::GetIO();
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;

@@ -109,7 +109,7 @@ TEST_F(ActionsTest, AnExportThatFailsALimitIsAWarning) {
   EXPECT_EQ(exporting.result.find("failed"), std::string::npos) << exporting.result;
 }
 
-/// Ended with the program, an export would leave no file.
+/// An export that ended with the program would leave no file.
 TEST_F(ActionsTest, QuittingWaitsForAnExport) {
   apply(state, ShowDialog{DialogKind::export_files});
   ExportChoices choices = state.ui.exporting.choices;
@@ -176,7 +176,7 @@ TEST_F(ActionsTest, APreviewOfTheChoicesBeforeIsNotShown) {
   EXPECT_FALSE(state.ui.exporting.preview);
 }
 
-/// A turntable may be in writing, too.
+/// A turntable may be in progress, too.
 TEST_F(ActionsTest, CancelEndsWhatTheDialogShows) {
   apply(state, ShowDialog{DialogKind::picture});
   PictureFile picture = state.ui.pictures.file;

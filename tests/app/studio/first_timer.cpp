@@ -68,7 +68,7 @@ class Newcomer {
     double pressed_s = 0.0;
     for (double way_mm = 0.0; way_mm < all_mm && state_.stroke.throwing(); frame()) {
       pressed_s += kEventS;
-      // The hand waits until the tool, which it sees, has come along.
+      // The hand waits until the tool on screen has caught up.
       if (pressed_s > kReactionS && state_.stroke.stretch_mm() < kFarMm)
         way_mm += speed_mm_s * kEventS;
       point(along(path, way_mm));

@@ -1,6 +1,6 @@
 #pragma once
 // A simulated newcomer at the window: follows the path of the guide with the mouse, with a shaky
-// hand, and uses nothing else that it shows.
+// hand, and uses nothing else on screen.
 
 #include "claystack/engine/clay.hpp"
 
@@ -22,7 +22,8 @@ struct FirstPot {
   double thinnest_mm = 0.0;
   double height_mm = 0.0, sample_height_mm = 0.0;
   double capacity_ml = 0.0, sample_capacity_ml = 0.0;
-  /// A pot, not a lump with a hole: it holds at least half of what the sample holds.
+  /// Whether it is a pot, not a lump with a hole: its capacity is at least half of that of the
+  /// sample.
   [[nodiscard]] bool is_pot() const { return capacity_ml >= 0.5 * sample_capacity_ml; }
 };
 

@@ -17,7 +17,7 @@ render::PotView tube(float outer_mm, float inner_mm, double height_mm, std::size
 
 Tool sphere(double radius_mm) { return Tool::build(SphereSpec{radius_mm}).value(); }
 
-/// How deep a sphere is in a tube on the wheel, from the distance itself instead of rows.
+/// Depth of a sphere in a tube on the wheel [mm], from the distance itself instead of rows.
 double depth_mm(const render::PotView& pot, double radius_mm, glm::dvec2 at) {
   const double outer = pot.rows[0].outer_mm, inner = pot.rows[0].inner_mm;
   const double rho = std::abs(at.x);

@@ -90,7 +90,7 @@ TEST_F(Window, TheRightTriggerBeginsAndEndsAStroke) {
           "expect throwing yes\n" +
           near("strength", (0.5 - kPressUntil) / (1.0 - kPressUntil), 1e-9) +
           "stick left -1 0\nwait 1\nexpect contact yes\n" +
-          // The target is not far ahead of the tool, however long the stick is held.
+          // The target is not far ahead of the tool, even if the stick is held for long.
           "expect pull_mm below 18\nexpect pull_mm above 8\n"
           "trigger right 0.07\nexpect throwing yes\ntrigger right 0.04\nexpect throwing no\n"
           "expect strokes 1\nstick left 0 0\n"
@@ -121,8 +121,8 @@ TEST_F(Window, TheLeftTriggerPinchesAndClosesTheFingers) {
       "expect gap_mm above 0\n";
   const Ran open = run(pinched + "save FOLDER/a.work\n");
   ASSERT_EQ(open.status, 0) << open.err;
-  // Further on, the left trigger closes the gap of 5 mm, which the pot remembers; it opens again
-  // when it is let go.
+  // Further on, the left trigger closes the gap of 5 mm, which the pot remembers; the gap opens
+  // again when the trigger is released.
   const Ran closed = run(pinched + "trigger left 1\nwait 1\n" + near("gap_mm", 5.0, 0.02) +
                          "trigger left 0.5\nwait 1\nexpect gap_mm above 5.05\n"
                          "trigger right 0\nexpect throwing no\n");

@@ -1,5 +1,5 @@
 // The guide: its plans are those of the strokes, its demonstration throws a printable pot, and a
-// newcomer who follows it does.
+// newcomer who follows it throws one, too.
 
 #include "app/studio/guide/guide.hpp"
 
@@ -96,7 +96,7 @@ TEST_F(Lesson, TheDemonstrationThrowsAPotThatIsReadyToPrint) {
   EXPECT_TRUE(check.ready()) << ready_text(check, LengthUnit::mm);
   const double sample_mm = finished_pot(samples()[kCylinder])->stack.height_mm();
   EXPECT_NEAR(state.document.pot().stack.height_mm(), sample_mm, 0.15 * sample_mm);
-  // What was shown stays as a branch, and the user begins with the lump.
+  // The demonstrated strokes stay as a branch, and the user begins with the lump.
   const std::size_t strokes = state.document.work().size();
   apply(state, YourTurn{});
   EXPECT_EQ(state.document.work().at(), 0u);
@@ -104,7 +104,7 @@ TEST_F(Lesson, TheDemonstrationThrowsAPotThatIsReadyToPrint) {
   EXPECT_EQ(state.guide.step(), 0u);
 }
 
-/// Its tool stays in its plane, and is not pulled through the pot to that of another view.
+/// The tool stays in the plane of the demonstration: another view does not pull it through the pot.
 TEST_F(Lesson, ADemonstrationCanBeWatchedFromAnySide) {
   state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
   apply(state, BeginLesson{kCylinder, true});
@@ -232,7 +232,7 @@ TEST_F(Lesson, AStepIsSkippedIfItHasNoStroke) {
   EXPECT_EQ(state.guide.skipped_steps(), 1u);
 }
 
-/// The stroke ends with its step; what it has done is kept.
+/// The stroke ends with its step; the pot keeps the change so far.
 TEST_F(Lesson, NextStepEndsTheStrokeThatIsShown) {
   state.scene.place({{0.0f, 0.0f}, {1000.0f, 700.0f}});
   apply(state, BeginLesson{kCylinder, true});

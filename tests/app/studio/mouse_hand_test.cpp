@@ -88,7 +88,7 @@ struct HandAtLump : Hand {
     device.meet({&lump.wheel->stack(), &lump.wheel->plan().tool, kRpm});
     tick();
   }
-  /// Where the hand is after this time of pulling to a target.
+  /// Place of the hand after it was pulled to a target for this number of ticks [mm].
   glm::dvec3 pull(const glm::dvec3& to_mm, double bite_mm, int ticks) {
     device.aim({to_mm, kPressingMmPerS, bite_mm});
     for (int i = 1; i < ticks; ++i) tick();
@@ -181,7 +181,7 @@ TEST(MouseHand, ItsBiteLimitsItInSoftClay) {
   EXPECT_NEAR(to_s - from_s, expected_s, 0.08 * expected_s);
 }
 
-/// A wall at its minimum, a lump that is too stiff: the hand stops, however long it pushes.
+/// A wall at its minimum and a lump that is too stiff stop the hand for as long as it pushes.
 TEST(MouseHand, StopsWhereClayDoesNotGiveWay) {
   HandAtLump hand({50.5, 30.0, 0.0});
   const double x = hand.pull({0.0, 30.0, 0.0}, 8.0, 5000).x;
@@ -211,8 +211,8 @@ TEST(MouseHand, ItsBiteMayChangeDuringAStroke) {
     return segment_mm2(50.0 - hand.pull({0.0, 30.0, 0.0}, bite_mm, 101).x);
   };
   const double soft_mm2 = dig(0.2);
-  // 0.1 s of 2 turns a second, over a height of 20 mm. The hand uses at least half of what is
-  // permitted.
+  // 0.1 s of 2 turns a second, over a height of 20 mm. The hand uses at least half of the permitted
+  // area.
   EXPECT_LE(soft_mm2, 0.2 * 0.2 * 20.0 + kUnevenMm2);
   const double firm_mm2 = dig(1.0) - soft_mm2;
   EXPECT_GT(firm_mm2, 0.5 * 0.2 * 1.0 * 20.0);

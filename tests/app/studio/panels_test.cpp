@@ -84,7 +84,7 @@ TEST_F(Panels, CardsOutOfSightAreNotDrawn) {
   EXPECT_LT(corners(100), 2 * of_a_row);
 }
 
-/// The middle of a logarithmic slider is the geometric mean of its ends, whatever the unit.
+/// The middle of a logarithmic slider is the geometric mean of its ends, in any unit.
 TEST_F(Panels, ALengthSliderIsTheSameInEveryUnit) {
   for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::cm, LengthUnit::in}) {
     double mm = 0.02;

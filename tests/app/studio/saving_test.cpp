@@ -1,4 +1,4 @@
-// Files of the window, without a window: when it asks before a work or a file is lost.
+// Files of the window, without a window: the questions before a work or a file is lost.
 
 #include "app/history/file_lock.hpp"
 #include "app/studio/app_state.hpp"

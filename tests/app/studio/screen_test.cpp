@@ -58,7 +58,7 @@ TEST_F(OnScreen, OffersAnUnrecoveredWorkUntilItIsDiscarded) {
   EXPECT_EQ(ran.status, 0) << ran.err << ran.out;
 }
 
-/// The tests of the journal bound how much of the stroke is lost.
+/// The tests of the journal bound the lost part of the stroke.
 TEST_F(OnScreen, OffersTheJournalOfAKilledWindow) {
   const ScratchFolder folder;
   const Ran ran = run("killed_under_xvfb.sh", folder);

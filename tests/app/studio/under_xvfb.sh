@@ -38,7 +38,7 @@ cmp bowl.3mf by_key.3mf || fail "expected the same bytes by menu and by key"
 xdotool key --window "$window" Escape
 until_line "action: wheel.zero_force" 2
 # The same by the keyboard: the last row of the menu File is Quit, then Settings, then Export. The
-# pointer leaves the menu, because the keys go on from the row under it.
+# pointer leaves the menu, because the keys continue from the row under the pointer.
 xdotool mousemove --window "$window" 640 300 sleep 0.3
 xdotool key --window "$window" F10
 until_line "action: help.menu"

@@ -40,7 +40,7 @@ TEST(Quality, BeginsCoarseAndThenFollowsTheMachine) {
   EXPECT_EQ(after(0.1), (Fineness{1, 3}));
 }
 
-/// What a window shows: the canvas, copied to a framebuffer.
+/// The contents of a window: the canvas, copied to a framebuffer.
 std::vector<std::uint8_t> shown(const ViewCanvas& canvas) {
   const auto window = render::Canvas::create(kView.width_px, kView.height_px, 0).value();
   canvas.copy_to(window.framebuffer(), {0, 0});

@@ -43,7 +43,7 @@ TEST_F(Window, TheSameStrokeGivesTheSamePotFromWorkPotAndPrintFile) {
   EXPECT_NE(read_text(folder.file("mine.pot.json")).find("\"thrown_with\""), std::string::npos);
   std::string of_work;
   for (const char* name : {"mine.work", "mine.pot.json", "mine.pot.cbor", "mine.3mf"}) {
-    // The tool comes from the file, not from what was chosen before.
+    // The tool comes from the file, not from the earlier choice.
     const Ran ran = run("key R\nopen FOLDER/" + std::string(name) + "\nkey 1\n" + kDeeper +
                         "save FOLDER/again.pot.json\n");
     ASSERT_EQ(ran.status, 0) << name << ran.err;

@@ -1,4 +1,4 @@
-// Keys do what they do in other programs.
+// Keys have the same effects as in other programs.
 
 #include "tests/app/studio/window.hpp"
 

@@ -84,7 +84,8 @@ TEST_F(Window, AMousePinchThinsTheWallAndKeepsTheClay) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
-/// Seen from elsewhere, the pointer means another place: the view stands still in its stroke.
+/// The view stands still during a stroke, because in another view the pointer would mean another
+/// place.
 TEST_F(Window, TheViewStandsStillWhileThePointerLeadsTheTool) {
   const std::string begin = "key 1\npoint 65 18\npress left\npoint 54 18 over 0.4\nwait 0.2\n";
   const std::string end = "move 640 320\nwait 0.5\nrelease left\nwait 0.1\nsave FOLDER/";

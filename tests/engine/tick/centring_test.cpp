@@ -1,4 +1,4 @@
-// How far a pinched wall may be pushed over, compared with the geometry of two spheres and a tube.
+// The limit of the motion of a pinched wall, compared with the geometry of two spheres and a tube.
 
 #include "engine/tick/centring.hpp"
 #include "tests/engine/tick/pinch_samples.hpp"
@@ -29,7 +29,7 @@ struct Centred {
   }
 };
 
-/// Depths of a tool outside and of one inside in the ring, below 0 by how much they are clear.
+/// Depths of the outer and of the inner tool in the ring [mm]; negative: the clearance.
 std::array<double, 2> tube_depths(double hip_x, std::size_t ring) {
   const double t = (static_cast<double>(ring) + 0.5) * kTubeRingMm - kPinchY, a = samples::kToolMm;
   const double f = std::sqrt(a * a - t * t), middle = 0.5 * kTubeGapMm + a;

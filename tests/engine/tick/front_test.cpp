@@ -199,7 +199,8 @@ TEST_F(Front, HasNoPulsesFromStepsOfAnEncoder) {
 }
 
 /// The hand's work on an end that moves at random, in clay of random depth, is never negative: the
-/// end returns only what it took. Each step is linear in the way, so its work is exact.
+/// end returns at most the energy that it took. The force is linear in the displacement of a step,
+/// so its work is exact.
 TEST(FlatEnds, NeverReturnMoreEnergyThanTheyTook) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -211,7 +212,7 @@ TEST(FlatEnds, NeverReturnMoreEnergyThanTheyTook) {
       end.advance(0.0, depth);
       const double before = end.pressed_mm, way = 2.0 * (unit(random) - 0.5);
       end.advance(way, depth);
-      // A way beyond half the depth meets a constant force, one beyond 0 none.
+      // Beyond half the depth the force is constant; beyond 0 there is none.
       const double elastic = end.pressed_mm - before;
       work += 0.5 * depth * (end.pressed_mm + before) * elastic;
       if (way > 0.0) work += 0.5 * depth * depth * (way - elastic);

@@ -131,7 +131,7 @@ TEST(ClayAudit, SpongeKeepsANeckThatIsNarrowerThanTheMinimumWall) {
   expect_balanced(wheel);
 }
 
-/// How deep a tool at this height is in a ring; negative without contact.
+/// Depth of a tool at this height in a ring [mm]; negative without contact.
 double depth_in(const Ring& ring, std::size_t i, const SceneSpec& scene, const Tool& tool,
                 double hip_y, const Contact& contact) {
   const double t = (static_cast<double>(i) + 0.5) * scene.lump.ring_height_mm - hip_y;

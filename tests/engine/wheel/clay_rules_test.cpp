@@ -55,8 +55,8 @@ std::vector<double> heaved_profile(double ring_height_mm) {
   return radii;
 }
 
-/// Heave compares walls over a way, not from ring to ring: else its limit would fall with the
-/// height of the rings, and more and more clay would go elsewhere.
+/// Heave compares walls over a distance, not from ring to ring: otherwise its limit would fall with
+/// the height of the rings, and more and more clay would go elsewhere.
 TEST(ClayRules, AHeavedWallHasALimitAsRingsGetLower) {
   EXPECT_LT(change_by_halving(0.05, heaved_profile), 0.01);  // 0.007; from ring to ring it is 0.013
 }
@@ -164,7 +164,7 @@ TEST(ClayRules, AWallAtItsMinimumBends) {
   for (const Ring& ring : wheel.stack().rings()) EXPECT_GT(wall_of(ring), 5.0 - 1e-9);
 }
 
-/// The wall of one ring carries what stands above it until it is too thin: w = g M / (2 pi r beta).
+/// The wall of one ring carries the clay above it until it is too thin: w = g M / (2 pi r beta).
 TEST(ClayRules, APotCutInTwoFalls) {
   constexpr double kThresholdKpa = 200.0;
   SceneSpec scene = cylinder_scene({});

@@ -124,7 +124,7 @@ TEST(ClayShapes, ADeepPressLeavesNoLedge) {
   expect_balanced(wheel);
 }
 
-/// Wherever its flat ends lie between the rings.
+/// For any position of its flat ends between the rings.
 TEST(ClayShapes, ARibLeavesNoLedgeAtItsEnds) {
   for (int k = 0; k < 12; ++k) {
     Wheel wheel = thick_tube(70.0, 55.0, RibSpec{20.7, 5.0});

@@ -176,7 +176,7 @@ TEST(JoinedRings, NoRingFollowsIntoTheTool) {
 }
 
 /// The wall bends out and up along the shoulder, and the rim sinks and grows. A second part of the
-/// throw begins with the last pose of the first part, wherever that is: this pose moves no clay.
+/// throw begins with the last pose of the first part, in or off the clay: this pose moves no clay.
 TEST(JoinedRings, APressContinuesWithTheSameBitsAfterEveryTick) {
   SceneSpec scene = shoulder_scene();
   scene.tool.shape = EllipseSpec{15.0, 8.0};
@@ -195,7 +195,7 @@ TEST(JoinedRings, APressContinuesWithTheSameBitsAfterEveryTick) {
   EXPECT_GT(in_clay, 2000);
 }
 
-/// The cutter goes through the shoulder. The neck has no support then, whatever the stress.
+/// The cutter goes through the shoulder. The neck has no support then, at any stress.
 TEST(JoinedRings, ACutThroughAShoulderDropsTheNeck) {
   constexpr double kLeanDeg = 75.0;
   SceneSpec scene = shoulder_scene();

@@ -61,7 +61,8 @@ TEST(LiftedWall, AllAboveTheToolsRisesAsItIs) {
   expect_balanced(wheel);
   const auto after = wheel.stack().rings();
   ASSERT_GT(after.size(), before.size() + 50);
-  // Those that were more than the tool's radius above it, and what it lifted past it.
+  // The rings that were above the last place of the tools by more than their radius: each equals
+  // the ring at the same place below the rim.
   const auto above = static_cast<std::size_t>((70.0 + kTipMm) / kH) + 1;
   ASSERT_LT(after.size() - before.size() + above, after.size());
   for (std::size_t down = 1; down <= before.size() - above; ++down)

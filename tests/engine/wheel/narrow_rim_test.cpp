@@ -91,7 +91,7 @@ TEST(NarrowRim, GrowsNoRingIntoATool) {
   EXPECT_GT(grown, 10u);
 }
 
-/// What a ring gains in height by half of its hoop strain. R^2 + r^2 is twice the square of a
+/// Gain in height of a ring by half of its hoop strain [mm]. R^2 + r^2 is twice the square of a
 /// radius between r and R.
 double gain_of(const Ring& before, const Ring& after) {
   const auto radius = [](const Ring& ring) {
@@ -101,7 +101,7 @@ double gain_of(const Ring& before, const Ring& after) {
 }
 
 /// A wide wall below a narrow neck, pressed in. The wall is at its minimum, so all of it bends. The
-/// rim rises by what the rings gain; without the option by more, since a ring of the neck holds
+/// rim rises by the gain of the rings; without the option by more, since a ring of the neck holds
 /// less than half of the clay of a ring of the wall.
 TEST(NarrowRim, RisesByWhatTheWallGains) {
   const auto outer = [](double up) {

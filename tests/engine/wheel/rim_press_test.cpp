@@ -64,8 +64,8 @@ TEST(RimPress, WithoutTheOptionTheRimGoesAside) {
   EXPECT_GT(std::abs(middle_of(aside.stack().rings().back()) - 44.0), 8.0);
 }
 
-/// Wherever the ball comes down, over the wall and beside it, the rim rises by less than 0.6 mm;
-/// far beside it the rim keeps its height. Without the option it rises by up to 12 mm.
+/// For any place of the ball, over the wall and beside it, the rim rises by less than 0.6 mm; far
+/// beside it the rim keeps its height. Without the option it rises by up to 12 mm.
 TEST(RimPress, NoRimRises) {
   double highest = 0.0;
   for (double d = 30.0; d <= 61.0; d += 0.5) {
@@ -92,7 +92,7 @@ TEST(RimPress, OpensALumpOrFlattensIt) {
   EXPECT_GT(pressed(rim_scene(false), kOuterMm, 26.0).stack().height_mm(), kHeightMm + 30.0);
 }
 
-/// A hand that stops at nothing goes 50 mm down into a lump at 60 mm/s.
+/// A hand that no force stops goes 50 mm down into a lump at 60 mm/s.
 TEST(RimPress, AFastPlungeMakesNoPillar) {
   const auto plunged = [](bool sinks) {
     Wheel wheel = wheel_with(

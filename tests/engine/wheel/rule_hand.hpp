@@ -1,5 +1,5 @@
 #pragma once
-// A hand that moves along straight lines at 1 kHz, and what it leaves.
+// A hand that moves along straight lines at 1 kHz, and measurements of the pot after it.
 
 #include "claystack/engine/wheel.hpp"
 

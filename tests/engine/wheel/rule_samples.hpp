@@ -42,7 +42,7 @@ inline SceneSpec in_rings_of(double ring_height_mm, double height_mm, SceneSpec 
   return scene;
 }
 
-/// Mean difference between what `radii_in` gives for rings of a height and of half of it [mm].
+/// Mean difference between the results of `radii_in` for rings of a height and of half of it [mm].
 template <class RadiiIn>
 double change_by_halving(double ring_height_mm, RadiiIn radii_in) {
   const std::vector<double> coarse = radii_in(ring_height_mm),

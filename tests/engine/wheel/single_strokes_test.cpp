@@ -87,7 +87,7 @@ void pinch(Hand& hand, const Shape& shape, bench::Dice& dice) {
   }
 }
 
-/// How many pots of each shape a kind of stroke spoils.
+/// Number of pots of each shape that a kind of stroke spoils.
 template <class Stroke>
 void expect_few_spoiled(int most, Stroke stroke) {
   for (const Shape& shape : kShapes) {

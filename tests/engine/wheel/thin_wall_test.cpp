@@ -142,7 +142,7 @@ Wheel half_rounded(const SceneSpec& scene, bool outside) {
       [&](double up) { return 40.0 + (outside ? 0.0 : off(up)); });
 }
 
-/// How far the rim stands out over what is below it, on the side that is cut.
+/// Projection of the rim over the rings below it [mm], on the side that is cut.
 double ledge_of(const Wheel& wheel, bool outside) {
   const auto rings = wheel.stack().rings();
   double ledge = 0.0;
@@ -194,8 +194,8 @@ TEST(ThinWall, ACutTakesATipNoHigherThanItIsThick) {
   }
 }
 
-/// The weight that each ring carries is right after the cut: the pot falls when one that was put on
-/// the wheel as it is does.
+/// The load of each ring is right after the cut: the pot falls after as many poses as a copy of it
+/// that was put on the wheel.
 TEST(ThinWall, AfterACutThePotFallsWhenItShould) {
   SceneSpec scene = thin_scene(true, 3.0);
   scene.tool.mode = ToolMode::trim;
@@ -223,7 +223,7 @@ TEST(ThinWall, AfterACutThePotFallsWhenItShould) {
   EXPECT_EQ(poses_until_it_falls(cut), poses);
 }
 
-/// The rim of a straight wall at its minimum is no ledge: a cutter leaves its height.
+/// The rim of a straight wall at its minimum is no ledge: a cutter does not lower it.
 TEST(ThinWall, ACutSparesAStraightRim) {
   SceneSpec scene = thin_scene(true);
   scene.tool.mode = ToolMode::trim;

@@ -105,7 +105,8 @@ TEST(ExportFallen, ComparesTheThreeExtentsOfItsFileWithTheLimits) {
   EXPECT_TRUE(large(with_size({size.y + 0.1, size.x + 0.1, size.z - 0.3, "s"})));
 }
 
-/// A wall of a part may lose what the seam and rounding move on both of its sides.
+/// The seam and rounding may move both sides of a wall of a part, and make it thinner by twice
+/// that.
 TEST(ExportFallen, WallOfTheSolidAllowsForWhatMoved) {
   const Pot pot = shapes::fallen(shapes::vase(100), 30, {50, 70, 0}, 1.0);
   ExportOptions options;

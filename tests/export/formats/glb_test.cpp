@@ -237,7 +237,7 @@ TEST(Glb, ReadsWholeNumbersAsPositions) {
     }
 }
 
-/// What the file states against what it holds.
+/// The accessor of the colours in a file, and the colours in its data.
 struct Colours {
   Json accessor;
   std::vector<std::array<double, 4>> values;

@@ -336,7 +336,8 @@ TEST(Stl, ABinaryHeaderMayBeginWithTheWordSolid) {
 TEST(Stl, RefusesBinaryOfAnyOtherSize) {
   const std::string whole = encode_stl_binary(tetrahedron());
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    // Less than the header and the count can only be named for what it is.
+    // Fewer bytes than the header and the count state no count, so the message names only the
+    // format.
     const std::string found = size < 84 ? "expected an STL file" : std::to_string(size) + " bytes";
     EXPECT_NE(message_of(whole.substr(0, size)).find(found), std::string::npos) << size;
   }

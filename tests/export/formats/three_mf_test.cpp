@@ -212,7 +212,7 @@ struct ProductionParts {
       R"(transform="1 0 0 0 1 0 0 0 1 5 0 0"/></components></object></resources>)"
       R"(<build><item objectid="1" transform="-1 0 0 0 1 0 0 0 1 0 0 0"/>)"
       R"(<item objectid="1" p:path="/3d/objects/o_1.model"/></build></model>)";
-  // Its own build counts for nothing.
+  // The build of the other part has no effect.
   std::string other = changed(kModel, R"(objectid="1")", R"(objectid="7")");
   std::string relations = changed(kRelationsPart, "/3D/3dmodel.model", "/3D/Objects/O_1.model");
 
@@ -441,7 +441,7 @@ Result<TriangleMesh> read_project(const std::string& model, std::string_view pat
 }
 
 /// One mesh for all volumes of an object, as PrusaSlicer writes it: a tetrahedron, and a copy of it
-/// that has points of its own.
+/// with separate points.
 std::string two_volumes() {
   return changed(changed(kModel, "</vertices>",
                          R"(<vertex x="90" y="0" z="0"/><vertex x="99" y="0" z="0"/>)"

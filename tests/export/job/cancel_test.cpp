@@ -1,4 +1,4 @@
-// A cancelled job leaves no result, at whichever check it is cancelled.
+// A job that is cancelled at any check leaves no result.
 
 #include "claystack/export/job.hpp"
 
@@ -42,8 +42,8 @@ Result<std::vector<std::string>> run(const Job& job) {
   });
 }
 
-/// Threads share the questions differently from run to run, so near the end one may be asked or
-/// not: then the job is whole, to the byte.
+/// Threads call `cancelled`, so the number of calls differs between runs. Near the end a job may
+/// therefore finish: then its files are complete, to the byte.
 void expect_cancelled_or_whole(Job job) {
   std::atomic<std::size_t> asked{0};
   job.options.cancelled = [&] { return ++asked == 0; };
@@ -102,7 +102,7 @@ TEST(Cancel, CancelsAFallenPotAtEveryCheck) {
   expect_cancelled_or_whole({pot, options, built_formats()});
 }
 
-/// What a window waits for when it is closed.
+/// A window that is closed waits for these stages.
 TEST(Cancel, LongStagesCheckContinuously) {
   constexpr std::size_t kRings = 40'000;
   Job job{pot_of(shapes::vase(kRings)), {}, {MeshFormat::stl_binary, MeshFormat::obj}};

@@ -97,7 +97,7 @@ TEST(Capacity, EqualsWaterInTheWrittenMesh) {
 
 TEST(Capacity, IsOfThePotThatIsWrittenAndFired) {
   ExportOptions options;
-  options.smoothing = Smoothing::none;  // whose tolerance would not scale with the pot
+  options.smoothing = Smoothing::none;  // a tolerance would not scale with the pot
   const auto plain = run_export(pot_of(shapes::vase(100)), {}, options);
   options.shrinkage = 0.1;
   const auto larger = run_export(pot_of(shapes::vase(100)), {}, options);
@@ -128,7 +128,7 @@ TEST(Goal, IsMetByTheWaterInTheWrittenMesh) {
 }
 
 TEST(Goal, ThatTheCapacityJumpsOverIsMetAsNearlyAsPossible) {
-  // At the size that holds 211 ml, smoothing simplifies the walls otherwise than just above it.
+  // At the size that holds 211 ml, smoothing simplifies the walls differently than just above it.
   ExportOptions options;
   options.tolerance_mm = 0.3;
   Goal goal;

@@ -1,4 +1,4 @@
-// What becomes of the files of a request, and how errors name them.
+// The outcome for each file of a request, and the file names in errors.
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/export/job.hpp"

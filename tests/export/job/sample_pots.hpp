@@ -12,7 +12,7 @@ namespace clay::solid::samples {
 
 inline constexpr std::array kStandingPots{"vase", "bowl", "bottle", "cylinder"};
 
-/// CLAYSTACK_SAMPLES names the folder; what is wrong with a file is an error that names it.
+/// CLAYSTACK_SAMPLES names the folder; a fault in a file is an error that names the file.
 inline Result<Pot> thrown_pot(const std::string& sample) {
   const std::string path = std::string(CLAYSTACK_SAMPLES "/") + sample;
   const auto parsed = [&](const std::string& ending, auto parse) {

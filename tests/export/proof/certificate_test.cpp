@@ -70,7 +70,7 @@ TEST(Certify, RefusesTriangleWithoutArea) {
 }
 
 TEST(Certify, RefusesPinchAtTheAxis) {
-  // At whichever vertex the polygon begins.
+  // For any first vertex of the polygon.
   EXPECT_TRUE(refused({{{{2, 0}, {2, 2}, {0, 1}}}}, "single point"));
   EXPECT_TRUE(refused({{{{0, 1}, {2, 0}, {2, 2}}}}, "single point"));
   EXPECT_TRUE(refused({{{{2, 2}, {0, 1}, {2, 0}}}}, "single point"));

@@ -103,7 +103,8 @@ TEST(CheckMesh, StatesNoVolumeWhereAPartOfTheFacesIsThereTwice) {
   EXPECT_TRUE(report.oriented);
   EXPECT_FALSE(enclosure_of(mesh).volume_mm3);
   EXPECT_FALSE(enclosure_of(mesh).inward());
-  // If all faces are there twice, the volume is twice that of one copy, wherever the mesh is.
+  // If all faces are there twice, the volume is twice that of one copy, for any position of the
+  // mesh.
   const TriangleMesh all = moved(together(cube(2.0), cube(2.0)), {40.0, 0.0, 0.0});
   TriangleMesh twice{{all.points.begin(), all.points.begin() + 8}, all.triangles};
   for (auto& triangle : twice.triangles)

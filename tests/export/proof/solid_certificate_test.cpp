@@ -233,7 +233,7 @@ ClayStack thin_stack(std::mt19937_64& random) {
   return shapes::stack_of(std::exp2(uniform(-9.0, 3.0)), radii);
 }
 
-/// Whatever the certificate accepts, CGAL's exact test on the decoded bytes accepts; and so does
+/// CGAL's exact test on the decoded bytes accepts every solid that the certificate accepts; so does
 /// the verification of the certificate.
 TEST(SolidCertificate, IsNeverWrong) {
   std::mt19937_64 random(20);

@@ -8,7 +8,7 @@
 namespace clay::solid {
 namespace {
 
-/// Every triangle with corners of its own.
+/// The mesh with separate corners for every triangle.
 TriangleMesh soup_of(const TriangleMesh& mesh) {
   TriangleMesh soup;
   for (const Triangle& t : mesh.triangles) {

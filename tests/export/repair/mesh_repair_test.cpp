@@ -100,7 +100,7 @@ TEST(Repair, FillsAPatchOfEightTrianglesWithoutIntersections) {
 }
 
 TEST(Repair, WeldsPointsJitteredByAMicrometre) {
-  // Every triangle has corners of its own, each displaced by up to 1 um.
+  // Every triangle has separate corners, each displaced by up to 1 um.
   const TriangleMesh good = ball(20.0);
   TriangleMesh soup;
   double phase = 0.0;

@@ -25,7 +25,7 @@ class FaultPlanter {
   struct Planted {
     std::string kind;
     TriangleMesh mesh;
-    double moved_mm = 0.0;     ///< how far the fault itself moves the surface
+    double moved_mm = 0.0;     ///< displacement of the surface by the fault
     bool adds_a_body = false;  ///< the result is the union of two bodies
   };
 

@@ -6,7 +6,7 @@
 
 namespace clay::solid {
 
-/// How often this was repaired.
+/// Number of repairs of this kind.
 inline std::size_t times(const RepairedMesh& result, const std::string& what) {
   for (const Repair& repair : result.repaired)
     if (repair.what == what) return repair.count;

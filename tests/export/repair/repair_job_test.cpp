@@ -45,7 +45,7 @@ TEST(RepairJob, CancelsAtEveryCheck) {
     options.cancelled = [&] { return ++asked > until; };
     const auto result = repair_mesh(mesh, options);
     if (result) {
-      // Threads share the questions differently from run to run.
+      // The number of calls differs between runs, because threads make them.
       EXPECT_GT(until, all / 2);
       EXPECT_EQ(result->mesh, whole->mesh);
       continue;
@@ -74,7 +74,7 @@ TEST(RepairJob, NamesMissingMemory) {
       return false;
     };
     const auto result = repair_mesh(mesh, options);
-    if (result) continue;  // near the end, threads share the questions differently
+    if (result) continue;  // near the end: the number of calls differs
     ++stopped;
     EXPECT_EQ(result.error().kind, ErrorKind::io) << until << " of " << all;
     EXPECT_EQ(result.error().message, "repair stopped: not enough memory");

@@ -1,5 +1,5 @@
 #pragma once
-// A mesh after its repair, and how far rounding to float32 may change it.
+// A mesh after its repair, and the bounds of its change by rounding to float32.
 
 #include "claystack/export/proof.hpp"
 #include "claystack/export/repair.hpp"
@@ -15,7 +15,7 @@
 
 namespace clay::solid {
 
-/// What was repaired, and what remains: for messages.
+/// The repairs and the remaining faults, for messages.
 inline std::string names(const RepairedMesh& result) {
   std::string all;
   for (const Repair& repair : result.repaired)
@@ -33,7 +33,8 @@ inline double reach_of(const TriangleMesh& mesh) {
   return reach;
 }
 
-/// The farthest that float32 moves a point: half a unit of the last place along each axis.
+/// The maximum displacement of a point by float32 [mm]: half a unit of the last place along each
+/// axis.
 inline double rounding_mm(const TriangleMesh& mesh) {
   return std::sqrt(3.0) * 0x1p-24 * reach_of(mesh);
 }

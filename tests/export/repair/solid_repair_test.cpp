@@ -247,8 +247,8 @@ TEST(Repair, UnitesBodiesThatShareCoplanarFaces) {
 }
 
 TEST(Repair, UnitesRotatedBallsAsInclusionAndExclusion) {
-  // The overlap of two balls is computed by cutting one with the planes of the other, apart from
-  // the code under test: the union of a ball with itself, moved within a hair, stays in its hull.
+  // Two balls that overlap: the volume of the union is above that of one ball and below the sum of
+  // both.
   const TriangleMesh a = ball(10.0);
   TriangleMesh b = ball(10.0);
   for (glm::dvec3& p : b.points)

@@ -178,7 +178,7 @@ TEST(MakerNumbers, NothingHoldsWaterWithoutAFloor) {
 }
 
 TEST(MakerNumbers, TheRoomBeginsAtTheInnerEdgeOfTheRim) {
-  // Whatever vertex the polygon begins with.
+  // For any first vertex of the polygon.
   Polygon cup = shapes::cup(4.0, 6.0);
   for (std::size_t turn = 0; turn < cup.size(); ++turn) {
     EXPECT_NEAR(room_of({{cup}}).volume_mm3, kHalfTurn * 36.0 * 36.0 * 54.0, 1e-6) << turn;

@@ -35,7 +35,7 @@ constexpr double kTurnRad = 2.0 * std::numbers::pi;
 SmoothingOptions faired(double length_mm, double tolerance_mm = kFine) {
   SmoothingOptions options = shapes::options_for(Smoothing::fair, tolerance_mm);
   options.smooth_length_mm = length_mm;
-  options.min_wall_mm = 0.1;  // the guard stays away, unless a test asks for it
+  options.min_wall_mm = 0.1;  // below all walls: no guard, except in some tests
   return options;
 }
 
@@ -252,7 +252,7 @@ TEST(Fairing, SmoothsAwayATreadMuchNarrowerThanItsLength) {
   }
   EXPECT_EQ(treads_of(0.5, 9.0, 0.02), 0u);
   EXPECT_EQ(treads_of(0.57, 9.0, 0.02), 2u);  // 1/16 of the length: a flange
-  // Chords keep what the tolerance does not hide.
+  // Chords keep a tread that is wider than the tolerance.
   EXPECT_EQ(treads_of(0.15, 0.0, 0.02), 2u);
   EXPECT_EQ(treads_of(0.15, 0.0, 0.2), 0u);
 }

@@ -41,7 +41,7 @@ TEST(LipFillet, OfAStraightWallIsAQuarterCircleAtEachEdge) {
   const auto walls = oracles::walls_of(made.section.profile.pieces.at(0));
   const oracles::Real outer = walls.outer.front().rho, bore = walls.bore.front().rho;
   EXPECT_EQ(bore, 34.0L);
-  EXPECT_GT(outer, 40.0L);  // what the arcs took is given back
+  EXPECT_GT(outer, 40.0L);  // the clay that the arcs took is added again
   const auto check_arc = [&](const oracles::Line& arc, oracles::Real centre) {
     ASSERT_GE(arc.size(), 4u);
     EXPECT_NEAR(static_cast<double>(arc.back().rho - centre), 0.0, 1e-9);

@@ -17,7 +17,7 @@ inline SmoothedProfile smooth(const ClayStack& stack, const SmoothingOptions& op
   return smooth_profile_of(stack, options).value();
 }
 
-/// What the steps of a stack and the smoothed section hold of one piece.
+/// One piece in the steps of a stack and in the smoothed section.
 struct PieceOfBoth {
   std::size_t first, last;
   std::vector<Real> levels;

@@ -1,6 +1,6 @@
 #pragma once
-// What smoothing is held against: radii, volumes and walls of a section, by other means than the
-// library's own. Long double and O(n^2), on purpose.
+// References for smoothing: radii, volumes and walls of a section, computed by other means than in
+// the library. Long double and O(n^2), on purpose.
 
 #include "claystack/engine/clay.hpp"
 #include "claystack/export/section.hpp"
@@ -60,8 +60,8 @@ struct Edge {
   Point a, b;
 };
 
-/// The parts of a wall between two heights: rising edges clipped, level ones whole. What runs
-/// along the axis is no wall, and left out unless `axis`.
+/// The parts of a wall between two heights: rising edges clipped, level ones whole. Edges along the
+/// axis are no wall: they are left out unless `axis`.
 inline std::vector<Edge> between(const Line& line, Real low, Real high, bool axis = false) {
   std::vector<Edge> edges;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -95,7 +95,7 @@ inline Real distance(const Point& p, const Edge& e) {
   return std::hypot(p.rho - e.a.rho - t * rho, p.y - e.a.y - t * y);
 }
 
-/// 0 where the edges cross: where they meet, by Cramer's rule.
+/// 0 if the edges cross, which Cramer's rule shows.
 inline Real distance(const Edge& e, const Edge& f) {
   const Real e_rho = e.b.rho - e.a.rho, e_y = e.b.y - e.a.y;
   const Real f_rho = f.b.rho - f.a.rho, f_y = f.b.y - f.a.y;

@@ -32,7 +32,8 @@ RC_GTEST_PROP(SmoothingPromises, KeepsTheClayOfEveryPiece, ()) {
     WideQuanta clay = last + 1 == stack.size() ? stack.crown() : 0;
     for (std::size_t i = first; i <= last; ++i) clay += stack.rings()[i].volume();
     const Real counted = static_cast<Real>(clay) * 0x1p-36L * stack.ring_height_mm();
-    // Relative to what is turned, since a thin wall is a difference of large volumes.
+    // Relative to the volume within the outer wall, since a thin wall is a difference of large
+    // volumes.
     RC_ASSERT(std::abs(swept(walls.outer) - swept(walls.bore) - counted) <
               1e-12L * swept(steps.outer));
   }
@@ -104,7 +105,7 @@ RC_GTEST_PROP(SmoothingPromises, TheMinimumWallIsAtLeastTheLimitOrThatOfTheSteps
     const auto own =
         oracles::walls_by_ring(stack, shape.first_ring, shape.last_ring,
                                oracles::steps_of(stack, shape.first_ring, shape.last_ring));
-    // What the wall guard compares, and the definition on the steps.
+    // The minimum wall of the wall guard, and that by the definition, both on the steps.
     const double guarded = static_cast<double>(*std::min_element(own.begin(), own.end()));
     const double defined = min_wall_mm({{steps->profile.pieces[k]}});
     const double least = std::min({options.min_wall_mm.value_or(1e300), guarded, defined});
@@ -176,7 +177,7 @@ Real least_floor(const ClayStack& stack, std::size_t first, std::size_t last,
   return least;
 }
 
-/// How much thinner than allowed a wall became, at most [mm].
+/// The largest amount by which a wall is thinner than permitted [mm]; at most 0 if no wall is.
 Real thinned_mm(const ClayStack& stack, const SmoothingOptions& options,
                 const SmoothedProfile& made) {
   Real largest = 0, thinned = -1e300L;
@@ -297,7 +298,7 @@ RC_GTEST_PROP(SmoothingPromises, StaysWithinTheToleranceOfTheMiddles, ()) {
   for (std::size_t i = 0; i < stack.size(); ++i) {
     const Real y = (static_cast<double>(i) + 0.5) * 0.5;
     const auto [least, most] = oracles::radii(walls.outer, y, y + 1e-9L);
-    // Half of the tolerance across a slope of 45 degrees, and what the scale adds.
+    // Half of the tolerance across a slope of 45 degrees, and the part that the scale adds.
     RC_ASSERT(std::abs(least - stack.rings()[i].outer_mm()) < tolerance);
   }
 }

@@ -57,7 +57,8 @@ inline SmoothingOptions options_for(Smoothing mode, double tolerance_mm = 0.02) 
   return options;
 }
 
-/// By how much `fair` may thin walls at the limit, where that is the thinnest wall of the piece.
+/// The permitted thinning by `fair` of walls at the limit [mm], if the limit is the thinnest wall
+/// of the piece.
 inline double wall_slack_mm(const SmoothingOptions& options, double limit_mm) {
   const bool thick = limit_mm > 10.0 * options.tolerance_mm;
   return options.mode == Smoothing::fair && !options.min_wall_mm && thick
@@ -65,7 +66,7 @@ inline double wall_slack_mm(const SmoothingOptions& options, double limit_mm) {
              : 0.0;
 }
 
-/// What `fair` may move a wall to keep the volume.
+/// Maximum displacement of a wall by `fair` to keep the volume [mm].
 inline double allowed_move_mm(const ClayStack& stack, const SmoothingOptions& options) {
   return std::max(options.tolerance_mm, 0.01 * stack.ring_height_mm());
 }

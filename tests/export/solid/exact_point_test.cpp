@@ -1,5 +1,5 @@
-// Exact numbers of builds without GMP as doubles: truncated, however large numerator and
-// denominator.
+// Exact numbers of builds without GMP as doubles: truncated, for numerators and denominators of any
+// size.
 
 #include "export/solid/exact_point.hpp"
 

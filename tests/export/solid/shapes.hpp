@@ -35,9 +35,9 @@ inline Pot pot_of(ClayStack stack) {
   return pot;
 }
 
-/// Permitted rounding error of a volume [mm^3]: one or two ulp of the full cylinders, however thin
-/// their walls. Relative to the clay, 1e-9 for walls above a millionth of the radius. Levelling
-/// steps below `min_step_mm` may change two walls by pi H step^2 each.
+/// Permitted rounding error of a volume [mm^3]: one or two ulp of the full cylinders, also for thin
+/// walls. Relative to the clay, 1e-9 for walls above a millionth of the radius. Levelling steps
+/// below `min_step_mm` may change two walls by pi H step^2 each.
 inline double volume_rounding(const ClayStack& stack, double min_step_mm = 0.0) {
   double hull = 0.0;
   for (const Ring& ring : stack.rings()) hull += mm2_from_quanta(ring.outer2);

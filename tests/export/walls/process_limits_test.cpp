@@ -58,7 +58,7 @@ TEST(ProcessLimits, MessagesHaveTheTitleOfTheProcess) {
   EXPECT_NE(overhang_text(60.0, 1.0, fdm).find("; FDM (filament): at most 45 "), std::string::npos);
 }
 
-/// The library has no options: a command gives the name of its own.
+/// The library has no options, so a command gives the name of its option.
 TEST(ProcessLimits, ARequestedWallHasTheSourceThatTheCallerNames) {
   WallDemand demand;
   demand.min_wall_mm = 3.0;

@@ -107,7 +107,7 @@ class WallOracle {
     return s < 1e-9 ? 0.0 : s > 1.0 - 1e-9 ? 1.0 : s;
   }
 
-  /// By how much `angle` is outside the fan of normals at place s of the edge.
+  /// Distance of `angle` from the fan of normals at place s of the edge [rad].
   static double outside(const Edge& e, double s, double angle) {
     const double turn = s == 0.0 ? -e.turn_before : s == 1.0 ? e.turn_after : 0.0;
     const double away = wrapped(angle - e.normal);

@@ -85,8 +85,8 @@ TEST(EnergyObserver, DetectsLoopsDespiteTheCreditOfALongPress) {
   EXPECT_EQ(observer.debt_mj(), 0.0);
 }
 
-// The first swing is the rise. The force falls back by 0.6 N from its maximum, not from where the
-// swing began.
+// The first swing is the rise. The force falls back by 0.6 N from its maximum, not from the start
+// of the swing.
 TEST(SwingCounter, MeasuresASwingFromTheMaximum) {
   SwingCounter swings(2, 1.0, 0.5);
   double time_s = 0.0;

@@ -116,7 +116,7 @@ TEST(GuardLoop, DeviceSlowerThanStatedDoesNotVibrate) {
 }
 
 /// Swing [mm], after 17 s, of an arm that a hand pushes with 0.5 N into a wall of 10 N/mm. The
-/// controller believes kLoop; the arm has this delay and damping.
+/// controller assumes kLoop; the arm has this delay and damping.
 double swing_of(int delay_ticks, double damping_ns_per_mm, double hand_damping_ns_per_mm) {
   constexpr SampledLoop kLoop{1000.0, 0.1, 0.002, 1};
   SimulatedArm arm =

@@ -135,9 +135,9 @@ void Allowance::follow_ramp(const Tick& tick, double growing_s) {
   if (ramping_) ramp_s_ += growing_s;
 }
 
-/// What old frames, a late tick or an invalid value have taken returns slowly. After a pause the
-/// ramp decides. A frame whose position is unsure may not have been accepted, so its age decides
-/// nothing.
+/// A force that was reduced by old frames, a late tick or an invalid value returns slowly. After a
+/// pause the ramp decides. A frame whose position is unsure may not have been accepted, so its age
+/// decides nothing.
 void Allowance::follow_fade(double growing_s, bool ends) {
   const double end_s = kFrameZeroS + kRoundingS;
   const bool fades = any_frame_ && unsure_frames_ == 0 && frame_age_s_ < 0.8 * kPauseS;

@@ -72,7 +72,7 @@ class TriedGuard {
 struct LogEntry {
   double time_s;
   glm::dvec3 sent_n;
-  double rise_n;  ///< how far the force rose; see beyond()
+  double rise_n;  ///< rise of the force; see beyond()
   GuardedForce out;
   Admission admission;
 };

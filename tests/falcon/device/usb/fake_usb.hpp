@@ -16,7 +16,7 @@ using UsbPacket = std::vector<std::uint8_t>;
 
 struct FakeLine {
   int stalled_steps = 0;                 ///< the line takes nothing for this many steps
-  std::vector<UsbPacket> delivered;      ///< what the device has received
+  std::vector<UsbPacket> delivered;      ///< packets that the device has received
   std::deque<libusb_transfer*> writing;  ///< queued, in order
   std::deque<libusb_transfer*> reading, done;
 };

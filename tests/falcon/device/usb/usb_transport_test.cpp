@@ -1,4 +1,5 @@
-// What the transports do when the line stalls, another program has the device, or a signal arrives.
+// Behaviour of the transports when the line stalls, another program has the device, or a signal
+// arrives.
 
 #include "claystack/falcon/usb.hpp"
 #include "falcon/device/usb/hid_node.hpp"
