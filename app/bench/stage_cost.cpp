@@ -51,6 +51,8 @@ std::optional<SceneSpec> with_rule(SceneSpec scene, std::string_view rule) {
   else if (rule == "lifted wall" &&
            (scene.tool.mode == ToolMode::press || scene.tool.mode == ToolMode::pinch))
     clay.lift = clay.lifted_wall_stretches = true;
+  else if (rule == "pushed wall" && scene.tool.mode == ToolMode::press)
+    clay.shift = clay.pushed_wall_bends = true;
   else
     return std::nullopt;
   return scene;

@@ -14,12 +14,16 @@ inline constexpr double kFingerMm = 90.0;
 /// For `ClaySpec::finger_behind`: a lump that is opened at its bottom has a wide mouth.
 inline constexpr double kFingerBehind = 0.5;
 
+/// For `ClaySpec::heave_slope`: a lump that is opened or pressed widens little, and grows instead.
+inline constexpr double kHeaveSlope = 0.2;
+
 /// These rules with all options, as in new works.
 [[nodiscard]] inline ClaySpec with_all_options(ClaySpec clay) {
   clay.finger_mm = kFingerMm;
   clay.finger_behind = kFingerBehind;
+  clay.heave_slope = kHeaveSlope;
   clay.thin_wall_yields = clay.rim_sinks = true;
-  clay.narrow_rim_closes = clay.lifted_wall_stretches = true;
+  clay.narrow_rim_closes = clay.lifted_wall_stretches = clay.pushed_wall_bends = true;
   return clay;
 }
 /// The clay of a new work: the six rules and all options.

@@ -33,5 +33,6 @@ inline constexpr Range kWheelRpm = from(0).to(1e3);
 inline constexpr Range kFloorMm = from(0).to(1e6);
 inline constexpr Range kFingerMm = from(0).to(200);
 inline constexpr Range kFingerBehind = from(0).to(4);
+inline constexpr Range kHeaveSlope = from(0.05).to(2);
 
 }  // namespace clay::ranges

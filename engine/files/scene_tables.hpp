@@ -21,6 +21,7 @@ inline constexpr std::array<std::string_view, 2> kThinWallNames = {"stops", "yie
 inline constexpr std::array<std::string_view, 2> kPressedRimNames = {"bends", "sinks"};
 inline constexpr std::array<std::string_view, 2> kNarrowRimNames = {"rises", "closes"};
 inline constexpr std::array<std::string_view, 2> kLiftedWallNames = {"grows", "stretches"};
+inline constexpr std::array<std::string_view, 2> kPushedWallNames = {"thins", "bends"};
 inline constexpr std::array<std::string_view, 2> kWheelTurnNames = {"clockwise",
                                                                     "counterclockwise"};
 
@@ -102,10 +103,12 @@ void describe(auto& io, Is<ClaySpec> auto& clay) {
   io.number("floor_mm", clay.floor_mm, ranges::kFloorMm);
   io.number("finger_mm", clay.finger_mm, ranges::kFingerMm);
   io.number("finger_behind", clay.finger_behind, ranges::kFingerBehind);
+  io.number("heave_slope", clay.heave_slope, ranges::kHeaveSlope);
   io.choice_unless(false, "thin_wall", clay.thin_wall_yields, files::kThinWallNames);
   io.choice_unless(false, "pressed_rim", clay.rim_sinks, files::kPressedRimNames);
   io.choice_unless(false, "narrow_rim", clay.narrow_rim_closes, files::kNarrowRimNames);
   io.choice_unless(false, "lifted_wall", clay.lifted_wall_stretches, files::kLiftedWallNames);
+  io.choice_unless(false, "pushed_wall", clay.pushed_wall_bends, files::kPushedWallNames);
 }
 
 void describe(auto& io, Is<ThrowSettings> auto& settings) {

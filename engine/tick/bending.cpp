@@ -3,6 +3,7 @@
 #include "engine/tick/shell.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace clay {
@@ -75,6 +76,17 @@ void bend_thin(const TouchedRings& rings, const float* walls, const Shell& shell
   }
 }
 
+/// The wall that the tool touches behind its peak does not trail: it moves as far as it gives way.
+void follow_tool(const MeanGive& gives, const Shell& shell, double h, std::size_t first,
+                 std::span<float> by) noexcept {
+  std::array<float, Shift::kRows> moved;
+  std::ranges::copy(by, moved.begin());
+  const std::span rows = std::span(moved).first(by.size());
+  gives.move(first, rows);
+  hold_foot(shell, h, first, rows);
+  for (std::size_t k = 0; k < by.size(); ++k) by[k] = std::max(by[k], rows[k]);
+}
+
 /// Speed at which the tool goes into the wall from its side; 0 on its way out.
 double speed_into(Side side, const Motion& motion) noexcept {
   const double out = motion.outward_mm_s;
@@ -106,6 +118,7 @@ void bend_wall(const StepPlan& plan, const Motion& motion, const ClayStack& stac
         hold_foot(shell, h, first, by);
       },
       [&](std::size_t first, std::span<float> by) {
+        if (plan.clay.pushed_wall_bends) follow_tool(gives, shell, h, first, by);
         if (yields || rim.waits)
           bend_thin(contact.rings, walls.thickness(first), shell, firm_mm, h, first, by);
       });

@@ -191,7 +191,7 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
         const auto inside = static_cast<Quanta>(inside_part(piece, share, stack));
         const Quanta over =
             heave(plan.tool, stack, work.walls, press.tool.hip_mm.y, contact, work.bands[at],
-                  {inside, piece - inside, up, work.reach_mm[at],
+                  {inside, piece - inside, up, work.reach_mm[at], plan.clay.heave_slope,
                    work.finger.stands() ? &work.finger : nullptr},
                   writer);
         writer.gain(piece - over);
@@ -228,9 +228,14 @@ void relieve(const RulePress& press, std::span<const ToolRemoval> removals, cons
   const double dt_s = press.tool.dt_s * work.pressed.aside;
   for (std::size_t k = 0; k < removals.size(); ++k)
     if (!removals[k].contact.rings.empty())
-      for (const Cone& cone : work.cones[k])
-        if (cone.meets)
+      for (const Cone& cone : work.cones[k]) {
+        if (!cone.meets) continue;
+        const bool bends = press.plan.clay.pushed_wall_bends && removals.size() == 1;
+        if (bends && cone.outside)
+          bend_beyond(press.plan, cone, stack, dt_s, removals[k].contact, writer, loose);
+        else
           relieve_beyond(press.plan, cone, stack, dt_s, removals[k].contact, writer, loose);
+      }
   if (work.finger.stands())
     relieve_finger(press.plan, work.finger, stack, dt_s, removals[0].contact, writer, loose);
 }

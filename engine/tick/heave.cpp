@@ -10,7 +10,6 @@
 namespace clay {
 namespace {
 
-constexpr double kSteepest = 0.5;  // steepest slope: change of thickness over height
 constexpr std::size_t kRows = 64;
 // A share fills at most this part of r^2. The radii are those before the shift, which leaves at
 // least a quarter of r^2, so that the bore stays open.
@@ -131,7 +130,7 @@ class Heaving {
         writer_(writer),
         heap_(heap),
         h_(stack.ring_height_mm()),
-        steepest_mm_(kSteepest * static_cast<double>(walls.apart()) * h_),
+        steepest_mm_(heap.slope * static_cast<double>(walls.apart()) * h_),
         hip_y_(hip_y),
         from_mm_(heap.up ? band.high_mm : band.low_mm),
         per_reach_(1.0 / heap.reach_mm) {}

@@ -17,6 +17,7 @@ struct Heap {
   Quanta inside = 0, outside = 0;
   bool up = true;                  ///< from the upper end upward
   double reach_mm = 1.0;           ///< `heave_reach`
+  double slope = 0.5;              ///< steepest: change of thickness over height
   const Finger* finger = nullptr;  ///< in the bore above the tool; nothing is laid into it
 };
 
@@ -29,11 +30,11 @@ inline constexpr double kLeastBoreMm = 0.1;
                                  const Band& band) noexcept;
 
 /// Lays clay beside the band: up to a distance x the share t^3 (10 - 15 t + 6 t^2), t = x / reach,
-/// which begins and ends with slope 0. A ring becomes at most h/2 thicker than its thinner
-/// neighbour, a slope that a tool of any size leaves. Rings below 0.085 mm are compared with the
-/// ring 0.17 mm away, by half of that distance. No ring grows into the tool of this contact. Clay
-/// that a ring cannot take goes to the next ones, as far as twice the reach. Returns the clay that
-/// found no place. The caller counts the placed clay (`StackWriter::gain`).
+/// which begins and ends with slope 0. A ring becomes thicker than its thinner neighbour
+/// by at most `slope` times h. Rings below 0.085 mm are compared with the ring 0.17 mm away. No
+/// ring grows into the tool of this contact. Clay that a ring cannot take goes to the next ones, as
+/// far as twice the reach. Returns the clay that found no place. The caller counts the placed clay
+/// (`StackWriter::gain`).
 Quanta heave(const Tool& tool, const ClayStack& stack, WallRadii& walls, double hip_y,
              const Contact& contact, const Band& band, const Heap& heap,
              StackWriter& writer) noexcept;

@@ -1,6 +1,7 @@
 #include "engine/tick/relief.hpp"
 
 #include "engine/clay/in_place.hpp"
+#include "engine/tick/shell.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +55,37 @@ double end_of(const Tool& tool, bool up) {
     (steep(middle) ? out : in) = middle;
   }
   return in;
+}
+
+/// Part of a ring's way in a cone that it goes as a wall: all of a thin wall, none of solid clay.
+/// Solid clay below holds the wall that stands on it, and clay that was heaped on the ring is
+/// squeezed out of it: it would go back and forth between heave and the cone.
+double bent_part(const Cone& cone, std::span<const Ring> rings, double h, double foot_mm,
+                 std::size_t i, double out) noexcept {
+  constexpr double kAheadMm = 2.0, kHeapSlope = 0.1;  // thickness over height
+  const Ring& ring = rings[i];
+  const double wall = wall_mm(ring);
+  const double above = ((static_cast<double>(i) + 0.5) * h - foot_mm) / (0.5 * wall);
+  const double held = smooth(std::clamp(above, 0.0, 1.0));
+  const auto ahead = static_cast<std::size_t>(std::max(1.0, std::round(kAheadMm / h)));
+  const Ring& beyond =
+      rings[cone.up ? std::min(i + ahead, rings.size() - 1) : i - std::min(i, ahead)];
+  const double heaped = beyond.inner2 > 0
+                            ? wall - wall_mm(beyond) - kHeapSlope * static_cast<double>(ahead) * h
+                            : 0.0;
+  return pliancy(ring) * held * std::clamp(1.0 - heaped / out, 0.0, 1.0);
+}
+
+/// Height of the solid clay or the wheel head on which the wall of a contact stands [mm]; very low
+/// if it is far below.
+double foot_of(const ClayStack& stack, const Contact& contact) noexcept {
+  const double h = stack.ring_height_mm();
+  std::size_t i = contact.rings.from();
+  for (double down = 0.0; down <= 2.0 * kReliefMm / h; down += 1.0, --i) {
+    if (pliancy(stack.rings()[i]) <= 0.0) return static_cast<double>(i + 1) * h;
+    if (i == 0) return 0.0;
+  }
+  return -1e300;
 }
 
 /// A ring after the shift and the removal.
@@ -130,6 +162,35 @@ void relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& sta
     else
       writer.take_inside(i, amount);
     loose.add(amount, ring);
+  }
+}
+
+void bend_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack, double dt_s,
+                 const Contact& contact, StackWriter& writer, LooseClay& loose) noexcept {
+  const double h = stack.ring_height_mm(), reach = kReliefMm / h, foot_mm = foot_of(stack, contact);
+  const bool hoop = (plan.clay.rules & kHoop) != 0;
+  std::size_t i = cone.up ? contact.rings.to() - 1 : contact.rings.from();
+  for (double k = 1.0; k <= reach && next(i, cone.up, stack.size()); k += 1.0) {
+    const Ring ring = stack.rings()[i];
+    double out = excess(cone, ring, (static_cast<double>(i) + 0.5) * h);
+    if (!(out > 0.0)) break;
+    const double bent = bent_part(cone, stack.rings(), h, foot_mm, i, out);
+    RemovalPlan removal = plan.removal;  // the part that is squeezed out keeps the minimum wall
+    const double wall = wall_mm(ring), spare = std::max(wall - removal.min_wall_mm, 0.0);
+    if (bent > 0.0) removal.min_wall_mm = bent < 1.0 ? wall - spare / (1.0 - bent) : 0.0;
+    const double outer2 = static_cast<double>(ring.outer2),
+                 inner2 = static_cast<double>(ring.inner2);
+    const double strain = hoop ? 0.5 * (outer2 - inner2) / (outer2 + inner2) : 0.0;
+    const double keeps = bent * (1.0 - strain);
+    Quanta amount = yielded(removal, dt_s, ring, true, out);
+    // A bore keeps most of its area in one tick.
+    if (keeps * static_cast<double>(amount) > 0.25 * inner2)
+      amount = static_cast<Quanta>(0.25 * inner2 / keeps);
+    const Quanta kept =
+        writer.put_inside(i, static_cast<Quanta>(keeps * static_cast<double>(amount)));
+    writer.gain(kept);
+    writer.take_outside(i, amount);
+    loose.add(amount - kept, ring);
   }
 }
 

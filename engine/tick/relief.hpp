@@ -63,4 +63,10 @@ struct Cone {
 void relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack, double dt_s,
                     const Contact& contact, StackWriter& writer, LooseClay& loose) noexcept;
 
+/// The same for a cone outside of a thin wall, which moves inward as far as it is thin and keeps
+/// its clay, but for half of its hoop strain: that, and what the ring has more than the wall beyond
+/// it, is added to `loose`. No wall becomes thinner than the minimum.
+void bend_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack, double dt_s,
+                 const Contact& contact, StackWriter& writer, LooseClay& loose) noexcept;
+
 }  // namespace clay

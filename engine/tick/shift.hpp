@@ -26,6 +26,9 @@ inline constexpr std::size_t kMostSunk = 64;
 /// shape of a ring, and redistribution applies it. Storage is reserved once.
 class Shift {
  public:
+  /// Rings that `lay` hands over at a time, at most.
+  static constexpr std::size_t kRows = 128;
+
   /// Room for this number of rings.
   void reserve(std::size_t rings);
   void clear() noexcept;
@@ -92,7 +95,6 @@ class Shift {
   void keep_thickness(const ClayStack& stack, std::size_t first, std::size_t end) noexcept;
 
  private:
-  static constexpr std::size_t kRows = 128;
   void begin(const ClayStack& stack, const Band& band, const Shell& shell) noexcept;
   static void bend(double h, const Band& band, const Shell& shell, std::size_t first,
                    std::size_t count, float* by) noexcept;

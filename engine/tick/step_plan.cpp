@@ -14,7 +14,9 @@
 namespace clay {
 namespace {
 
-constexpr double kDefaultFingerBehind = 2.0;  // of a scene that does not set it [radii of the tool]
+// Of a scene that does not set them.
+constexpr double kDefaultFingerBehind = 2.0;  // radii of the tool
+constexpr double kDefaultHeaveSlope = 0.5;    // thickness over height
 
 struct Setting {
   const char* name;
@@ -58,6 +60,7 @@ Result<void> check(const SceneSpec& s) {
       {"clay.finger_mm", clay.finger_mm.value_or(0.0), ranges::kFingerMm},
       {"clay.finger_behind", clay.finger_behind.value_or(kDefaultFingerBehind),
        ranges::kFingerBehind},
+      {"clay.heave_slope", clay.heave_slope.value_or(kDefaultHeaveSlope), ranges::kHeaveSlope},
       {"stability.max_stress_kpa", stability.max_stress_kpa, ranges::kMaxStressKpa},
   });
 }
@@ -100,6 +103,9 @@ bool closes_rim(const SceneSpec& s) {
   return s.clay && s.clay->narrow_rim_closes && !cutter(s.tool.mode);
 }
 
+bool bends_wall(const SceneSpec& s) {
+  return s.clay && s.clay->pushed_wall_bends && s.clay->shift && s.tool.mode == ToolMode::press;
+}
 bool stretches_wall(const SceneSpec& s) {
   return s.clay && s.clay->lifted_wall_stretches && s.clay->lift && s.tool.gap_mm &&
          (s.tool.mode == ToolMode::press || s.tool.mode == ToolMode::pinch);
@@ -121,7 +127,9 @@ RulesPlan rules_plan(const SceneSpec& s) {
           s.clay->thin_wall_yields,
           sinks_rim(s),
           closes_rim(s),
-          stretches_wall(s)};
+          stretches_wall(s),
+          bends_wall(s),
+          s.clay->heave_slope.value_or(kDefaultHeaveSlope)};
 }
 
 ForcePlan force_plan(const SceneSpec& s) {
@@ -162,19 +170,27 @@ void describe_options(const SceneSpec& s, bool any, const std::string& none,
        "no finger is set, or heave is off, or the tool does not press");
   line("thin wall", any && s.clay->thin_wall_yields && s.tool.mode != ToolMode::trim_foot,
        "a wall at its minimum bends outward; a cut leaves no ledge",
-       any && s.clay->thin_wall_yields ? "a foot has no rule against a ledge"
-                                       : "a tool from inside goes through a wall at its minimum");
+       any && s.clay->thin_wall_yields
+           ? "a foot has no rule against a ledge"
+           : "clay.thin_wall is not set: a tool from inside goes through a wall at its minimum");
   line("pressed rim", any && sinks_rim(s),
        cuts ? "a cut from above lowers the rim"
             : "a tool that comes down on the rim presses it down",
-       any && s.clay->rim_sinks ? "heave is off, or the tool neither presses nor trims"
-                                : "a tool that comes down on the rim goes aside");
+       any && s.clay->rim_sinks
+           ? "heave is off, or the tool neither presses nor trims"
+           : "clay.pressed_rim is not set: a tool that comes down on the rim goes aside");
   line("narrow rim", any && closes_rim(s), "a rim that is pushed inward closes",
-       any && s.clay->narrow_rim_closes ? "a trimming tool moves no clay"
-                                        : "a rim that is pushed inward becomes a pipe");
+       any && s.clay->narrow_rim_closes
+           ? "a trimming tool moves no clay"
+           : "clay.narrow_rim is not set: a rim that is pushed inward becomes a pipe");
   line("lifted wall", any && stretches_wall(s), "a wall that two tools lift stretches at the tools",
-       any && s.clay->lifted_wall_stretches ? "lift is off, or there is one tool"
-                                            : "a wall that two tools lift grows at its rim");
+       any && s.clay->lifted_wall_stretches
+           ? "lift is off, or there is one tool"
+           : "clay.lifted_wall is not set: a wall that two tools lift grows at its rim");
+  line("pushed wall", any && bends_wall(s), "a thin wall that one tool pushes keeps its thickness",
+       any && s.clay->pushed_wall_bends
+           ? "shift is off, or the tool does not press"
+           : "clay.pushed_wall is not set: a wall behind a moving tool is squeezed thinner");
 }
 
 void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {

@@ -39,6 +39,8 @@ class ToolTracker {
   /// Refuses positions that are not finite or beyond 1e6 mm, times that do not advance, and gaps
   /// outside 0 .. widest_gap_mm (valid = false; the state does not change).
   ToolState advance(const Pose& pose, double widest_gap_mm = 0.0) noexcept;
+  /// The heights of all poses count from a place that is this much higher than before.
+  void raise_origin(double mm) noexcept { last_.position_mm.y -= mm; }
 
  private:
   Pose last_;

@@ -2,6 +2,7 @@
 #include "engine/tick/contact.hpp"
 #include "engine/tick/force.hpp"
 #include "engine/tick/front.hpp"
+#include "engine/tick/joints.hpp"
 #include "engine/tick/kernel_flow.hpp"
 #include "engine/tick/rim_growth.hpp"
 #include "engine/wheel/wheel_state.hpp"
@@ -107,6 +108,27 @@ std::uint32_t settle_flow(WheelState& s, const Flow& flow, const ToolState& tool
          (s.failure ? kCollapsed : 0u);
 }
 
+/// Of a pot that stands upside down: the rings of its foot that a flow has cut off the rest.
+std::size_t loose_rings(const ClayStack& stack, const Flow& flow) noexcept {
+  const auto rings = stack.rings();
+  const std::size_t last = std::min(flow.highest + 1, rings.size() - 1);
+  std::size_t loose = 0;
+  for (std::size_t first = flow.lowest - std::min<std::size_t>(flow.lowest, 1); first < last;) {
+    const auto gap = lowest_gap(rings, first, last);
+    if (!gap) break;
+    loose = first = *gap + 1;
+  }
+  return loose;
+}
+
+/// The cut-off part of the foot falls away. The pot, which is stored upright, is set down.
+void drop_loose_rings(WheelState& s) noexcept {
+  const double mm = static_cast<double>(s.loose_rings) * s.stack.ring_height_mm();
+  s.ledger.trimmed += StackWriter(s.stack).cut_below(std::exchange(s.loose_rings, 0));
+  *s.turned_mm -= mm;
+  s.tracker.raise_origin(mm);
+}
+
 /// Moves the displaced clay, and checks whether the stack still stands.
 template <unsigned stages>
 std::uint32_t deform(WheelState& s, const ToolState& tool,
@@ -125,6 +147,8 @@ std::uint32_t deform(WheelState& s, const ToolState& tool,
     }
   }();
 
+  if constexpr (stages & kRules)
+    if (s.turned_mm) s.loose_rings = std::max(s.loose_rings, loose_rings(s.stack, flow));
   return settle_flow<stages>(s, flow, tool);
 }
 
@@ -227,6 +251,8 @@ StepReport tick(WheelState& s, const Pose& pose) noexcept {
     // After a collapse nothing is left to push against.
     if (!s.failure && (kFeelsUntouched<stages> || rings_of(removals) > 0))
       add_force<stages>(s.plan.force, removals, report);
+  if constexpr (stages & kRules)
+    if (s.loose_rings > 0) drop_loose_rings(s);
   return report;
 }
 

@@ -44,6 +44,7 @@ struct WheelState {
   RuleWork work;
   RuleSteps rules;
   std::optional<double> turned_mm;  // height of a pot that stands upside down
+  std::size_t loose_rings = 0;      // of its foot, which this tick has cut off
   ThrowSettings settings;
   // Of the pot that was put on the wheel.
   std::optional<ThrowSettings> settings_before;

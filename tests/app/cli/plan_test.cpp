@@ -30,7 +30,7 @@ TEST(Plan, LeavesOutUnneededStages) {
   EXPECT_EQ(stages(plan, "left_out"),
             (std::set<std::string>{"inner surface", "friction", "stability", "pinch", "lift",
                                    "shift", "rim", "hoop", "heave", "smear", "finger", "thin wall",
-                                   "pressed rim", "narrow rim", "lifted wall"}));
+                                   "pressed rim", "narrow rim", "lifted wall", "pushed wall"}));
   EXPECT_EQ(stages(plan, "in"), (std::set<std::string>{"tool state", "contact", "removal",
                                                        "outer surface", "growth", "force"}));
   for (const auto& line : plan.at("left_out")) {
@@ -46,9 +46,14 @@ TEST(Plan, KeepsAllNeededStages) {
   scene["force"]["friction"] = 0.2;
   scene["stability"]["max_stress_kpa"] = 10;
   scene["tool"]["gap_mm"] = 5;
-  scene["clay"] = {{"finger_mm", 90},        {"finger_behind", 0.5},
-                   {"thin_wall", "yields"},  {"pressed_rim", "sinks"},
-                   {"narrow_rim", "closes"}, {"lifted_wall", "stretches"}};
+  scene["clay"] = {{"finger_mm", 90},
+                   {"finger_behind", 0.5},
+                   {"heave_slope", 0.2},
+                   {"thin_wall", "yields"},
+                   {"pressed_rim", "sinks"},
+                   {"narrow_rim", "closes"},
+                   {"lifted_wall", "stretches"},
+                   {"pushed_wall", "bends"}};
   write_text(folder.file("s.scene.json"), scene.dump());
   EXPECT_TRUE(
       claystack("plan --json " + folder.file("s.scene.json")).json().at("left_out").empty());

@@ -99,6 +99,8 @@ inline SceneSpec arbitrary_scene() {
                     *number_in(0, 1e6),
                     maybe<double>([] { return *number_in(0, 200); }),
                     maybe<double>([] { return *number_in(0, 4); }),
+                    maybe<double>([] { return *number_in(0.05, 2); }),
+                    on(),
                     on(),
                     on(),
                     on(),

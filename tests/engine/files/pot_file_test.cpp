@@ -286,7 +286,8 @@ TEST(PotFile, HoldsTheSettingsOfEveryWheelThatCanBeBuilt) {
       [](SceneSpec& s) -> double& { return s.clay.emplace().wheel_rpm; },
       [](SceneSpec& s) -> double& { return s.clay.emplace().floor_mm; },
       [](SceneSpec& s) -> double& { return s.clay.emplace().finger_mm.emplace(); },
-      [](SceneSpec& s) -> double& { return s.clay.emplace().finger_behind.emplace(); }};
+      [](SceneSpec& s) -> double& { return s.clay.emplace().finger_behind.emplace(); },
+      [](SceneSpec& s) -> double& { return s.clay.emplace().heave_slope.emplace(); }};
   int built = 0;
   for (std::size_t field = 0; field < fields.size(); ++field)
     for (const double value : {-1.0, 0.0, 1e-9, 1e-3, 0.5, 1.0 - 1e-9, 1.0, 2.0, 10.0, 25.0, 200.0,

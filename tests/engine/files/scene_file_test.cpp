@@ -58,10 +58,12 @@ constexpr std::string_view kText = R"({
     "floor_mm": 7,
     "finger_mm": 80,
     "finger_behind": 0.75,
+    "heave_slope": 0.3,
     "thin_wall": "yields",
     "pressed_rim": "sinks",
     "narrow_rim": "closes",
-    "lifted_wall": "stretches"
+    "lifted_wall": "stretches",
+    "pushed_wall": "bends"
   }
 }
 )";

@@ -35,12 +35,16 @@ TEST(SceneHash, OmitsAWallAndARimThatStay) {
   EXPECT_EQ(write_scene(scene).find("pressed_rim"), std::string::npos);
   EXPECT_EQ(write_scene(scene).find("narrow_rim"), std::string::npos);
   EXPECT_EQ(write_scene(scene).find("lifted_wall"), std::string::npos);
+  EXPECT_EQ(write_scene(scene).find("pushed_wall"), std::string::npos);
+  EXPECT_EQ(write_scene(scene).find("heave_slope"), std::string::npos);
   scene.clay->thin_wall_yields = scene.clay->rim_sinks = true;
   scene.clay->narrow_rim_closes = scene.clay->lifted_wall_stretches = true;
+  scene.clay->pushed_wall_bends = true;
   EXPECT_NE(write_scene(scene).find("thin_wall"), std::string::npos);
   EXPECT_NE(write_scene(scene).find("pressed_rim"), std::string::npos);
   EXPECT_NE(write_scene(scene).find("narrow_rim"), std::string::npos);
   EXPECT_NE(write_scene(scene).find("lifted_wall"), std::string::npos);
+  EXPECT_NE(write_scene(scene).find("pushed_wall"), std::string::npos);
 }
 
 RC_GTEST_PROP(SceneHash, DistinguishesScenes, ()) {

@@ -131,6 +131,8 @@ TEST(LanesOfRules, GiveTheSameBitsForAnyMotion) {
       scene.clay->floor_mm = 5.0;
       scene.clay->finger_mm = 90.0;
       scene.clay->finger_behind = 0.5;
+      scene.clay->heave_slope = 0.2;
+      scene.clay->pushed_wall_bends = true;
       scene.clay->thin_wall_yields = scene.clay->rim_sinks = true;
       scene.clay->narrow_rim_closes = scene.clay->lifted_wall_stretches = true;
       if (sponge) scene.tool.mode = ToolMode::smooth;

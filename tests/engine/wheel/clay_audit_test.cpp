@@ -48,11 +48,15 @@ TEST(ClayAudit, AccountsForEveryQuantumAfterEveryTick) {
                           (rules & kHeave) != 0,
                           (rules & kSmear) != 0,
                           120.0,
-                          3.0,
-                          (rules / 7) % 2 == 1 ? std::optional(90.0) : std::nullopt,
-                          (rules / 7) % 4 < 2,
-                          (rules / 7) % 3 == 1,
-                          (rules / 7) % 2 == 0};
+                          3.0};
+    const unsigned set = rules / 7;
+    if (set % 2 == 1) scene.clay->finger_mm = 90.0;
+    if (set % 4 == 1) scene.clay->finger_behind = 0.5;
+    if (set % 3 != 1) scene.clay->heave_slope = 0.2;
+    scene.clay->thin_wall_yields = set % 4 < 2;
+    scene.clay->rim_sinks = set % 3 == 1;
+    scene.clay->narrow_rim_closes = set % 2 == 0;
+    scene.clay->pushed_wall_bends = set % 5 != 1;
     Wheel wheel = Wheel::build(scene).value();
     for (const Pose& pose : random_poses(rules + 1, ticks())) {
       if (wheel.collapsed()) wheel = Wheel::build(scene).value();
@@ -207,6 +211,10 @@ TEST(ClayAudit, ClayNeverMovesIntoTheTool) {
   scene.clay->narrow_rim_closes = true;
   expect_no_gain_of_energy(scene);
   scene.clay->lifted_wall_stretches = true;
+  expect_no_gain_of_energy(scene);
+  scene.clay->heave_slope = 0.2;
+  expect_no_gain_of_energy(scene);
+  scene.clay->pushed_wall_bends = true;
   expect_no_gain_of_energy(scene);
 }
 

@@ -151,6 +151,39 @@ TEST(TrimFoot, HollowsTheFootAndLeavesAFloor) {
   expect_balanced(wheel);
 }
 
+/// A cut from outside into the ceiling of a hollow foot, up to its bore, cuts the foot ring off.
+TEST(TrimFoot, ARingThatIsCutOffFallsAway) {
+  SceneSpec scene = scene_with(ToolMode::trim_foot);
+  scene.clay = ClaySpec{};
+  constexpr std::size_t kCeiling = 40, kFloor = 80;  // rings of 0.2 mm
+  std::vector<Ring> rings(600, Ring{quanta_from_radius(45.0), quanta_from_radius(38.0)});
+  for (std::size_t i = 0; i < kFloor; ++i)
+    rings[i].inner2 = i < kCeiling ? quanta_from_radius(35.0) : 0;
+  Pot pot;
+  pot.stack = ClayStack::from_rings(kH, rings, 0, 2400).value();
+  pot.ledger.initial = pot.stack.volume();
+  Wheel wheel = Wheel::build(scene, pot).value();
+  std::int64_t time_us = 0;
+  // The ball of 8 mm goes in beside the solid ceiling, between heights of 8 and 16 mm.
+  move(wheel, time_us, {70, 108, 0}, {40, 108, 0}, 3000);
+  EXPECT_LE(wheel.stack().size(), rings.size() - kCeiling) << "the foot ring is gone";
+  EXPECT_GE(wheel.stack().size(), rings.size() - kFloor);
+  const auto left = wheel.stack().rings();
+  for (std::size_t i = 0; i + 1 < left.size(); ++i) EXPECT_TRUE(left[i].touches(left[i + 1])) << i;
+  expect_balanced(wheel);
+  // The rest stays where it was: the tool touches nothing on its way out, and a pot that is put on
+  // the wheel again is trimmed to the same bits.
+  Wheel again = Wheel::build(scene, wheel.pot()).value();
+  std::int64_t again_us = time_us - 1000;
+  move(again, again_us, {40, 108, 0}, {40, 108, 0}, 1);
+  for (Wheel* one : {&wheel, &again}) {
+    std::int64_t now_us = time_us;
+    move(*one, now_us, {40, 108, 0}, {38, 100, 0}, 500);
+  }
+  EXPECT_TRUE(wheel.pot().stack == again.pot().stack);
+  expect_balanced(wheel);
+}
+
 /// A wall with waves 8 mm long and 0.3 mm deep.
 Pot waved_pot(const SceneSpec& scene) {
   std::vector<Ring> rings;

@@ -70,6 +70,8 @@ struct RulesPlan {
   bool rim_sinks = false;              ///< as ClaySpec's, for a tool that presses or trims
   bool narrow_rim_closes = false;      ///< as ClaySpec's, for a tool that moves clay
   bool lifted_wall_stretches = false;  ///< as ClaySpec's, for two tools that lift
+  bool pushed_wall_bends = false;      ///< as ClaySpec's, with shift
+  double heave_slope = 0.0;            ///< as ClaySpec's
 };
 
 /// One line of `claystack plan`.

@@ -130,6 +130,8 @@ struct ClaySpec {
   /// Distance of the finger from the tool's middle, toward the axis, in radii of the tool. Absent:
   /// 2. A finger close behind the tool leaves a mouth as wide as the bottom.
   std::optional<double> finger_behind = std::nullopt;
+  /// Steepest slope that heave leaves: change of thickness over height. Absent: 0.5.
+  std::optional<double> heave_slope = std::nullopt;
   /// At the minimum wall. False: a tool from inside goes through the wall, and two tools that go
   /// out leave it behind. True: they bend it (needs `shift`), and the rim sinks to supply the clay;
   /// a cut removes a tip of the rim that would project as a ledge. A press from outside always
@@ -145,6 +147,10 @@ struct ClaySpec {
   /// Clay that two tools squeeze out (needs `lift`). False: the wall grows at its rim. True: it
   /// stretches at the tools where it is wider than the rim, and all above them rises as it is.
   bool lifted_wall_stretches = false;
+  /// Where one tool presses a thin wall (needs `shift`). False: the wall moves near the deepest
+  /// place of the contact, and is squeezed thinner behind it and in the undercut beyond a contact
+  /// from outside. True: it moves there too, and keeps its thickness.
+  bool pushed_wall_bends = false;
   friend bool operator==(const ClaySpec&, const ClaySpec&) = default;
 };
 
