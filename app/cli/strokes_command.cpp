@@ -8,6 +8,7 @@
 #include "app/strokes/strokes.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
+#include "core/text.hpp"
 #include "core/time_units.hpp"
 
 #include <fmt/format.h>
@@ -29,14 +30,31 @@ struct StrokesOptions {
   std::string scene, script, from, session;
 };
 
-Result<std::vector<Pose>> poses_of(const std::string& path, const SceneSpec& scene, Wheel wheel) {
-  return read_file(path, kMaxScriptBytes)
-      .and_then([&](const std::string& text) { return strokes::parse_strokes(text, path); })
-      .and_then([&](const strokes::StrokeScript& script) {
-        return strokes::play(script, scene, std::move(wheel)).map_error([&](const Error& error) {
-          return Error{error.kind, path + ": " + error.message};
-        });
-      });
+/// "strokes[2]", with its name if it has one.
+std::string title_of(const strokes::StrokeScript& script, std::size_t stroke) {
+  const std::string& name = script.strokes[stroke].name;
+  return fmt::format("strokes[{}]{}", stroke, name.empty() ? "" : " (" + shown(name) + ")");
+}
+
+/// One line, object and warnings for each stroke.
+Json report_strokes(const strokes::StrokeScript& script, const strokes::Played& played,
+                    const std::string& path, const Console& console) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < played.strokes.size(); ++k) {
+    const strokes::PlayedStroke& stroke = played.strokes[k];
+    const std::string title = title_of(script, k);
+    console.print(fmt::format(
+        "  {}: {:.1f} s; the pot is {:.1f} mm high{}", title, stroke.seconds, stroke.height_mm,
+        stroke.thinnest_mm ? fmt::format(", thinnest wall {:.2f} mm", *stroke.thinnest_mm) : ""));
+    for (const std::string& warning : stroke.warnings)
+      console.warn(fmt::format("{}: {}: {}", path, title, warning));
+    list.push_back({{"name", script.strokes[k].name},
+                    {"seconds", stroke.seconds},
+                    {"height_mm", stroke.height_mm},
+                    {"thinnest_mm", stroke.thinnest_mm ? Json(*stroke.thinnest_mm) : Json()},
+                    {"warnings", stroke.warnings}});
+  }
+  return list;
 }
 
 /// With --from the scene may be absent, and the first argument is then the script.
@@ -59,15 +77,25 @@ Result<void> make_session(const StrokesOptions& options, Console console) {
   auto wheel = build_wheel(*start);
   if (!wheel) return tl::make_unexpected(wheel.error());
   const SceneSpec& scene = start->scene;
-  auto poses = poses_of(options.script, scene, std::move(*wheel));
-  if (!poses) return tl::make_unexpected(poses.error());
-  const std::size_t count = poses->size();
-  const double seconds = count > 0 ? in_seconds(poses->back().time_us) : 0.0;
-  const Session session{scene.name, hash_of(scene), std::move(*poses), false};
+  const auto script =
+      read_file(options.script, kMaxScriptBytes).and_then([&](const std::string& text) {
+        return strokes::parse_strokes(text, options.script);
+      });
+  if (!script) return tl::make_unexpected(script.error());
+  auto played = strokes::play(*script, scene, std::move(*wheel));
+  if (!played) return failure(played.error().kind, options.script + ": " + played.error().message);
+  const std::size_t count = played->poses.size();
+  const double seconds = count > 0 ? in_seconds(played->poses.back().time_us) : 0.0;
+  const Session session{scene.name, hash_of(scene), std::move(played->poses), false};
   if (auto done = publish(options.session, write_session(session)); !done) return done;
+  progress.clear();
   console.print(fmt::format("session: {}, {:.1f} s, {} poses", options.session, seconds, count));
+  const Json strokes = report_strokes(*script, *played, options.script, console);
   if (console.json)
-    print_json({{"session", options.session}, {"seconds", seconds}, {"poses", count}});
+    print_json({{"session", options.session},
+                {"seconds", seconds},
+                {"poses", count},
+                {"strokes", strokes}});
   return {};
 }
 

@@ -94,6 +94,13 @@ void Hand::move(const Path& path, double speed_mm_s, bool trim) {
   }
 }
 
+void Hand::travel(const Path& path) {
+  travels_ = true;
+  released_ = touched_;
+  move(path, script_.travel_mm_s, false);
+  travels_ = false;
+}
+
 void Hand::hold(double seconds, bool trim) {
   const auto ticks = static_cast<int>(seconds * script_.rate_hz);
   for (int n = 0; n < ticks; ++n) emit(here_, trim);
@@ -111,9 +118,15 @@ void Hand::emit(const Place& place, bool trim) {
   const auto time =
       static_cast<std::int64_t>(static_cast<double>(poses_.size()) * 1e6 / script_.rate_hz);
   poses_.push_back(quantized({time, hip, trim, place.gap_mm}));
-  if ((wheel_.step(poses_.back()).flags & kContact) == 0) return;
+  const StepReport step = wheel_.step(poses_.back());
+  touched_ = (step.flags & kContact) != 0 ? step.rings_touched : 0;
+  if (touched_ == 0) {
+    released_ = 0;
+    return;
+  }
   touch_.last = poses_.size() - 1;
   if (touch_.first == 0) touch_.first = touch_.last;
+  if (travels_ && touched_ > released_) obstacle_ = {obstacle_.ticks + 1, place.at.y};
 }
 
 }  // namespace clay::strokes

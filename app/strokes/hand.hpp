@@ -6,6 +6,8 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstddef>
+#include <cstdint>
 #include <random>
 #include <utility>
 #include <vector>
@@ -41,6 +43,8 @@ class Hand {
   /// Moves along a path in minimum-jerk time (Flash and Hogan, J. Neurosci. 5(7) 1985), with a peak
   /// speed of 15/8 of the mean.
   void move(const Path& path, double speed_mm_s, bool trim);
+  /// Moves along straight lines between strokes.
+  void travel(const Path& path);
   void hold(double seconds, bool trim);
   /// One pose; after `most_poses` none, see full().
   void emit(const Place& place, bool trim);
@@ -57,6 +61,14 @@ class Hand {
     std::size_t first = 0, last = 0;
   };
   [[nodiscard]] const Touch& touch() const { return touch_; }
+  /// The clay that a tool presses while it travels: contact that begins on the way, or with more
+  /// rings than at its beginning.
+  struct Obstacle {
+    std::size_t ticks = 0;
+    double height_mm = 0.0;  ///< of the tool in the last of them
+  };
+  /// Of all travels since the last call.
+  [[nodiscard]] Obstacle take_obstacle() { return std::exchange(obstacle_, {}); }
 
  private:
   const StrokeScript& script_;
@@ -68,6 +80,10 @@ class Hand {
   std::size_t most_poses_;
   bool full_ = false;
   Touch touch_;
+  bool travels_ = false;
+  std::uint32_t touched_ = 0;   ///< rings that the last tick touched
+  std::uint32_t released_ = 0;  ///< of a travel: those at its beginning, 0 once it was in the air
+  Obstacle obstacle_;
 };
 
 }  // namespace clay::strokes

@@ -107,7 +107,6 @@ std::optional<double> free_line(const Tool& tool, const Section& section, double
 /// Plays a path with its way in and out; inside a pot, those lead through its mouth.
 void lead(Hand& hand, Path path, const Section& section, bool inside, const Stroke& stroke) {
   if (path.empty()) return;
-  const double travel = hand.script().travel_mm_s;
   const Tool& tool = hand.wheel().plan().tool;
   const double out = inside ? -kAwayMm : kAwayMm;
   const auto beside = [&](const Place& place) {
@@ -119,22 +118,21 @@ void lead(Hand& hand, Path path, const Section& section, bool inside, const Stro
     // Rises and descends beside the pot, which may be wider above.
     const glm::dvec2 start = hand.script().start_mm;
     approach(hand, {start.x, enter.at.y});
-    hand.move({hand.here(), enter}, travel, false);
+    hand.travel({hand.here(), enter});
     path.insert(path.begin(), enter);
     hand.move(path, stroke.speed_mm_s, stroke.trim);
     hand.hold(stroke.hold_s, stroke.trim);
-    hand.move({hand.here(), {{start.x, leave.at.y}, 0.0}, {start, 0.0}}, travel, false);
+    hand.travel({hand.here(), {{start.x, leave.at.y}, 0.0}, {start, 0.0}});
     return;
   }
   const double top = section.height() + tool.high() + kClearMm;
   const double line = free_line(tool, section, std::min(enter.at.y, leave.at.y)).value_or(0.0);
   approach(hand, {line, std::max(top, enter.at.y)});
-  hand.move({hand.here(), {{line, enter.at.y}, 0.0}}, travel, false);
+  hand.travel({hand.here(), {{line, enter.at.y}, 0.0}});
   path.insert(path.begin(), hand.here());
   hand.move(path, stroke.speed_mm_s, stroke.trim);
   hand.hold(stroke.hold_s, stroke.trim);
-  hand.move({hand.here(), {{line, leave.at.y}, 0.0}, {{line, std::max(top, leave.at.y)}, 0.0}},
-            travel, false);
+  hand.travel({hand.here(), {{line, leave.at.y}, 0.0}, {{line, std::max(top, leave.at.y)}, 0.0}});
 }
 
 double smooth(double t) {
@@ -151,9 +149,8 @@ double gap_at(const Stroke& stroke, double share) {
 
 void approach(Hand& hand, glm::dvec2 first_mm) {
   const StrokeScript& script = hand.script();
-  if (hand.here().at != script.start_mm)
-    hand.move({{hand.here().at}, {script.start_mm}}, script.travel_mm_s, false);
-  hand.move({{script.start_mm}, {first_mm}}, script.travel_mm_s, false);
+  if (hand.here().at != script.start_mm) hand.travel({{hand.here().at}, {script.start_mm}});
+  hand.travel({{script.start_mm}, {first_mm}});
 }
 
 void shape(Hand& hand, const Stroke& stroke, int pass) {
@@ -190,7 +187,7 @@ void pull(Hand& hand, const Stroke& stroke) {
   for (double up = top; up > stroke.from_mm; up -= kStepMm)
     down.push_back({{middle_seen(section, std::min(up, section.height())), up}, wide});
   down.push_back({{middle_seen(section, stroke.from_mm), stroke.from_mm}, wide});
-  hand.move(down, hand.script().travel_mm_s, false);
+  hand.travel(down);
 
   const double tick = 1.0 / hand.script().rate_hz;
   const double began = hand.here().at.x;

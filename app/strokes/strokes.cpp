@@ -3,9 +3,12 @@
 #include "app/strokes/hand.hpp"
 #include "app/strokes/planned.hpp"
 
+#include <fmt/format.h>
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -78,6 +81,59 @@ Result<void> check_gaps(const StrokeScript& script, const SceneSpec& scene) {
                      "gap between two");
 }
 
+/// Mentions the place on the tool's way where it presses clay, if it does so for long enough to
+/// mark it.
+std::optional<std::string> obstacle_of(Hand& hand) {
+  constexpr double kLongS = 0.05;
+  const Hand::Obstacle obstacle = hand.take_obstacle();
+  if (static_cast<double>(obstacle.ticks) < kLongS * hand.script().rate_hz) return std::nullopt;
+  const glm::dvec2 start = hand.script().start_mm;
+  return fmt::format(
+      "the tool presses the clay at a height of {:.1f} mm on its way between start_mm ({:g}, {:g}) "
+      "and the stroke: expected a way clear of the pot, which is {:.1f} mm high now",
+      obstacle.height_mm, start.x, start.y, hand.wheel().stack().height_mm());
+}
+
+std::optional<double> thinnest_mm(const ClayStack& stack) {
+  std::optional<double> least;
+  for (const Ring& ring : stack.rings())
+    if (ring.inner2 > 0) {
+      const double wall = ring.outer_mm() - ring.inner_mm();
+      least = std::min(least.value_or(wall), wall);
+    }
+  return least;
+}
+
+bool solid_at(const ClayStack& stack, double height_mm) {
+  const auto ring = static_cast<std::size_t>(std::max(0.0, height_mm) / stack.ring_height_mm());
+  return stack.rings()[std::min(ring, stack.size() - 1)].inner2 == 0;
+}
+
+/// All passes of a stroke.
+PlayedStroke played(Hand& hand, const Stroke& stroke) {
+  PlayedStroke done;
+  const ClayStack& stack = hand.wheel().stack();
+  const std::size_t before = hand.poses().size();
+  const bool stood = !hand.wheel().collapsed();
+  if (stood && stroke.kind == StrokeKind::pull && solid_at(stack, stroke.from_mm))
+    done.warnings.push_back(fmt::format(
+        "expected a wall between the two tools at a height of {:g} mm, found solid clay",
+        stroke.from_mm));
+  (void)hand.take_obstacle();
+  for (int pass = 0; pass < stroke.passes && !hand.full(); ++pass) perform(hand, stroke, pass);
+  done.seconds = static_cast<double>(hand.poses().size() - before) / hand.script().rate_hz;
+  done.height_mm = stack.height_mm();
+  done.thinnest_mm = thinnest_mm(stack);
+  if (auto obstacle = obstacle_of(hand)) done.warnings.push_back(std::move(*obstacle));
+  if (!stood)
+    done.warnings.emplace_back("does nothing, because the pot has fallen");
+  else if (hand.wheel().collapsed())
+    done.warnings.emplace_back("the pot falls");
+  else if (hand.touch().last < before || hand.touch().last == 0)
+    done.warnings.emplace_back("touches no clay");
+  return done;
+}
+
 }  // namespace
 
 Result<PlannedStroke> plan(const StrokeScript& script, std::size_t index, const SceneSpec& scene,
@@ -97,13 +153,13 @@ Result<PlannedStroke> plan(const StrokeScript& script, std::size_t index, const 
   });
 }
 
-Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene, Wheel wheel,
-                               std::size_t most_poses) {
+Result<Played> play(const StrokeScript& script, const SceneSpec& scene, Wheel wheel,
+                    std::size_t most_poses) {
   if (auto gaps = check_gaps(script, scene); !gaps) return tl::make_unexpected(gaps.error());
   Hand hand(script, std::move(wheel), most_poses);
-  for (const Stroke& stroke : script.strokes)
-    for (int pass = 0; pass < stroke.passes && !hand.full(); ++pass) perform(hand, stroke, pass);
-  if (!hand.full()) return hand.take();
+  std::vector<PlayedStroke> strokes;
+  for (const Stroke& stroke : script.strokes) strokes.push_back(played(hand, stroke));
+  if (!hand.full()) return Played{hand.take(), std::move(strokes)};
   return failure(ErrorKind::bad_input,
                  "strokes: expected at most " + std::to_string(most_poses) + " poses, found more");
 }

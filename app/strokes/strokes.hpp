@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -69,12 +70,25 @@ struct StrokeScript {
 /// poses than a session holds (kMaxPoses).
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name);
 
+/// The pot after a stroke, and what the script's author should know about it.
+struct PlayedStroke {
+  double seconds = 0.0;    ///< all passes, with the ways between them
+  double height_mm = 0.0;  ///< of the pot
+  std::optional<double>
+      thinnest_mm;  ///< wall of the thinnest ring with a bore; empty: none has one
+  std::vector<std::string> warnings;  ///< "touches no clay", ...
+};
+struct Played {
+  std::vector<Pose> poses;
+  std::vector<PlayedStroke> strokes;  ///< as in the script
+};
+
 /// Poses in a vertical plane through the axis, at the script's rate, quantized as in a session, on
 /// `wheel`, which was built for `scene`. The same bits on every platform: uses no libm except the
 /// square root, and no distribution of the standard library. Fails for a gap in a scene of one
 /// tool, and for more than `most_poses`.
-Result<std::vector<Pose>> play(const StrokeScript& script, const SceneSpec& scene, Wheel wheel,
-                               std::size_t most_poses = kMaxPoses);
+Result<Played> play(const StrokeScript& script, const SceneSpec& scene, Wheel wheel,
+                    std::size_t most_poses = kMaxPoses);
 
 /// A stroke, planned on a pot.
 struct PlannedStroke {

@@ -24,7 +24,8 @@ TEST_P(ThrownPot, IsIndependentOfRingHeightAndRate) {
   const SceneSpec scene = parse_file(folder + name + ".scene.json", parse_scene);
   const auto poses = play(parse_file(folder + "strokes/" + name + ".strokes.json", parse_strokes),
                           scene, Wheel::build(scene).value())
-                         .value();
+                         .value()
+                         .poses;
   const double percent = 100.0 / scene.lump.outer_radius_mm;
 
   const auto pot = bench::played(scene, poses);

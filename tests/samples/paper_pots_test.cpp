@@ -35,7 +35,8 @@ std::vector<Pose> poses_of(const std::string& sample) {
   const SceneSpec scene = scene_of(sample);
   return play(parse_file(kFolder + "strokes/" + sample + ".strokes.json", parse_strokes), scene,
               Wheel::build(scene).value())
-      .value();
+      .value()
+      .poses;
 }
 
 /// A session after replay.

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace clay::strokes {
@@ -42,7 +44,87 @@ Stroke stroke_of(StrokeKind kind) {
 }
 
 std::vector<Pose> poses_of(const Stroke& stroke, const SceneSpec& scene = tube()) {
-  return play(script_of(stroke), scene, Wheel::build(scene).value()).value();
+  return play(script_of(stroke), scene, Wheel::build(scene).value()).value().poses;
+}
+
+/// What `play` reports on a stroke after others.
+PlayedStroke report_on(std::vector<Stroke> strokes, const SceneSpec& scene,
+                       glm::dvec2 start_mm = {90.0, 120.0}) {
+  StrokeScript script = script_of({});
+  script.strokes = std::move(strokes);
+  script.start_mm = start_mm;
+  return play(script, scene, Wheel::build(scene).value()).value().strokes.back();
+}
+
+Stroke path_of(std::vector<glm::dvec2> through_mm) {
+  Stroke stroke;
+  stroke.through_mm = std::move(through_mm);
+  return stroke;
+}
+
+std::string all_of(const std::vector<std::string>& warnings) {
+  std::string all;
+  for (const std::string& warning : warnings) all += warning + "; ";
+  return all;
+}
+
+TEST(Played, ReportsThePotAfterAStroke) {
+  Stroke stroke = stroke_of(StrokeKind::shape);
+  stroke.outline = {{kRadiusMm - 2.0, 0.25}, {kRadiusMm - 2.0, 0.75}};
+  const PlayedStroke played = report_on({stroke}, tube());
+  EXPECT_NEAR(played.height_mm, kHeightMm, 1e-9) << "without rules of clay the rim stays";
+  ASSERT_TRUE(played.thinnest_mm);
+  EXPECT_NEAR(*played.thinnest_mm, kRadiusMm - kBoreMm, 1e-6) << "the minimum wall";
+  EXPECT_GT(played.seconds, 1.0);
+  EXPECT_EQ(all_of(played.warnings), "");
+}
+
+TEST(Played, WarnsOfAStrokeInTheAir) {
+  const Stroke high = path_of({{90.0, 150.0}, {60.0, 150.0}});
+  EXPECT_EQ(all_of(report_on({high}, tube()).warnings), "touches no clay; ");
+  // Also after a stroke that touched some.
+  Stroke press = stroke_of(StrokeKind::shape);
+  press.outline = {{kRadiusMm - 2.0, 0.25}, {kRadiusMm - 2.0, 0.75}};
+  EXPECT_EQ(all_of(report_on({press, high}, tube()).warnings), "touches no clay; ");
+}
+
+TEST(Played, WarnsOfAWayThroughThePot) {
+  // From the bore through the wall to the start.
+  const Stroke inside = path_of({{0.0, 150.0}, {0.0, 0.5 * kHeightMm}});
+  const std::string across = all_of(report_on({inside, inside}, tube(), {90.0, 60.0}).warnings);
+  EXPECT_NE(across.find("presses the clay at a height of "), std::string::npos) << across;
+  EXPECT_NE(across.find("start_mm (90, 60)"), std::string::npos) << across;
+  // A tool that leaves the wall it has pressed does not press it on its way.
+  const Stroke press =
+      path_of({{90.0, 0.5 * kHeightMm}, {kRadiusMm + kToolMm - 3.0, 0.5 * kHeightMm}});
+  EXPECT_EQ(all_of(report_on({press, press}, tube(), {90.0, 0.5 * kHeightMm}).warnings), "");
+}
+
+TEST(Played, WarnsOfAPullOnSolidClay) {
+  SceneSpec solid = tube();
+  solid.lump.inner_radius_mm = 0.0;
+  Stroke pull = stroke_of(StrokeKind::pull);
+  pull.outline = {{kRadiusMm, 0.0}, {kRadiusMm, 1.0}};
+  pull.gap_mm = {6.0};
+  pull.speed_mm_s = 60.0;
+  pull.from_mm = 20.0;
+  const std::string warnings = all_of(report_on({pull}, solid).warnings);
+  EXPECT_NE(warnings.find("expected a wall between the two tools at a height of 20 mm"),
+            std::string::npos)
+      << warnings;
+}
+
+TEST(Played, WarnsOfAPotThatFalls) {
+  SceneSpec weak = tube();
+  weak.removal.min_wall_mm = 0.5;
+  // Its limit is just above what the foot carries at the beginning.
+  const auto stresses = stresses_kpa(Wheel::build(weak)->stack(), weak.lump.density_g_cm3);
+  weak.stability.emplace().max_stress_kpa = 1.02 * *std::ranges::max_element(stresses);
+  Stroke press = path_of({{90.0, 15.0}, {kRadiusMm + kToolMm - 4.0, 15.0}});
+  press.trim = true;
+  EXPECT_EQ(all_of(report_on({press}, weak).warnings), "the pot falls; ");
+  EXPECT_EQ(all_of(report_on({press, press}, weak).warnings),
+            "does nothing, because the pot has fallen; ");
 }
 
 TEST(Shape, LeadsTheToolAlongTheOutsideOfAnOutline) {

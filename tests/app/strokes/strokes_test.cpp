@@ -22,12 +22,11 @@ std::vector<Pose> play(const StrokeScript& script) {
   SceneSpec scene;
   scene.lump = {.rings = 10, .ring_height_mm = 1.0, .outer_radius_mm = 5.0};
   scene.tool.gap_mm = 4.0;
-  return strokes::play(script, scene, Wheel::build(scene).value()).value();
+  return strokes::play(script, scene, Wheel::build(scene).value()).value().poses;
 }
 
 /// On the usual lump, for one tool.
-Result<std::vector<Pose>> play_on_lump(const StrokeScript& script,
-                                       std::size_t most_poses = kMaxPoses) {
+Result<Played> play_on_lump(const StrokeScript& script, std::size_t most_poses = kMaxPoses) {
   const SceneSpec scene;
   return strokes::play(script, scene, Wheel::build(scene).value(), most_poses);
 }
@@ -249,8 +248,8 @@ TEST(Strokes, RefusesAGapInASceneOfOneTool) {
 /// The length of a planned stroke is known only when it is played.
 TEST(Strokes, RefusesMorePosesThanTheLimit) {
   const StrokeScript script = script_through({{10.0, 10.0}, {10.0, 30.0}});
-  const std::size_t count = play_on_lump(script)->size();
-  EXPECT_EQ(play_on_lump(script, count)->size(), count);
+  const std::size_t count = play_on_lump(script)->poses.size();
+  EXPECT_EQ(play_on_lump(script, count)->poses.size(), count);
   const auto refused = play_on_lump(script, count - 1);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message,
