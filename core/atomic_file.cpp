@@ -34,7 +34,7 @@ Result<std::string> read_all(int descriptor, const fs::path& path, std::size_t e
   for (;;) {
     const auto count =
         uninterrupted([&] { return ::read(descriptor, chunk.data(), chunk.size()); });
-    if (count < 0) return io_failure(path, "cannot read");
+    if (count < 0) return io_failure(path, "could not read");
     if (count == 0) return text;
     if (static_cast<std::size_t>(count) > max_bytes - text.size())
       return too_large(path, "more", max_bytes);
@@ -65,9 +65,9 @@ std::pair<int, TemporaryName> open_beside(const fs::path& target) {
 
 Result<std::string> read_file(const fs::path& path, std::size_t max_bytes) {
   const Descriptor file(path == "-" ? ::dup(STDIN_FILENO) : open_retrying(path, O_RDONLY));
-  if (file.get() == -1) return io_failure(path, "cannot open");
+  if (file.get() == -1) return io_failure(path, "could not open");
   struct stat status {};
-  if (::fstat(file.get(), &status) == -1) return io_failure(path, "cannot read");
+  if (::fstat(file.get(), &status) == -1) return io_failure(path, "could not read");
   if (S_ISDIR(status.st_mode))
     return failure(ErrorKind::io, path.string() + ": expected a file, found a folder");
   const auto bytes = S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
@@ -96,37 +96,37 @@ AtomicFile::~AtomicFile() { discard(); }
 
 Result<AtomicFile> AtomicFile::create(const fs::path& target) {
   const auto in_place = [&](int descriptor) -> Result<AtomicFile> {
-    if (descriptor == -1) return io_failure(target, "cannot open");
+    if (descriptor == -1) return io_failure(target, "could not open");
     return AtomicFile(target, descriptor, true);
   };
   if (target == "-") return in_place(::dup(STDOUT_FILENO));
 
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
-  if (!exists && errno != ENOENT) return io_failure(target, "cannot write");
+  if (!exists && errno != ENOENT) return io_failure(target, "could not write");
   if ((exists && S_ISDIR(status.st_mode)) || !target.has_filename())
     return failure(ErrorKind::io,
                    target.string() + ": expected the name of a file, found a folder");
   if (exists && !S_ISREG(status.st_mode))
     return in_place(open_retrying(target, O_WRONLY | O_NOCTTY));
   // A rename does not check this permission.
-  if (exists && ::access(target.c_str(), W_OK) == -1) return io_failure(target, "cannot write");
+  if (exists && ::access(target.c_str(), W_OK) == -1) return io_failure(target, "could not write");
 
   const fs::path resolved = behind_links(target);
   remove_litter(resolved);
   auto [descriptor, temporary] = open_beside(resolved);
-  if (descriptor == -1) return io_failure(target, "cannot create a file in its folder");
+  if (descriptor == -1) return io_failure(target, "could not create a file in its folder");
   AtomicFile file(resolved, descriptor, false);
   if (!temporary.empty()) file.temporary_ = std::make_unique<TemporaryName>(std::move(temporary));
   if (exists && ::fchmod(descriptor, status.st_mode & 07777) == -1)
-    return io_failure(target, "cannot keep the mode");
+    return io_failure(target, "could not keep the mode");
   return file;
 }
 
 Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
   assert(!prepared_);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (!write_all(descriptor_, text)) return give_up("cannot write");
+  if (!write_all(descriptor_, text)) return give_up("could not write");
   written_ += bytes.size();
   begin_writeback();
   return {};
@@ -149,7 +149,7 @@ Result<void> AtomicFile::read_at(std::uint64_t offset, std::span<std::byte> byte
     const auto count = uninterrupted([&] {
       return ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     });
-    if (count < 0) return io_failure(target_, "cannot read again");
+    if (count < 0) return io_failure(target_, "could not read again");
     if (count == 0) return failure(ErrorKind::io, target_.string() + ": ends early");
     bytes = bytes.subspan(static_cast<std::size_t>(count));
     offset += static_cast<std::uint64_t>(count);
@@ -161,17 +161,17 @@ Result<void> AtomicFile::prepare() {
   if (prepared_) return {};
   if (descriptor_ == -1) {
     errno = EBADF;
-    return give_up("cannot write");
+    return give_up("could not write");
   }
   // Terminals and pipes have nothing to sync.
   if (!in_place_ && uninterrupted([&] { return ::fsync(descriptor_); }) == -1)
-    return give_up("cannot sync");
+    return give_up("could not sync");
   // Some file systems report write errors only on close, also on the close of a duplicate; the file
   // itself stays open for its lock. If the limit of open files prevents a duplicate, the sync must
   // suffice. An interrupted close loses no later data.
   const int closing =
       in_place_ ? std::exchange(descriptor_, -1) : ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
-  if (closing != -1 && ::close(closing) == -1 && errno != EINTR) return give_up("cannot close");
+  if (closing != -1 && ::close(closing) == -1 && errno != EINTR) return give_up("could not close");
   prepared_ = true;
   return {};
 }
@@ -182,7 +182,7 @@ Result<void> AtomicFile::name() {
   auto [result, name] = TemporaryName::take(target_, [&](const char* fresh) {
     return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, fresh, AT_SYMLINK_FOLLOW);
   });
-  if (result == -1) return give_up("cannot name");
+  if (result == -1) return give_up("could not name");
   temporary_ = std::make_unique<TemporaryName>(std::move(name));
   return {};
 }
@@ -193,7 +193,7 @@ Result<void> AtomicFile::keep_old() {
   auto [result, old] = TemporaryName::take(
       target_, [&](const char* fresh) { return ::link(target_.c_str(), fresh); });
   if (result == -1) old = copy_beside(target_);  // for file systems without links, such as FAT
-  if (old.empty()) return give_up("cannot keep the old file");
+  if (old.empty()) return give_up("could not keep the old file");
   old.lock();
   old_ = std::make_unique<TemporaryName>(std::move(old));
   return {};
@@ -201,7 +201,8 @@ Result<void> AtomicFile::keep_old() {
 
 Result<void> AtomicFile::replace() {
   if (in_place_) return {};
-  if (::rename(temporary_->path().c_str(), target_.c_str()) == -1) return give_up("cannot replace");
+  if (::rename(temporary_->path().c_str(), target_.c_str()) == -1)
+    return give_up("could not replace");
   temporary_->release();
   return {};
 }

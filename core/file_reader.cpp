@@ -13,9 +13,9 @@ FileReader::FileReader(fs::path path, Descriptor descriptor)
 
 Result<FileReader> FileReader::open(const fs::path& path) {
   Descriptor descriptor(open_retrying(path, O_RDONLY));
-  if (descriptor.get() == -1) return io_failure(path, "cannot open");
+  if (descriptor.get() == -1) return io_failure(path, "could not open");
   struct stat status {};
-  if (::fstat(descriptor.get(), &status) == -1) return io_failure(path, "cannot read");
+  if (::fstat(descriptor.get(), &status) == -1) return io_failure(path, "could not read");
   if (S_ISDIR(status.st_mode))
     return failure(ErrorKind::io, path.string() + ": expected a file, found a folder");
   FileReader file(path, std::move(descriptor));
@@ -26,7 +26,7 @@ Result<FileReader> FileReader::open(const fs::path& path) {
 Result<std::size_t> FileReader::read(std::span<char> part) {
   const auto count =
       uninterrupted([&] { return ::read(descriptor_.get(), part.data(), part.size()); });
-  if (count < 0) return io_failure(path_, "cannot read");
+  if (count < 0) return io_failure(path_, "could not read");
   return static_cast<std::size_t>(count);
 }
 

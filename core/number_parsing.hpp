@@ -42,7 +42,7 @@ std::from_chars_result from_chars(const char* first, const char* last, Integer& 
 
 /// The whole text as a number, as from_chars reads it; empty if it is not one, or does not fit.
 template <class Number>
-std::optional<Number> number_in(std::string_view text) noexcept {
+std::optional<Number> parse_number(std::string_view text) noexcept {
   Number value{};
   const char* const end = text.data() + text.size();
   const auto [stop, problem] = from_chars(text.data(), end, value);
@@ -50,13 +50,13 @@ std::optional<Number> number_in(std::string_view text) noexcept {
   return value;
 }
 
-/// "A between B": both as number_in reads them.
+/// "A between B": both as parse_number reads them.
 template <class Number>
 std::optional<std::pair<Number, Number>> two_numbers(std::string_view text, char between) noexcept {
   const std::size_t at = text.find(between);
   if (at == std::string_view::npos) return std::nullopt;
-  const auto first = number_in<Number>(text.substr(0, at));
-  const auto second = number_in<Number>(text.substr(at + 1));
+  const auto first = parse_number<Number>(text.substr(0, at));
+  const auto second = parse_number<Number>(text.substr(at + 1));
   if (!first || !second) return std::nullopt;
   return std::pair(*first, *second);
 }

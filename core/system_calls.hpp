@@ -4,6 +4,7 @@
 #include "claystack/core/result.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
 #include <csignal>
@@ -48,6 +49,11 @@ inline std::string system_reason() {
 inline tl::unexpected<Error> io_failure(const std::filesystem::path& path,
                                         const std::string& what) {
   return failure(ErrorKind::io, path.string() + ": " + what + ": " + system_reason());
+}
+
+/// Two names or descriptors of one file.
+inline bool same_file(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
 /// Closes its descriptor at the end of the scope.

@@ -61,7 +61,7 @@ bool is_at(int descriptor, const fs::path& path) {
   struct stat open {
   }, named{};
   return ::fstat(descriptor, &open) == 0 && ::lstat(path.c_str(), &named) == 0 &&
-         S_ISREG(named.st_mode) && open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+         S_ISREG(named.st_mode) && same_file(open, named);
 }
 
 /// Holds the lock while checking and removing the name. Otherwise a second cleaner of the same file

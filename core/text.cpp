@@ -132,6 +132,17 @@ bool ends_ignoring_case(std::string_view text, std::string_view ending) noexcept
                             [](char c) { return lower_case(c); });
 }
 
+std::string name_of_file(std::string_view path) {
+  std::string_view name = path.substr(path.rfind('/') + 1);
+  if (name == "-") return "pot";
+  constexpr std::string_view kKinds[] = {".pot.json", ".pot.cbor", ".scene.json", ".process.json"};
+  for (const std::string_view kind : kKinds)
+    if (name.size() > kind.size() && ends_ignoring_case(name, kind))
+      return std::string(name.substr(0, name.size() - kind.size()));
+  const std::size_t dot = name.rfind('.');
+  return std::string(dot == 0 ? name : name.substr(0, dot));
+}
+
 std::string_view without_byte_order_mark(std::string_view text) noexcept {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   return text;

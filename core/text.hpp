@@ -40,6 +40,10 @@ namespace clay {
 /// locale.
 [[nodiscard]] bool ends_ignoring_case(std::string_view text, std::string_view ending) noexcept;
 
+/// The name of a file without its folder and its kind: "bowl" of "pots/bowl.pot.json", "v1.2" of
+/// "v1.2.3mf", "pot" of "-", which is a stream.
+[[nodiscard]] std::string name_of_file(std::string_view path);
+
 /// Text of unknown origin for a message: at most `most` characters, then "..."; bytes that are not
 /// UTF-8, and characters that control, hide or reorder text, become '?'.
 [[nodiscard]] std::string shown(std::string_view text, std::size_t most = 40);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <ctime>
 #include <system_error>
 
 namespace clay {
@@ -43,6 +44,15 @@ fs::path user_folder(UserFolder kind) {
 fs::path current_folder() {
   std::error_code none;
   return fs::current_path(none);
+}
+
+std::string time_and_process() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  const std::size_t length = std::strftime(text, sizeof text, "%Y%m%dT%H%M%S-", &utc);
+  return std::string(text, length) + std::to_string(getpid());
 }
 
 }  // namespace clay

@@ -3,6 +3,7 @@
 // https://specifications.freedesktop.org/basedir-spec/latest
 
 #include <filesystem>
+#include <string>
 
 namespace clay {
 
@@ -21,5 +22,9 @@ enum class UserFolder {
 /// The message for an empty folder.
 inline constexpr const char* kNoHome =
     "expected a home folder, found none: HOME is not set, and the password file has no entry";
+
+/// "20261121T230307-4711": the time (UTC) and the process, for the name of a file that no other
+/// program takes.
+[[nodiscard]] std::string time_and_process();
 
 }  // namespace clay

@@ -46,6 +46,7 @@ struct BatchOptions {
   std::string jobs;
   std::string results;  ///< empty: standard output
   std::string part;     ///< "K/N"
+  std::string redo;     ///< "failed", "all" or empty
   std::size_t processes = std::max(std::thread::hardware_concurrency(), 1U);
   double time_limit_s = 600.0;
 };
@@ -81,7 +82,7 @@ Result<std::vector<BatchJob>> read_jobs(const std::string& path) {
 }
 
 /// Job K, K + N, ... of "K/N": the part of one task of a job array.
-Result<std::vector<BatchJob>> part_of(std::vector<BatchJob> jobs, const std::string& part) {
+Result<std::vector<BatchJob>> jobs_of_part(std::vector<BatchJob> jobs, const std::string& part) {
   if (part.empty()) return jobs;
   const auto numbers = two_numbers<std::uint32_t>(part, '/');
   if (!numbers || numbers->first < 1 || numbers->first > numbers->second)
@@ -119,6 +120,21 @@ Json result_json(const BatchJob& job, const BatchOutcome& outcome) {
   return json;
 }
 
+/// "bowl: status 2: bowl.pot.json: could not open"; of a check that fails, its verdict.
+void warn_of_failure(const Json& result, const Console& console) {
+  const auto status = result["status"].get<int>();
+  if (status == kDone) return;
+  std::string why;
+  if (result.contains("error")) {
+    why = result["error"].get<std::string>();
+    constexpr std::string_view kProgram = "claystack: ";
+    if (why.starts_with(kProgram)) why.erase(0, kProgram.size());
+  } else if (result.contains("output") && result["output"].contains("verdict"))
+    why = result["output"]["verdict"].get<std::string>();
+  console.warn(fmt::format("{}: status {}{}{}", shown(result["id"].get<std::string>()), status,
+                           why.empty() ? "" : ": ", why));
+}
+
 /// `summary`: docs/json.md.
 void print_summary(const Json& summary, const Console& console) {
   if (console.json) print_json(summary);
@@ -135,7 +151,7 @@ void print_summary(const Json& summary, const Console& console) {
 /// The jobs of this part. An error if two of them write the same file.
 Result<std::vector<BatchJob>> checked_jobs(const BatchOptions& options, const Console& console) {
   auto jobs = read_jobs(options.jobs).and_then([&](std::vector<BatchJob> all) {
-    return part_of(std::move(all), options.part);
+    return jobs_of_part(std::move(all), options.part);
   });
   if (!jobs) return jobs;
   if (auto free = check_outputs({{options.results}}, {options.jobs}, console); !free)
@@ -173,8 +189,10 @@ Result<int> batch(BatchOptions options, const Console& console) {
   std::size_t failed = 0;
   const std::size_t skipped = std::erase_if(*jobs, [&](const BatchJob& job) {
     const auto status = results->status_of(job);
-    failed += status && *status != kDone;
-    return status.has_value();
+    const bool again = options.redo == "all" || (options.redo == "failed" && status != kDone);
+    if (!status || again) return false;
+    failed += *status != kDone;
+    return true;
   });
 
   const std::vector<BatchJob> runs = runs_of(*jobs);
@@ -185,8 +203,10 @@ Result<int> batch(BatchOptions options, const Console& console) {
       run_batch(runs, {options.processes, std::chrono::duration<double>(options.time_limit_s)},
                 [&](const BatchOutcome& outcome) {
                   if (!written) return false;  // its job runs again with the next batch
+                  const Json result = result_json((*jobs)[outcome.job], outcome);
                   failed += outcome.status != kDone;
-                  written = results->add(result_json((*jobs)[outcome.job], outcome));
+                  written = results->add(result);
+                  if (!results->is_standard_output()) warn_of_failure(result, console);
                   progress.update(++ended);
                   return written.has_value();
                 });
@@ -224,6 +244,11 @@ void add_batch_command(CLI::App& app, Console& console, int& exit) {
       ->add_option("--time-limit", options->time_limit_s,
                    "Time after which a job is ended [s] (default: 600)")
       ->check(in_range(0.01, 1e6));
+  command
+      ->add_option("--redo", options->redo,
+                   "Run again jobs that have a result: those that failed, or all (default: jobs "
+                   "without a result with status 0 or 1)")
+      ->check(one_of({"failed", "all"}));
   command
       ->add_option("--part", options->part,
                    "Run only the jobs K, K+N, K+2N, ..., for one task of a job array")

@@ -88,11 +88,11 @@ struct Running {
 
 Result<Running> start(const std::vector<BatchJob>& jobs, std::size_t job) {
   std::array<int, 2> out{}, err{};
-  if (::pipe2(out.data(), O_CLOEXEC) != 0) return io_failure("batch", "cannot make a pipe");
+  if (::pipe2(out.data(), O_CLOEXEC) != 0) return io_failure("batch", "could not make a pipe");
   Output out_end(out[0]);
   if (::pipe2(err.data(), O_CLOEXEC) != 0) {
     ::close(out[1]);
-    return io_failure("batch", "cannot make a pipe");
+    return io_failure("batch", "could not make a pipe");
   }
   Output err_end(err[0]);
   const pid_t batch = ::getpid(), process = ::fork();
@@ -101,7 +101,7 @@ Result<Running> start(const std::vector<BatchJob>& jobs, std::size_t job) {
   ::close(out[1]);
   ::close(err[1]);
   errno = failed;
-  if (process == -1) return io_failure("batch", "cannot start a process");
+  if (process == -1) return io_failure("batch", "could not start a process");
   for (const int end : {out[0], err[0]}) (void)::fcntl(end, F_SETFL, O_NONBLOCK);
   return Running{job, process, Clock::now(), std::move(out_end), std::move(err_end)};
 }

@@ -2,6 +2,7 @@
 
 #include "app/cli/console.hpp"
 #include "core/file_reader.hpp"
+#include "core/json/json_text.hpp"
 #include "core/json/located_json.hpp"
 #include "core/system_calls.hpp"
 #include "core/text.hpp"
@@ -48,20 +49,19 @@ Result<ResultFile> ResultFile::open(const std::string& path) {
   const bool written_only = ::stat(path.c_str(), &kind) == 0 && !S_ISREG(kind.st_mode);
   const int mode = written_only ? O_WRONLY : O_RDWR | O_CREAT;
   file.descriptor_ = ::open(path.c_str(), mode | O_APPEND | O_CLOEXEC, 0666);
-  if (file.descriptor_ == -1) return io_failure(path, "cannot open");
-  if (::fstat(file.descriptor_, &kind) != 0) return io_failure(path, "cannot open");
+  if (file.descriptor_ == -1) return io_failure(path, "could not open");
+  if (::fstat(file.descriptor_, &kind) != 0) return io_failure(path, "could not open");
   if (!S_ISREG(kind.st_mode)) return file;
   if (::flock(file.descriptor_, LOCK_EX | LOCK_NB) != 0)
-    return io_failure(path, "cannot lock, another batch may write it");
+    return io_failure(path, "could not lock, another batch may write it");
   return file.read_done().map([&] { return std::move(file); });
 }
 
 bool ResultFile::is_standard_output() const {
   struct stat own {};
   struct stat standard {};
-  return descriptor_ == -1 ||
-         (::fstat(descriptor_, &own) == 0 && ::fstat(STDOUT_FILENO, &standard) == 0 &&
-          own.st_dev == standard.st_dev && own.st_ino == standard.st_ino);
+  return descriptor_ == -1 || (::fstat(descriptor_, &own) == 0 &&
+                               ::fstat(STDOUT_FILENO, &standard) == 0 && same_file(own, standard));
 }
 
 std::optional<int> ResultFile::status_of(const BatchJob& job) const {
@@ -70,7 +70,7 @@ std::optional<int> ResultFile::status_of(const BatchJob& job) const {
 }
 
 Result<void> ResultFile::add(const Json& result) {
-  const std::string line = result.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string line = json_line(result) + "\n";
   if (descriptor_ == -1) {
     put_out(line);
     if (flush_out()) return {};
@@ -78,7 +78,7 @@ Result<void> ResultFile::add(const Json& result) {
   }
   const auto size = ::lseek(descriptor_, 0, SEEK_END);
   if (write_all(descriptor_, line)) return {};
-  const auto failed = io_failure(path_, "cannot write");
+  const auto failed = io_failure(path_, "could not write");
   if (size >= 0) (void)::ftruncate(descriptor_, size);  // if it fails, the next batch removes it
   return failed;
 }
@@ -103,8 +103,11 @@ Result<void> ResultFile::read_line(std::string_view line, std::size_t number) {
                                number, line.empty() ? "an empty line" : kind_of_file(line)));
   const Json& one = document->root();
   const auto status = one.at("status").get<int>();
+  const std::string key = key_of(one.at("run"), one.at("id").get<std::string>());
   if (status == kDone || status == kUnsound)
-    done_[key_of(one.at("run"), one.at("id").get<std::string>())] = status;
+    done_[key] = status;
+  else
+    done_.erase(key);
   return {};
 }
 
@@ -117,7 +120,7 @@ Result<void> ResultFile::remove_unfinished(std::string_view rest, std::uint64_t 
     return failure(ErrorKind::bad_input,
                    path_ + ": expected a result of claystack batch, found " + kind_of_file(rest));
   if (::ftruncate(descriptor_, static_cast<off_t>(size - rest.size())) != 0)
-    return io_failure(path_, "cannot remove the unfinished last line");
+    return io_failure(path_, "could not remove the unfinished last line");
   return {};
 }
 

@@ -27,8 +27,8 @@ class ResultFile {
 
   /// Whether the lines go to standard output, by any of its names.
   [[nodiscard]] bool is_standard_output() const;
-  /// The status of a job that an earlier batch finished: done, with a verdict. Empty for others,
-  /// which run again.
+  /// The status of a job that an earlier batch finished: done, with a verdict, by its last result.
+  /// Empty for others, which run again.
   [[nodiscard]] std::optional<int> status_of(const BatchJob& job) const;
   Result<void> add(const Json& result);
 

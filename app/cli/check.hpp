@@ -75,9 +75,6 @@ struct RepairSummary {
 enum class Grade { pass, warn, fail };
 [[nodiscard]] std::string_view name_of(Grade grade);
 
-/// The check that a problem belongs to, of a pot and of a mesh: "walls", "process" or "geometry".
-[[nodiscard]] std::string check_name(solid::ProblemKind kind);
-
 /// A result that is not about the soundness of the mesh.
 struct Finding {
   std::string check;  ///< "walls", "process", "geometry", "contents" or "certificate"

@@ -118,9 +118,9 @@ void check_cavities(const CheckCommand& command, Verdict& verdict) {
   text += trapped_mm3 < kLeastShownMm3 ? fmt::format("{} mm3 trapped", in_mm3(trapped_mm3))
                                        : fmt::format("{:.4g} cm3 trapped", trapped_mm3 / 1000.0);
   if (trapped_mm3 < kLeastMm3)
-    return verdict.add(check_name(solid::ProblemKind::cavity), Grade::warn, std::move(text));
+    return verdict.add(solid::check_name(solid::ProblemKind::cavity), Grade::warn, std::move(text));
   text += one ? ": it needs a drain hole" : ": they need drain holes";
-  verdict.add(check_name(solid::ProblemKind::cavity), fired ? Grade::fail : Grade::warn,
+  verdict.add(solid::check_name(solid::ProblemKind::cavity), fired ? Grade::fail : Grade::warn,
               std::move(text));
 }
 
@@ -130,7 +130,7 @@ void check_standing(const TriangleMesh& mesh, Verdict& verdict) {
   if (!found) return;
   const bool one = found->hanging == 1;
   verdict.add(
-      check_name(solid::ProblemKind::bodies), Grade::warn,
+      solid::check_name(solid::ProblemKind::bodies), Grade::warn,
       fmt::format("{} of {} parts {} touch the bed or a part on it: {} lowest point is {:.3g} mm "
                   "above the bed",
                   found->hanging, found->parts, one ? "does not" : "do not", one ? "its" : "their",

@@ -22,19 +22,19 @@ void report_wall(const solid::SampledWall& wall, const solid::WallLimit& limit, 
   const std::string sampled = united ? "sampled on the united shells" : std::string("sampled");
   if (wall.rays < command.wall_samples())
     verdict.add(
-        check_name(ProblemKind::thin_wall), Grade::warn,
+        solid::check_name(ProblemKind::thin_wall), Grade::warn,
         fmt::format("sampled by only {} rays instead of {}: too many triangles lie near each ray",
                     wall.rays, command.wall_samples()));
   if (std::isinf(wall.least_mm))
     return verdict.add(
-        check_name(ProblemKind::thin_wall), Grade::fail,
+        solid::check_name(ProblemKind::thin_wall), Grade::fail,
         fmt::format("not measured: none of {} rays reached the other side of a wall", wall.rays));
   if (limit.met_by(wall.least_mm))
-    return verdict.add(check_name(ProblemKind::thin_wall), Grade::pass,
+    return verdict.add(solid::check_name(ProblemKind::thin_wall), Grade::pass,
                        sampled + ": " + solid::wall_text(wall.least_mm, limit));
   // The triangles of united shells are not those of the file.
   const std::string triangle = united ? "" : fmt::format("triangle {} ", wall.triangle);
-  verdict.add(check_name(ProblemKind::thin_wall), Grade::fail,
+  verdict.add(solid::check_name(ProblemKind::thin_wall), Grade::fail,
               fmt::format("thin wall ({}): {}at ({:.6g}, {:.6g}, {:.6g}) mm: {}", sampled, triangle,
                           wall.place.x, wall.place.y, wall.place.z,
                           solid::wall_text(wall.least_mm, limit)));
@@ -49,7 +49,7 @@ Result<void> measure_wall(const PrintedBody& body, const solid::WallLimit& limit
   if (!wall && wall.error().kind == ErrorKind::io)
     return failure(ErrorKind::io, command.file + ": " + wall.error().message);
   if (!wall) {
-    verdict.add(check_name(ProblemKind::thin_wall), Grade::fail,
+    verdict.add(solid::check_name(ProblemKind::thin_wall), Grade::fail,
                 "not measured: " + wall.error().message);
     return {};
   }
@@ -90,7 +90,6 @@ Result<PrintedBody> printed_body(const TriangleMesh& mesh, const CheckCommand& c
   return body;
 }
 
-/// Size and undersides, upright as the file has them.
 void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckCommand& command,
                    Verdict& verdict) {
   const auto& process = command.walls.demand().process;
@@ -100,7 +99,7 @@ void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckC
   const auto& largest = process->size;
   const bool fits = !largest || largest->fits(size);
   if (!fits)
-    verdict.add(check_name(ProblemKind::too_large), Grade::fail,
+    verdict.add(solid::check_name(ProblemKind::too_large), Grade::fail,
                 fmt::format("too large: {}; {}: at most {:g} x {:g} mm and {:g} mm high ({})",
                             passed, solid::process_title(process->name), largest->width_mm,
                             largest->depth_mm, largest->height_mm, largest->source));
@@ -108,7 +107,7 @@ void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckC
     const bool outward = !verdict.mesh.closed || verdict.mesh.oriented;
     const auto steepest = outward ? solid::steepest_overhang(body.mesh()) : std::nullopt;
     if (steepest && !most->met_by(steepest->angle_deg))
-      return verdict.add(check_name(ProblemKind::overhang), Grade::warn,
+      return verdict.add(solid::check_name(ProblemKind::overhang), Grade::warn,
                          solid::overhang_text(steepest->angle_deg, steepest->height_mm, *process));
     if (steepest)
       passed += fmt::format(", largest overhang {:.0f} degrees", steepest->angle_deg);
@@ -120,19 +119,18 @@ void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckC
     verdict.add("process", Grade::pass, solid::process_title(process->name) + ": " + passed);
 }
 
-/// Compares the walls with the limit: those that a certificate of these bytes proves, without one
-/// a sample.
 Result<void> check_walls(const PrintedBody& body, const glm::dvec3& size,
                          const CheckCommand& command, const Console& console, Verdict& verdict) {
   const auto limit = command.walls.demand().for_size(solid::size_sum_mm(size));
   if (!limit) return {};
   if (!verdict.certified_wall_mm && !body.unknown.empty()) {
-    verdict.add(check_name(ProblemKind::thin_wall), Grade::fail, "not measured: " + body.unknown);
+    verdict.add(solid::check_name(ProblemKind::thin_wall), Grade::fail,
+                "not measured: " + body.unknown);
     return {};
   }
   if (!verdict.certified_wall_mm) return measure_wall(body, *limit, command, console, verdict);
   const double wall_mm = *verdict.certified_wall_mm;
-  verdict.add(check_name(ProblemKind::thin_wall),
+  verdict.add(solid::check_name(ProblemKind::thin_wall),
               limit->met_by(wall_mm) ? Grade::pass : Grade::fail,
               "certified: " + solid::wall_text(wall_mm, *limit));
   return {};

@@ -103,13 +103,12 @@ Result<solid::MeshReport> report_on(const TriangleMesh& mesh) {
   const MemoryRoom room = memory_room();
   if (auto fits = expect_room(job, solid::check_memory(mesh.triangles.size())); !fits)
     return tl::make_unexpected(fits.error());
-  solid::MeshReport report = solid::check_mesh(mesh);
-  // The estimate was too low for this mesh.
-  if (report.out_of_memory)
-    return failure(ErrorKind::io,
-                   fmt::format("{} needs more memory than the {} available within {}", job,
-                               gigabytes(room.bytes), room.limit));
-  return report;
+  // The estimate may be too low for this mesh.
+  return solid::check_mesh(mesh).map_error([&](Error error) {
+    error.message = fmt::format("{}: {}; {} were available within {}", job, error.message,
+                                gigabytes(room.bytes), room.limit);
+    return error;
+  });
 }
 
 Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,

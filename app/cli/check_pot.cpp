@@ -27,10 +27,12 @@ std::size_t check_segments(const solid::Profile& profile) {
   return std::clamp(kQuickTriangles / each, kFewestSegments, kMostSegments);
 }
 
-std::string failure_text(const Collapse& fall) {
-  return fall.parted()
-             ? fmt::format("ring {} no longer touches the ring above it", fall.failed_ring)
-             : fmt::format("ring {} yielded at {:.4g} kPa", fall.failed_ring, fall.stress_kpa);
+std::string failure_text(const Collapse& fall, double ring_mm) {
+  const std::string place =
+      fmt::format("the clay at a height of {:.1f} mm (ring {})",
+                  (static_cast<double>(fall.failed_ring) + 0.5) * ring_mm, fall.failed_ring);
+  return fall.parted() ? place + " no longer touches the clay above it"
+                       : fmt::format("{} yielded at {:.4g} kPa", place, fall.stress_kpa);
 }
 
 /// The figures that were compared with the limits of the process.
@@ -72,15 +74,15 @@ Result<Verdict> verdict_on(const solid::ExportReport& report) {
   verdict.wall_parts = report.walls.parts;
   const auto& limit = report.walls.limit;
   if (limit && !limit->met_by(*verdict.wall_mm))
-    verdict.add(check_name(solid::ProblemKind::thin_wall), Grade::fail,
+    verdict.add(solid::check_name(solid::ProblemKind::thin_wall), Grade::fail,
                 "thin wall: " + solid::thin_wall_text(profile, *verdict.wall_mm, *limit));
   else if (limit)
-    verdict.add(check_name(solid::ProblemKind::thin_wall), Grade::pass,
+    verdict.add(solid::check_name(solid::ProblemKind::thin_wall), Grade::pass,
                 solid::wall_text(*verdict.wall_mm, *limit));
   for (const solid::Problem& problem : solid::problems_of(report)) {
     const bool bodies = problem.kind == solid::ProblemKind::bodies;
-    verdict.add(check_name(problem.kind), problem.fails || bodies ? Grade::fail : Grade::warn,
-                problem.text);
+    verdict.add(solid::check_name(problem.kind),
+                problem.fails || bodies ? Grade::fail : Grade::warn, problem.text);
   }
   const bool process_passes = std::ranges::none_of(
       verdict.findings, [](const Finding& finding) { return finding.check == "process"; });
@@ -110,7 +112,7 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command,
   if (!pot) return tl::make_unexpected(pot.error());
   if (pot->collapse)
     return not_examined(MeshState::will_not_print, "collapsed",
-                        failure_text(*pot->collapse) +
+                        failure_text(*pot->collapse, pot->stack.ring_height_mm()) +
                             "; claystack export writes the fallen pot, with --pieces if it is in "
                             "several");
   // The export with its defaults, without a file.

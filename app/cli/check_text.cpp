@@ -76,11 +76,14 @@ void print_repair(const Console& console, const RepairSummary& summary, const Ve
   if (summary.reading_mm >= kLeastShownMm)
     console.print(
         fmt::format("  read: points rounded to float32, by up to {:.3g} mm", summary.reading_mm));
-  const std::string before =
-      summary.volume_before_mm3 ? fmt::format("{:.6g} cm3 before", *summary.volume_before_mm3 / 1e3)
-                                : std::string("none before, because the mesh enclosed none");
-  console.print(
-      fmt::format("  volume: {}, {:.6g} cm3 after", before, verdict.mesh.volume_mm3 / 1e3));
+  const auto volume = [](const std::optional<double>& mm3, std::string_view when) {
+    return mm3 ? fmt::format("{:.6g} cm3 {}", *mm3 / 1e3, when)
+               : fmt::format("none {}, because the mesh encloses none", when);
+  };
+  const auto& mesh = verdict.mesh;
+  console.print(fmt::format(
+      "  volume: {}, {}", volume(summary.volume_before_mm3, "before"),
+      volume(mesh.has_volume ? std::optional(mesh.volume_mm3) : std::nullopt, "after")));
   const std::string_view state = name_of(verdict.state);
   console.print(
       summary.path.empty()

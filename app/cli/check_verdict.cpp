@@ -23,22 +23,6 @@ MeshState state_of(const solid::TriangleMesh& mesh, const solid::MeshReport& rep
   return solid::slicer_unites(mesh, report) ? MeshState::prints : MeshState::will_not_print;
 }
 
-std::string check_name(solid::ProblemKind kind) {
-  switch (kind) {
-    case solid::ProblemKind::thin_wall:
-      return "walls";
-    case solid::ProblemKind::too_large:
-    case solid::ProblemKind::overhang:
-      return "process";
-    case solid::ProblemKind::cavity:
-    case solid::ProblemKind::drain:
-    case solid::ProblemKind::bodies:
-    case solid::ProblemKind::lip_fillet:
-      break;
-  }
-  return "geometry";
-}
-
 std::string_view name_of(Grade grade) {
   return grade == Grade::pass ? "pass" : grade == Grade::warn ? "warn" : "fail";
 }

@@ -10,14 +10,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 namespace clay::cli {
 namespace {
 
-Json collapse_json(const Collapse& fall) {
+Json collapse_json(const Collapse& fall, double ring_mm) {
   return {{"ring", fall.failed_ring},
+          {"height_mm", (static_cast<double>(fall.failed_ring) + 0.5) * ring_mm},
           {"stress_kpa", fall.stress_kpa},
           {"threshold_kpa", fall.threshold_kpa},
           {"parted", fall.parted()},
@@ -55,19 +57,20 @@ void add_export([[maybe_unused]] const Pot& pot, Json& json) {
 void print_collapse(const Console& console, const Json& summary) {
   if (!summary["collapsed"].get<bool>()) return;
   const Json& fall = summary["collapse"];
-  const auto ring = fall["ring"].get<std::size_t>();
+  const auto place = fmt::format("the clay at a height of {:.1f} mm (ring {})",
+                                 number_field(fall, "height_mm"), fall["ring"].get<std::size_t>());
   const auto carried = fall["stress_kpa"].get<double>(), most = fall["threshold_kpa"].get<double>();
   const int decimals = decimals_apart(carried, most, 3);
   const std::string reason =
       fall["parted"].get<bool>()
-          ? fmt::format("ring {} no longer touches the ring above it", ring)
-          : fmt::format("ring {} carried {:.{}f} kPa, more than the limit of {:.{}f} kPa", ring,
+          ? place + " no longer touches the clay above it"
+          : fmt::format("{} carried {:.{}f} kPa, more than the limit of {:.{}f} kPa", place,
                         carried, decimals, most, decimals);
   console.print(
       fmt::format("collapsed: {}; the part above came to rest, tilted by {:.0f} degrees; it lost "
                   "{:.1f} mJ of energy, {:.1f} mJ of that by deforming the clay below",
-                  reason, fall["angle_deg"].get<double>(), fall["energy_lost_mj"].get<double>(),
-                  fall["plastic_work_mj"].get<double>()));
+                  reason, std::abs(number_field(fall, "angle_deg")),
+                  fall["energy_lost_mj"].get<double>(), fall["plastic_work_mj"].get<double>()));
 }
 
 /// "in 3 pieces that do not touch, parted at heights of 20.3 and 41.0 mm".
@@ -97,18 +100,18 @@ std::string verdict_of(const Json& summary) {
 
 const char* name_of(Model model) { return model == Model::paper ? "paper" : "conserving"; }
 
-Json clay_json(const Wheel& wheel, const Pot& pot) {
-  const ClayStack& stack = wheel.stack();
+Json clay_json(const Pot& pot) {
+  const ClayStack& stack = pot.stack;
   Json json = {
       {"rings", stack.size()},
       {"height_mm", stack.height_mm()},
       {"volume_mm3", stack.volume_mm3()},
-      {"trimmed_mm3", static_cast<double>(wheel.ledger().trimmed) * stack.mm3_per_quantum()},
-      {"volume_error_quanta", json_count(wheel.ledger().volume_error(stack.recount()))},
+      {"trimmed_mm3", static_cast<double>(pot.ledger.trimmed) * stack.mm3_per_quantum()},
+      {"volume_error_quanta", json_count(pot.ledger.volume_error(stack.recount()))},
       {"collapsed", pot.collapse.has_value()},
   };
   add_export(pot, json);
-  if (pot.collapse) json["collapse"] = collapse_json(*pot.collapse);
+  if (pot.collapse) json["collapse"] = collapse_json(*pot.collapse, stack.ring_height_mm());
   return json;
 }
 

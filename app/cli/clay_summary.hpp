@@ -17,7 +17,7 @@ inline constexpr std::string_view kPotNotWritten = "pot: not written; -o NAME.po
 /// Rings, height, volume and its error, minimum wall, the numbers of a maker, the pieces and the
 /// heights at which they part, collapse. Wall, numbers and pieces are those of the default export
 /// with --pieces; null for a pot that cannot be exported, and the wall of one that collapsed.
-[[nodiscard]] Json clay_json(const Wheel& wheel, const Pot& pot);
+[[nodiscard]] Json clay_json(const Pot& pot);
 
 /// Size, weight, capacity, wall and verdict, and how it fell. `summary` has the fields of
 /// clay_json.

@@ -1,5 +1,7 @@
 #include "app/cli/device_monitor.hpp"
+
 #include "app/cli/json_output.hpp"
+#include "core/json/json_text.hpp"
 
 #include <fmt/format.h>
 #include <signal.h>
@@ -73,7 +75,7 @@ std::string view_text(const View& view) {
 /// False: output failed permanently.
 bool show(const View& view, const Console& console, bool terminal) {
   if (console.json) {
-    put_out(view_json(view).dump() + "\n");
+    put_out(json_line(view_json(view)) + "\n");
   } else if (!console.quiet && terminal) {
     put_out("\r\033[K" + view_text(view));
   } else {

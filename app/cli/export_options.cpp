@@ -20,7 +20,7 @@ namespace clay::cli {
 namespace {
 
 /// "12%": a part, 0.12. Errors state what was expected.
-Result<double> part_of(const std::string& text, double most) {
+Result<double> parse_percent(const std::string& text, double most) {
   double percent = 0.0;
   const char* end = text.data() + text.size();
   const auto [stop, problem] = from_chars(text.data(), end, percent);
@@ -77,7 +77,7 @@ template <class Field>
 void add_part(CLI::App& sub, ExportCommand& command, const std::string& name, double most,
               const std::string& help, Field field) {
   add_parsed(
-      sub, name, help, [most](const std::string& text) { return part_of(text, most); },
+      sub, name, help, [most](const std::string& text) { return parse_percent(text, most); },
       [&command, field](double part) { field(command.request.options) = part; })
       ->type_name("PERCENT");
 }

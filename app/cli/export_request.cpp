@@ -5,6 +5,7 @@
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/pot_input.hpp"
 #include "app/cli/usage.hpp"
+#include "core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -194,7 +195,7 @@ Result<void> complete_request(ExportCommand& command, const Console& console) {
   options.full_verification = command.verify == "full";
   options.finish.glaze_mm = command.glaze_mm * solid::enlargement(options.shrinkage);
   options.walls = command.walls.demand();
-  options.name = std::filesystem::path(command.pot).stem().stem().string();
+  options.name = name_of_file(command.pot);
   options.source = command.pot;
   options.announce_size = warning_of_size(console, options.smoothing);
   options.expect_memory = [](std::uint64_t bytes) { return expect_room("writing meshes", bytes); };

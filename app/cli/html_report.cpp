@@ -51,7 +51,7 @@ class Page {
     if (report.has_solid()) walls();
     if (report.maker) drawing();
     files();
-    work();
+    left_out_and_times();
     html_.raw("</body></html>\n");
   }
 
@@ -112,7 +112,7 @@ class Page {
   }
 
   void maker(const Json& maker) {
-    const bool fired = !maker["fired"].is_null();
+    const bool fired = !maker["fired"].is_null(), glazed = !maker["glazed"].is_null();
     table("Size, weight, capacity and surface", [&] {
       std::vector<std::pair<std::string, const Json*>> states;
       for (const auto& [key, name] : {std::pair("thrown", "as thrown"), std::pair("dry", "dry"),
@@ -126,7 +126,7 @@ class Page {
         if (maker["thrown"][field].is_null()) return;
         std::vector<std::string> cells{name};
         for (const auto& state : states)
-          cells.push_back(size_text(number_in(*state.second, field), digits) + unit);
+          cells.push_back(size_text(number_field(*state.second, field), digits) + unit);
         row(cells);
       };
       line("diameter", "diameter_mm", " mm", 1);
@@ -135,7 +135,10 @@ class Page {
       line("weight", "weight_g", " g", 0);
       line("capacity to the brim", "capacity_ml", " ml", 0);
       line(fmt::format("capacity to the fill line, {:g} mm below the brim{}",
-                       number_in(maker, "fill_line_mm"), fired ? " of the fired pot" : ""),
+                       number_field(maker, "fill_line_mm"),
+                       glazed  ? " of the glazed pot"
+                       : fired ? " of the fired pot"
+                               : ""),
            "to_line_ml", " ml", 0);
       line("surface inside", "inside_cm2", " cm2", 0);
       line("surface outside, without the foot", "outside_cm2", " cm2", 0);
@@ -145,8 +148,8 @@ class Page {
       row({"", "centre of gravity", "tips at"}, "th");
       for (const auto& [key, name] : {std::pair("empty", "empty"), std::pair("full", "full")})
         if (!maker[key].is_null())
-          row({name, fixed(number_in(maker[key], "centre_mm"), 1) + " mm above the foot",
-               fixed(number_in(maker[key], "tipping_deg"), 1) + " degrees"});
+          row({name, fixed(number_field(maker[key], "centre_mm"), 1) + " mm above the foot",
+               fixed(number_field(maker[key], "tipping_deg"), 1) + " degrees"});
     });
   }
 
@@ -193,11 +196,11 @@ class Page {
              fmt::format("{:.0f} degrees from the vertical at a height of {:.1f} mm",
                          overhang->angle_deg, overhang->at.y)},
             "td", false);
-      if (const auto& process = report_.process.limits) fits(*process);
+      if (const auto& process = report_.process.limits) bed_row(*process);
     });
   }
 
-  void fits(const solid::ProcessLimits& process) {
+  void bed_row(const solid::ProcessLimits& process) {
     if (process.size)
       row({"fits " + solid::process_title(process.name),
            json_["process"]["bed"]["fits"].get<bool>() ? "yes" : "no"},
@@ -232,17 +235,17 @@ class Page {
       const Json& certificate = json_["certificate"];
       row({"proved", certificate["proved"].get<std::string>()}, "td", false);
       row({"volume", fmt::format("{:.3f} cm3; relative difference to the counted clay {:.1e}",
-                                 1e-3 * number_in(json_, "volume_mm3"),
-                                 number_in(json_, "volume_error_relative"))},
+                                 1e-3 * number_field(json_, "volume_mm3"),
+                                 number_field(json_, "volume_error_relative"))},
           "td", false);
       row({"facets", fmt::format("{} triangles, chordal error {:.3g} mm",
                                  json_["triangles"].get<std::size_t>(),
-                                 number_in(json_, "chordal_error_mm"))},
+                                 number_field(json_, "chordal_error_mm"))},
           "td", false);
     });
   }
 
-  void work() {
+  void left_out_and_times() {
     table("Left out", [&] {
       for (const auto& [what, why, saved] : report_.left_out) row({what, why}, "td", false);
     });

@@ -18,8 +18,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,6 +59,16 @@ Result<void> set_axis(ImportOptions& options) {
   return {};
 }
 
+/// How far the outside leans from the vertical at the rim, if the corner there is so narrow that
+/// the wall counts as thinner [degrees].
+std::optional<double> sharp_rim(const HalfSection& section) {
+  constexpr double kMostDeg = 50.0;
+  const Slab& top = section.slabs.back();
+  const double lean_deg = std::atan2(top.outer_to_mm - top.outer_from_mm, top.to_mm - top.from_mm) *
+                          180.0 / std::numbers::pi;
+  return lean_deg > kMostDeg ? std::optional(lean_deg) : std::nullopt;
+}
+
 /// Each with the file or option that it is about; the notes of the section first.
 std::vector<std::string> warnings_about(const ImportOptions& options, const HalfSection& section,
                                         const DrawnPot& drawn) {
@@ -71,6 +84,11 @@ std::vector<std::string> warnings_about(const ImportOptions& options, const Half
         "{}: expected rings within {:g} mm of the drawing, found {:.3f} mm; rings lower than {:g} "
         "mm are not closer, because details of the drawing are lower still",
         options.drawing, kDrawnDeviationMm, drawn.deviation.mm, drawn.pot.stack.ring_height_mm()));
+  if (const auto lean_deg = sharp_rim(section); lean_deg && options.pot_settings.wall_mm)
+    warnings.push_back(fmt::format(
+        "{}: the wall leans outward by {:.0f} degrees at the rim, which is cut level, so its edge "
+        "is sharp; draw the rim steeper, or draw the inside too",
+        options.drawing, *lean_deg));
   if (const auto gap = gap_warning(drawn.pot.stack))
     warnings.push_back(options.drawing + ": " + *gap + " (--ring-height)");
   return warnings;
@@ -118,13 +136,16 @@ void print_summary(const Console& console, const ImportOptions& options, const H
   console.print(fmt::format("axis at x = {:.3f} mm of the drawing ({})",
                             rounded_to(json["axis_mm"].get<double>(), 1e-3),
                             axis_source(options, section)));
-  console.print(fmt::format(
-      "{} of {:.4g} mm: {} mm high, {} cm3 of clay ({} cm3 {})",
-      counted(json["rings"].get<std::size_t>(), "ring"), number_in(json, "ring_height_mm"),
-      size_text(number_in(json, "height_mm"), 1), size_text(number_in(json, "volume_mm3") / 1e3, 1),
-      size_text(number_in(json, "drawn_mm3") / 1e3, 1),
-      options.pot_settings.wall_mm ? "if it were solid" : "in the drawing"));
+  console.print(fmt::format("{} of {:.4g} mm: {} mm high, {} cm3 of clay ({} cm3 {})",
+                            counted(json["rings"].get<std::size_t>(), "ring"),
+                            number_field(json, "ring_height_mm"),
+                            size_text(number_field(json, "height_mm"), 1),
+                            size_text(number_field(json, "volume_mm3") / 1e3, 1),
+                            size_text(number_field(json, "drawn_mm3") / 1e3, 1),
+                            options.pot_settings.wall_mm ? "if it were solid" : "in the drawing"));
   console.print(text_of(drawn.deviation, "drawing"));
+  if (!drawn.pot.stack.hollow())
+    console.print("solid: the drawing shows no inside (--wall LENGTH makes one)");
   if (drawn.thinnest)
     console.print(fmt::format(
         "thinnest wall as drawn: {:.2f} mm, {:.2f} mm from the axis and {:.2f} mm above "

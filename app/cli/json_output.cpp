@@ -1,6 +1,7 @@
 #include "app/cli/json_output.hpp"
 
 #include "app/cli/console.hpp"
+#include "core/json/json_text.hpp"
 #include "core/text.hpp"
 
 #include <cstdint>
@@ -14,18 +15,14 @@ bool printed = false;
 
 }  // namespace
 
-std::string pretty(const Json& data) {
-  return data.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 void print_json(const Json& data) {
   printed = true;
-  put_out(pretty(data));
+  put_out(json_document(data));
 }
 
 bool json_printed() noexcept { return printed; }
 
-double number_in(const Json& object, const char* field) { return object[field].get<double>(); }
+double number_field(const Json& object, const char* field) { return object[field].get<double>(); }
 
 Json json_count(WideQuanta count) {
   using Limits = std::numeric_limits<std::int64_t>;

@@ -11,11 +11,7 @@ namespace clay::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// A whole JSON document for a file or a script. Invalid UTF-8 in file names is replaced, because
-/// JSON cannot hold it.
-[[nodiscard]] std::string pretty(const Json& data);
-
-/// One JSON document to standard output, pretty.
+/// One JSON document to standard output.
 void print_json(const Json& data);
 [[nodiscard]] bool json_printed() noexcept;  ///< whether print_json was called
 /// The fields of samples/schema/error.schema.json, for the summary of a command that fails late.
@@ -24,7 +20,7 @@ void print_json(const Json& data);
 int report(const Error& error, Json fields);
 
 /// The field of an object, which is a number.
-[[nodiscard]] double number_in(const Json& object, const char* field);
+[[nodiscard]] double number_field(const Json& object, const char* field);
 
 /// A count for JSON: a number if it fits into 64 bits, otherwise decimal digits in a string.
 [[nodiscard]] Json json_count(WideQuanta count);

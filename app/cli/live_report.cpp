@@ -80,7 +80,7 @@ const char* name_of(servo::Ending ending) {
 }
 
 std::string status_line(const servo::LiveStatus& status, double rate_hz) {
-  return fmt::format("{:6.1f} s  {:4.0f} Hz  {:4.2f} N  {:.0f} quanta  {:5.1f} mm  {}",
+  return fmt::format("{:6.1f} s  {:4.0f} Hz  {:4.2f} N  volume error {:.0f} quanta  {:5.1f} mm  {}",
                      status.time_s, rate_hz, glm::length(status.force_n), status.volume_error,
                      status.height_mm, servo::words_of(status, kRearmKey));
 }

@@ -197,7 +197,7 @@ Result<void> throw_live(const LiveJob& job, LiveOptions options, Console console
                {"recording", recording_json(options, stage)},
                {"servo", servo_json(servo::LiveMeasures::timing(live),
                                     servo::LiveMeasures::events(live), live.realtime())}};
-  json.update(clay_json(*stage.wheel, pot));
+  json.update(clay_json(pot));
   const Result<void> outcome = outcome_of(stage, ended, kept, console);
   if (!outcome) json.update(error_json(outcome.error()));
   if (console.json) print_json(json);

@@ -51,16 +51,16 @@ const Json& used_state(const Json& numbers) {
 }
 
 std::string extent_text(const Json& state) {
-  return fmt::format("{} mm wide, {} mm high", size_text(number_in(state, "diameter_mm"), 1),
-                     size_text(number_in(state, "height_mm"), 1));
+  return fmt::format("{} mm wide, {} mm high", size_text(number_field(state, "diameter_mm"), 1),
+                     size_text(number_field(state, "height_mm"), 1));
 }
 
 std::string weight_text(const Json& state) {
-  return size_text(number_in(state, "weight_g"), 0) + " g";
+  return size_text(number_field(state, "weight_g"), 0) + " g";
 }
 
 std::string capacity_text(const Json& state) {
-  return size_text(number_in(state, "capacity_ml"), 0) + " ml";
+  return size_text(number_field(state, "capacity_ml"), 0) + " ml";
 }
 
 std::string capacity_row(const Json& numbers) {
@@ -70,8 +70,8 @@ std::string capacity_row(const Json& numbers) {
     return "none: " + numbers["no_capacity"].get<std::string>();
   if (used["capacity_ml"].is_null()) return "none: the pot collapsed";
   const std::string to_brim = by_state(numbers, capacity_text) + " to the brim; ";
-  const double to_line_ml = number_in(used, "to_line_ml");
-  const double line_mm = number_in(numbers, "fill_line_mm");
+  const double to_line_ml = number_field(used, "to_line_ml");
+  const double line_mm = number_field(numbers, "fill_line_mm");
   if (to_line_ml <= 0.0)
     return to_brim + fmt::format("the fill line, {:g} mm below it, is below the floor", line_mm);
   return to_brim + fmt::format("{} ml to {:g} mm below it{}", size_text(to_line_ml, 0), line_mm,
@@ -86,8 +86,8 @@ std::string surface_row(const Json& numbers) {
   const Json& used = fired ? numbers["fired"] : numbers["thrown"];
   if (used["inside_cm2"].is_null()) return {};
   return fmt::format("{} cm2 inside, {} cm2 outside without the foot{}",
-                     size_text(number_in(used, "inside_cm2"), 0),
-                     size_text(number_in(used, "outside_cm2"), 0), fired ? ", fired" : "");
+                     size_text(number_field(used, "inside_cm2"), 0),
+                     size_text(number_field(used, "outside_cm2"), 0), fired ? ", fired" : "");
 }
 
 }  // namespace

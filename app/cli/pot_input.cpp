@@ -137,7 +137,9 @@ std::optional<std::string> other_size(const solid::TriangleMesh& mesh, const Pot
   if (std::abs(sizes.across() - 1.0) < 0.01 && std::abs(sizes.up() - 1.0) < 0.01)
     return std::nullopt;
   return fmt::format(
-      "{} mm wide and {} mm high; the mesh is {} mm and {} mm, {:.2f} and {:.2f} times as much",
+      "{} mm wide and {} mm high; the mesh is {} mm wide and {} mm high, {:.2f} and {:.2f} times "
+      "as "
+      "much",
       size_text(sizes.pot_width_mm, 1), size_text(sizes.pot_height_mm, 1),
       size_text(sizes.mesh_width_mm, 1), size_text(sizes.mesh_height_mm, 1), sizes.across(),
       sizes.up());

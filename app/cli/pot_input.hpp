@@ -38,7 +38,8 @@ Result<Pot> read_pot(const std::string& path, const Console& console);
 /// export. The mesh may be moved, or turned about the vertical.
 [[nodiscard]] std::optional<std::string> mesh_differs(const solid::TriangleMesh& mesh,
                                                       const Pot& pot);
-/// "77.1 mm wide and 129.7 mm high; the mesh is 84.6 mm and 143.6 mm, 1.10 and 1.11 times as much";
+/// "77.1 mm wide and 129.7 mm high; the mesh is 84.6 mm wide and 143.6 mm high, 1.10 and 1.11 times
+/// as much";
 /// empty if the mesh is as large as the pot, within a hundredth.
 [[nodiscard]] std::optional<std::string> other_size(const solid::TriangleMesh& mesh,
                                                     const Pot& pot);

@@ -8,27 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <system_error>
 
 namespace clay::cli {
 namespace {
-
-/// A number in the first of the units, or in the one that it names; empty for any other text.
-std::optional<double> number_in(std::string_view text, std::span<const Unit> units) {
-  double number = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [stop, problem] = from_chars(text.data(), end, number);
-  if (problem != std::errc()) return {};
-  std::string_view name(stop, static_cast<std::size_t>(end - stop));
-  if (name.starts_with(' ')) name.remove_prefix(1);
-  if (name.empty()) return number * units.front().factor;
-  const auto unit = std::ranges::find_if(units, [&](const Unit& one) {
-    return one.name.size() == name.size() && ends_ignoring_case(name, one.name);
-  });
-  if (unit == units.end()) return {};
-  return number * unit->factor;
-}
 
 std::string names_of(std::span<const Unit> units) {
   std::string names;
@@ -44,9 +27,25 @@ std::string limits_text(double low_mm, double high_mm) {
 
 }  // namespace
 
+std::optional<double> number_with_unit(std::string_view text, std::span<const Unit> units,
+                                       std::string_view usual) {
+  double number = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, problem] = from_chars(text.data(), end, number);
+  if (problem != std::errc()) return {};
+  std::string_view name(stop, static_cast<std::size_t>(end - stop));
+  if (name.starts_with(' ')) name.remove_prefix(1);
+  if (name.empty()) name = usual.empty() ? units.front().name : usual;
+  const auto unit = std::ranges::find_if(units, [&](const Unit& one) {
+    return one.name.size() == name.size() && ends_ignoring_case(name, one.name);
+  });
+  if (unit == units.end()) return {};
+  return number * unit->factor;
+}
+
 Result<double> quantity_of(std::string_view text, std::span<const Unit> units) {
   constexpr double kMost = 1e9;
-  const auto number = number_in(text, units);
+  const auto number = number_with_unit(text, units);
   if (number && *number > 0.0 && *number < kMost) return *number;
   return failure(ErrorKind::bad_input,
                  fmt::format("expected a number above 0 and below {:g} {} (units: {}), found {}",
@@ -54,7 +53,7 @@ Result<double> quantity_of(std::string_view text, std::span<const Unit> units) {
 }
 
 Result<double> length_of(std::string_view text, double low_mm, double high_mm) {
-  const auto length = number_in(text, kLengthUnits);
+  const auto length = number_with_unit(text, kLengthUnits);
   // Not (length < low): NaN must fail.
   if (length && *length >= low_mm && *length <= high_mm) return *length;
   return failure(ErrorKind::bad_input,
@@ -69,7 +68,7 @@ Error or_else(std::string_view word, const Error& error) {
 
 CLI::Validator length_within(double low_mm, double high_mm, OrNone zero) {
   return {[=](std::string& text) {
-            const bool none = zero == OrNone::yes && number_in(text, kLengthUnits) == 0.0;
+            const bool none = zero == OrNone::yes && number_with_unit(text, kLengthUnits) == 0.0;
             const auto length = none ? Result<double>(0.0) : length_of(text, low_mm, high_mm);
             if (!length)
               return (zero == OrNone::yes ? or_else("0", length.error()) : length.error()).message;

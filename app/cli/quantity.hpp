@@ -7,6 +7,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,6 +28,12 @@ inline constexpr std::array kVolumeUnits{Unit{"ml", 1.0}, Unit{"cl", 10.0}, Unit
 /// Factors to g; the pound and the ounce are those of shops (avoirdupois).
 inline constexpr std::array kWeightUnits{Unit{"g", 1.0}, Unit{"kg", 1000.0},
                                          Unit{"oz", 28.349523125}, Unit{"lb", 453.59237}};
+
+/// A number in the unit that it names, in capitals or not, or else in `usual`, one of the units
+/// (empty: the first); in the first unit. Empty for any other text.
+[[nodiscard]] std::optional<double> number_with_unit(std::string_view text,
+                                                     std::span<const Unit> units,
+                                                     std::string_view usual = {});
 
 /// "350ml", "0.35 l", "350": a number above 0 in the first of the units, or in the one that it
 /// names, in capitals or not. Errors of kind `bad_input` list the units.

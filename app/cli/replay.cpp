@@ -6,6 +6,7 @@
 
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
+#include "core/text.hpp"
 #include "core/time_units.hpp"
 
 #include <fmt/format.h>
@@ -109,8 +110,7 @@ Result<Start> load_start(const std::string& scene_path, const std::string& pot_p
     start.pot = std::move(*pot);
   }
   if (scene_path.empty()) {
-    start.scene =
-        history::scene_for(*start.pot, std::filesystem::path(pot_path).stem().stem().string());
+    start.scene = history::scene_for(*start.pot, name_of_file(pot_path));
     return start;
   }
   auto scene = load_scene(scene_path);
@@ -165,7 +165,7 @@ Result<Session> load_session(const std::string& path) {
 std::string session_beside(const std::string& scene_path) {
   const std::string_view ending = ".scene.json";
   std::string stem = scene_path;
-  if (stem.ends_with(ending)) stem.resize(stem.size() - ending.size());
+  if (ends_ignoring_case(stem, ending)) stem.resize(stem.size() - ending.size());
   return stem + ".session";
 }
 

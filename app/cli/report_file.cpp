@@ -3,6 +3,7 @@
 #include "app/cli/export_json.hpp"
 #include "app/cli/html_report.hpp"
 #include "app/cli/packed_pot.hpp"
+#include "core/json/json_text.hpp"
 #include "core/text.hpp"
 
 #include <nlohmann/json.hpp>
@@ -18,7 +19,7 @@ void set_report(const Pot& pot, solid::ExportRequest& request, const std::vector
   request.report_text = [page, picture, copies,
                          options = request.options](const solid::ExportReport& report) {
     const Json json = export_json(report, copies, options.met_goal);
-    return page ? html_report(json, report, options, picture) : pretty(json);
+    return page ? html_report(json, report, options, picture) : json_document(json);
   };
 }
 

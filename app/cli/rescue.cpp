@@ -3,12 +3,7 @@
 #include "claystack/core/atomic_file.hpp"
 #include "core/user_folder.hpp"
 
-#include <fmt/chrono.h>
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <ctime>
 #include <string>
 #include <system_error>
 
@@ -21,8 +16,7 @@ namespace fs = std::filesystem;
 std::string rescued_name(const fs::path& wanted) {
   const std::string name = wanted == "-" ? "pot.pot.json" : wanted.filename().string();
   const std::size_t stem = std::min(name.find(".pot."), name.size());
-  return fmt::format("{}.rescued-{:%Y%m%dT%H%M%S}-{}{}", name.substr(0, stem),
-                     fmt::gmtime(std::time(nullptr)), getpid(), name.substr(stem));
+  return name.substr(0, stem) + ".rescued-" + time_and_process() + name.substr(stem);
 }
 
 }  // namespace

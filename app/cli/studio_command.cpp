@@ -1,10 +1,9 @@
 #include "app/cli/commands.hpp"
+#include "core/system_calls.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
-#include <cerrno>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -26,8 +25,7 @@ Error become_studio(const std::vector<std::string>& arguments) {
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   execv(program.c_str(), pointers.data());
-  return {ErrorKind::io,
-          fmt::format("{}: could not start: {}", program, std::generic_category().message(errno))};
+  return io_failure(program, "could not start").value();
 }
 
 }  // namespace

@@ -22,7 +22,7 @@
 namespace clay::cli {
 namespace {
 
-Json summary(const Wheel& wheel, const ReplayStats& stats, const Session& session, const Pot& pot) {
+Json summary(const ReplayStats& stats, const Session& session, const Pot& pot) {
   Json json = {
       {"model", name_of(pot.model)},
       {"ticks", session.poses.size()},
@@ -36,7 +36,7 @@ Json summary(const Wheel& wheel, const ReplayStats& stats, const Session& sessio
       {"contact_tick_ns_median", stats.contact_tick_ns_median},
       {"contact_tick_ns_p999", stats.contact_tick_ns_p999},
   };
-  json.update(clay_json(wheel, pot));
+  json.update(clay_json(pot));
   return json;
 }
 
@@ -236,7 +236,7 @@ Result<void> throw_replay(const ReplayJob& job, Console console) {
 
   const Pot pot = wheel.pot();
   auto written = write_outputs(*outputs, pot, encoding, trace, scene, session, console);
-  if (written) print_replay(job, summary(wheel, stats, session, pot), console);
+  if (written) print_replay(job, summary(stats, session, pot), console);
   return written;
 }
 

@@ -40,7 +40,7 @@ Json node_json(const history::Work& work, history::NodeId node) {
 /// "* 3 below 1: press sphere, 2.4 s, 451.2 cm3"; the star marks the current node.
 std::string line_of(const Json& node) {
   const std::string star = node["current"].get<bool>() ? "*" : " ";
-  const std::string cm3 = size_text(number_in(node, "volume_mm3") / 1000.0, 1);
+  const std::string cm3 = size_text(number_field(node, "volume_mm3") / 1000.0, 1);
   if (!node.contains("parent")) return fmt::format("{} 0: initial pot, {} cm3", star, cm3);
   return fmt::format("{} {} below {}: {}, {:.2f} s, {} cm3{}", star,
                      node["node"].get<std::size_t>(), node["parent"].get<std::size_t>(),
@@ -56,23 +56,6 @@ Result<Json> tree_of(history::Work& work, const Console& console) {
     console.print(line_of(nodes.back()));
   }
   return nodes;
-}
-
-Json pot_json(const Pot& pot) {
-  return {{"rings", pot.stack.size()},
-          {"height_mm", pot.stack.height_mm()},
-          {"volume_mm3", pot.stack.volume_mm3()},
-          {"volume_error_quanta", json_count(pot.ledger.volume_error(pot.stack.volume()))},
-          {"collapsed", pot.collapse.has_value()}};
-}
-
-void print_pot(const Console& console, const history::Work& work, history::NodeId node,
-               const Json& json) {
-  console.print(fmt::format(
-      "node {} of {}: {}, {} mm high, {} cm3 of clay; volume error: {} quanta", node,
-      work.size() - 1, counted(json["rings"].get<std::size_t>(), "ring"),
-      size_text(number_in(json, "height_mm"), 1),
-      size_text(number_in(json, "volume_mm3") / 1000.0, 1), json["volume_error_quanta"].dump()));
 }
 
 }  // namespace
@@ -103,7 +86,7 @@ Result<void> throw_work(const WorkJob& job, Console console) {
   }
   const auto pot = work.pot(node);
   if (!pot) return named(pot.error());
-  json.update(pot_json(**pot));
+  json.update(clay_json(**pot));
   if (!job.pot_path.empty()) {
     const PotEncoding encoding = pot_encoding_of(job.pot_path).value_or(PotEncoding::json);
     if (auto room = expect_room_to_write((*pot)->stack.size(), encoding, job.pot_path); !room)
@@ -111,7 +94,8 @@ Result<void> throw_work(const WorkJob& job, Console console) {
     if (auto written = publish(job.pot_path, write_pot(**pot, encoding)); !written) return written;
   }
   if (console.json) print_json(json);
-  print_pot(console, work, node, json);
+  console.print(fmt::format("node {} of {}", node, work.size() - 1));
+  print_clay(console, json);
   if (!job.pot_path.empty())
     console.print("pot: " + job.pot_path);
   else if (!job.list)

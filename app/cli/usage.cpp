@@ -143,7 +143,7 @@ std::shared_ptr<CLI::Formatter> help_format() { return std::make_shared<HelpForm
 
 ValueCheck in_range(double low, double high) {
   return [=](const std::string& text) -> std::string {
-    const auto value = number_in<double>(text);
+    const auto value = parse_number<double>(text);
     // Not (value < low): NaN must fail.
     if (value && *value >= low && *value <= high) return {};
     return fmt::format("expected a number from {:g} to {:g}, found {}", low, high, text);
@@ -152,7 +152,7 @@ ValueCheck in_range(double low, double high) {
 
 ValueCheck above_zero() {
   return [](const std::string& text) -> std::string {
-    const auto value = number_in<double>(text);
+    const auto value = parse_number<double>(text);
     if (!value || *value != 0.0) return {};  // the settings check the rest
     return "expected a number above 0, found " + text;
   };
@@ -160,7 +160,7 @@ ValueCheck above_zero() {
 
 ValueCheck in_whole_range(std::uint64_t low, std::uint64_t high) {
   return [=](const std::string& text) -> std::string {
-    const auto value = number_in<std::uint64_t>(text);
+    const auto value = parse_number<std::uint64_t>(text);
     if (value && *value >= low && *value <= high) return {};
     return fmt::format("expected a whole number from {} to {}, found {}", low, high, text);
   };

@@ -2,6 +2,7 @@
 
 #include "claystack/core/atomic_file.hpp"
 #include "core/system_calls.hpp"
+#include "core/threads.hpp"
 #include "core/user_folder.hpp"
 
 #include <fcntl.h>
@@ -12,7 +13,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <ctime>
 #include <system_error>
 #include <utility>
 
@@ -23,16 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr int kMostDamaged = 100;
 constexpr auto kSyncEvery = std::chrono::seconds(30);
-
-/// "20261121T230307-4711": start time and process.
-std::string stem_of_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  const std::size_t length = std::strftime(text, sizeof text, "%Y%m%dT%H%M%S", &utc);
-  return fmt::format("{}-{}", std::string_view(text, length), getpid());
-}
 
 bool synced(int descriptor) {
   return uninterrupted([&] { return fsync(descriptor); }) == 0;
@@ -102,7 +92,7 @@ Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs
   if (made)
     return failure(ErrorKind::io,
                    fmt::format("{}: could not create: {}", folder.string(), made.message()));
-  const std::string stem = stem_of_now();
+  const std::string stem = time_and_process();
   std::string temporary = (folder / fmt::format("{}{}XXXXXX", stem, kUnfinishedJournal)).string();
   const int descriptor = mkostemp(temporary.data(), O_APPEND | O_CLOEXEC);
   if (descriptor < 0) return io_failure(folder / stem, "could not create");
@@ -111,6 +101,7 @@ Result<std::unique_ptr<Journal>> Journal::begin(const WorkRecord& work, const fs
     (void)unlink(temporary.c_str());
     return tl::make_unexpected(std::move(error));
   };
+  if (auto started = journal->start(); !started) return given_up(started.error());
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
     return given_up(io_failure(temporary, "could not lock").value());
   journal->append(write_work(work) + work_saved_line(work.saved_at, work.saved_nodes));
@@ -127,6 +118,7 @@ Result<std::unique_ptr<Journal>> Journal::take_over(const fs::path& path, WorkRe
   const int descriptor = open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (descriptor < 0) return io_failure(path, "could not open");
   std::unique_ptr<Journal> journal(new Journal(path, descriptor));
+  if (auto started = journal->start(); !started) return tl::make_unexpected(started.error());
   struct stat status {};
   if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))
     return failure(ErrorKind::io, fmt::format("{}: expected a regular file", path.string()));
@@ -146,14 +138,16 @@ Result<std::unique_ptr<Journal>> Journal::take_over(const fs::path& path, WorkRe
   return journal;
 }
 
-Journal::Journal(fs::path path, int descriptor)
-    : path_(std::move(path)),
-      descriptor_(descriptor),
-      worker_([this](bool) { sync_changes(); }, kSyncEvery) {}
+Journal::Journal(fs::path path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}
 
 Journal::~Journal() {
-  worker_.close();
+  if (worker_) worker_->close();
   (void)close(descriptor_);
+}
+
+Result<void> Journal::start() {
+  return with_threads("the journal's thread",
+                      [this] { worker_.emplace([this](bool) { sync_changes(); }, kSyncEvery); });
 }
 
 void Journal::append(std::string_view lines) {
@@ -163,7 +157,7 @@ void Journal::append(std::string_view lines) {
   dirty_ = true;
 }
 
-void Journal::sync_soon() { worker_.wake(); }
+void Journal::sync_soon() { worker_->wake(); }
 
 void Journal::discard() {
   const std::lock_guard lock(mutex_);

@@ -49,6 +49,8 @@ class Journal {
 
  private:
   Journal(std::filesystem::path path, int descriptor);
+  /// Starts the thread that syncs.
+  Result<void> start();
   void sync_changes();
 
   std::filesystem::path path_;
@@ -56,7 +58,7 @@ class Journal {
   mutable std::mutex mutex_;  // protects the next two members, and path_ until begin() has ended
   std::optional<Error> trouble_;
   bool dirty_ = false;
-  PeriodicWorker worker_;  // last: it uses all members above
+  std::optional<PeriodicWorker> worker_;  // last: it uses all members above
 };
 
 }  // namespace clay::history

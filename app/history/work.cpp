@@ -74,11 +74,8 @@ struct Work::Running final : PoseSink {
   void write() {
     if (journal == nullptr) return;
     if (written == 0) journal->append(begin_line);
-    while (written < poses.size()) {
-      const std::size_t count = std::min(poses.size() - written, kPosesPerBlock);
-      journal->append(session_block(std::span(poses).subspan(written, count)));
-      written += count;
-    }
+    journal->append(session_blocks(std::span(poses).subspan(written)));
+    written = poses.size();
   }
 };
 

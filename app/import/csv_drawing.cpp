@@ -20,7 +20,7 @@ std::optional<double> number_of(std::string field) {
   std::replace(field.begin(), field.end(), ',', '.');
   std::string_view text = field;
   if (text.starts_with('+')) text.remove_prefix(1);
-  return number_in<double>(text);
+  return parse_number<double>(text);
 }
 
 /// The first row that Excel writes to name its separator, such as "sep=;".

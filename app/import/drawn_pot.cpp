@@ -149,8 +149,9 @@ std::vector<Slab> slabs_of(const ClayStack& stack) {
 
 Result<DrawnPot> drawn_pot(const HalfSection& drawn, const DrawnPotSettings& settings,
                            const std::string& name) {
-  const auto section =
-      settings.wall_mm ? hollowed(drawn, *settings.wall_mm, name) : Result<HalfSection>(drawn);
+  const auto section = settings.wall_mm
+                           ? hollowed(drawn, *settings.wall_mm, name, settings.facets_mm)
+                           : Result<HalfSection>(drawn);
   if (!section) return tl::make_unexpected(section.error());
   const std::vector<double> levels = drawn_levels(*section);
   auto made = settings.ring_height_mm

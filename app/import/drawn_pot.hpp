@@ -15,6 +15,9 @@ namespace clay::importing {
 
 inline constexpr double kDrawnDeviationMm = 0.02;
 inline constexpr double kHighestRingMm = 0.75;
+/// The usual tolerance of an export: its facets take less than this from a wall, so that a pot with
+/// the wall of a limit passes it.
+inline constexpr double kFacetsMm = 0.02;
 /// Steps of rings this low are within kDrawnDeviationMm of any smooth outline. If they are not, the
 /// outline has noise, or details that are lower than these rings.
 inline constexpr double kFineRingMm = 0.02;
@@ -22,9 +25,11 @@ inline constexpr double kFineRingMm = 0.02;
 struct DrawnPotSettings {
   /// At most; empty: as low as `deviation_mm` needs, up to kHighestRingMm.
   std::optional<double> ring_height_mm;
-  std::optional<double> wall_mm;  ///< hollows a solid drawing: thickness of wall and floor
+  /// Hollows a solid drawing: thickness of wall and floor.
+  std::optional<double> wall_mm;
   double density_g_cm3 = 1.9;
   double deviation_mm = kDrawnDeviationMm;  ///< aimed at
+  double facets_mm = kFacetsMm;             ///< is added to the wall, not to the floor
 };
 
 struct DrawnPot {

@@ -58,7 +58,7 @@ Result<DxfGroup> DxfGroups::next() {
   while (true) {
     const auto code_text = next_line();
     const std::size_t line = line_;
-    const auto code = code_text ? number_in<int>(without_plus(*code_text)) : std::nullopt;
+    const auto code = code_text ? parse_number<int>(without_plus(*code_text)) : std::nullopt;
     if (code_text && !(code && *code >= kLowestCode && *code <= kHighestCode))
       return wrong(name_, line, "a DXF group code", *code_text);
     const auto value = code_text ? next_line() : std::nullopt;
@@ -111,13 +111,13 @@ std::string dxf_text(std::string_view value) {
 }
 
 Result<double> dxf_number(const DxfGroup& group, const std::string& name) {
-  const auto value = number_in<double>(without_plus(group.value));
+  const auto value = parse_number<double>(without_plus(group.value));
   if (!value || !std::isfinite(*value)) return wrong(name, group.line + 1, "a number", group.value);
   return *value;
 }
 
 Result<long> dxf_integer(const DxfGroup& group, const std::string& name) {
-  const auto value = number_in<long>(without_plus(group.value));
+  const auto value = parse_number<long>(without_plus(group.value));
   if (!value) return wrong(name, group.line + 1, "an integer", group.value);
   return *value;
 }

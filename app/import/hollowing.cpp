@@ -126,12 +126,12 @@ void append_chords(std::vector<BorePiece>& pieces, const BoreRadius& bore, const
 }
 
 /// From the floor to the rim. A level face of the outside breaks the bore a wall above or below it.
-std::vector<BorePiece> bore_pieces(const HalfSection& solid, double wall_mm) {
+std::vector<BorePiece> bore_pieces(const HalfSection& solid, double wall_mm, double floor_mm) {
   constexpr double kMostSteps = 100'000.0;
   const double rim = solid.height_mm;
-  std::vector<double> breaks{wall_mm, rim};
+  std::vector<double> breaks{floor_mm, rim};
   const double step = std::max(0.125 * wall_mm, rim / kMostSteps);
-  for (double z = wall_mm; z < rim; z += step) breaks.push_back(z);
+  for (double z = floor_mm; z < rim; z += step) breaks.push_back(z);
   for (std::size_t i = 1; i < solid.slabs.size(); ++i) {
     const Slab &below = solid.slabs[i - 1], &above = solid.slabs[i];
     if (below.outer_to_mm == above.outer_from_mm) continue;
@@ -143,7 +143,7 @@ std::vector<BorePiece> bore_pieces(const HalfSection& solid, double wall_mm) {
   std::vector<BorePiece> pieces;
   for (std::size_t i = 1; i < breaks.size(); ++i) {
     const double from = breaks[i - 1], to = breaks[i], inside = 1e-6 * (to - from);
-    if (from < wall_mm || to > rim || !(from < to)) continue;
+    if (from < floor_mm || to > rim || !(from < to)) continue;
     append_chords(pieces, bore, {from, to, bore(from + inside), bore(to - inside)});
   }
   return pieces;
@@ -226,7 +226,8 @@ Slab part_of(const Slab& slab, double from, double to) {
           along(slab.inner_from_mm, slab.inner_to_mm, to)};
 }
 
-Result<HalfSection> hollowed(const HalfSection& solid, double wall_mm, const std::string& name) {
+Result<HalfSection> hollowed(const HalfSection& solid, double wall_mm, const std::string& name,
+                             double more_mm) {
   for (const Slab& slab : solid.slabs)
     if (slab.inner_from_mm > 0.0 || slab.inner_to_mm > 0.0)
       return failure(ErrorKind::bad_input,
@@ -235,7 +236,8 @@ Result<HalfSection> hollowed(const HalfSection& solid, double wall_mm, const std
     return failure(ErrorKind::bad_input,
                    fmt::format("{}: wall: expected less than the height of {:g} mm, found {:g} mm",
                                name, solid.height_mm, wall_mm));
-  const auto bore = open_bore(bore_pieces(solid, wall_mm), solid.height_mm, wall_mm, name);
+  const auto bore =
+      open_bore(bore_pieces(solid, wall_mm + more_mm, wall_mm), solid.height_mm, wall_mm, name);
   if (!bore) return tl::make_unexpected(bore.error());
   HalfSection section = solid;
   section.slabs = bored(solid.slabs, *bore);

@@ -10,6 +10,7 @@
 #include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
 #include "claystack/version.hpp"
+#include "core/text.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -131,7 +132,7 @@ py::dict report_of(const solid::ExportReport& report) {
   }
   for (const solid::Problem& problem : solid::problems_of(report)) {
     py::dict one;
-    one["what"] = problem.fails ? "process" : "note";
+    one["what"] = solid::check_name(problem.kind);
     one["where"] = text_of(problem.text);
     one["fails"] = problem.fails;
     problems.append(one);
@@ -157,7 +158,7 @@ py::dict export_pot(const Pot& pot, const std::vector<std::string>& paths,
   request.certificates = settings.certificates;
   for (const std::string& path : paths)
     request.files.push_back(value_of(solid::file_request(path)));
-  request.options.name = std::filesystem::path(paths.front()).stem().string();
+  request.options.name = name_of_file(paths.front());
   solid::ExportReport report;
   {
     py::gil_scoped_release others_run;
@@ -202,9 +203,8 @@ py::dict check_mesh(const solid::TriangleMesh& mesh) {
   solid::MeshReport report;
   {
     py::gil_scoped_release others_run;
-    report = solid::check_mesh(mesh);
+    report = value_of(solid::check_mesh(mesh));
   }
-  if (report.out_of_memory) throw Failed{{ErrorKind::io, "not enough memory to check the mesh"}};
   py::list problems;
   for (const solid::MeshProblem& problem : report.problems) {
     py::dict one;

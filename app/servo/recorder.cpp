@@ -3,7 +3,6 @@
 #include "app/servo/session_recording.hpp"
 
 #include <chrono>
-#include <system_error>
 #include <utility>
 
 namespace clay::servo {
@@ -26,13 +25,11 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const std::string& path,
 
 Result<std::unique_ptr<Recorder>> Recorder::create(PoseSink& sink, std::uint64_t most) {
   std::unique_ptr<Recorder> recorder(new Recorder(sink, most));
-  try {
-    recorder->worker_.emplace([&self = *recorder](bool) { self.write_waiting(); }, kPause);
-  } catch (const std::system_error& error) {
-    return failure(ErrorKind::io,
-                   "could not start the recorder's thread: " + error.code().message());
-  }
-  return recorder;
+  return with_threads("the recorder's thread",
+                      [&self = *recorder] {
+                        self.worker_.emplace([&self](bool) { self.write_waiting(); }, kPause);
+                      })
+      .map([&] { return std::move(recorder); });
 }
 
 Recorder::Recorder(PoseSink& sink, std::uint64_t most) : sink_(sink), most_(most) {

@@ -1,8 +1,7 @@
 #include "app/servo/servo.hpp"
 
 #include "claystack/falcon/guard.hpp"
-
-#include <system_error>
+#include "core/threads.hpp"
 
 namespace clay::servo {
 namespace {
@@ -38,15 +37,15 @@ Result<void> Servo::start() {
     loop_.start();
     return {};
   }
-  try {
+  const auto started = with_threads("the servo's threads", [this] {
     watchdog_ = std::thread([this] { watch(); });
     servo_ = std::thread([this] { run(); });
-  } catch (const std::system_error& error) {
+  });
+  if (!started) {
     end();
     join();
-    return failure(ErrorKind::io, "could not start the servo's threads: " + error.code().message());
   }
-  return {};
+  return started;
 }
 
 void Servo::advance(std::int64_t until_ns) noexcept {

@@ -10,17 +10,12 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <system_error>
 #include <utility>
 
 namespace clay::servo {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool same_file(const struct stat& a, const struct stat& b) {
-  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
-}
 
 }  // namespace
 
@@ -133,8 +128,7 @@ void SessionRecording::discard() noexcept {
 
 /// Describes `errno`.
 tl::unexpected<Error> SessionRecording::failed(const char* action) const {
-  std::string message =
-      path_ + ": could not " + action + ": " + std::generic_category().message(errno);
+  std::string message = io_failure(path_, std::string("could not ") + action).value().message;
   if (poses_ > 0 && !aside_.empty()) message += "; the recording is in " + aside_.string();
   return failure(ErrorKind::io, std::move(message));
 }

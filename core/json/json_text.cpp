@@ -63,6 +63,10 @@ std::string json_text(const Json& value) {
   return text + "\n";
 }
 
+std::string json_document(const Json& value) {
+  return value.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::string json_line(const Json& value) {
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -9,7 +9,11 @@ namespace clay::inline json {
 /// on every platform.
 std::string json_text(const Json& value);
 
-/// JSON on one line.
+/// JSON for reports and settings: one member or element per line. Invalid UTF-8, as of file names,
+/// is replaced, because JSON cannot hold it.
+std::string json_document(const Json& value);
+
+/// The same on one line, without its end.
 std::string json_line(const Json& value);
 
 }  // namespace clay::inline json

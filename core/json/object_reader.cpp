@@ -94,11 +94,11 @@ void ObjectReader::flags(std::string_view name, std::map<std::string, bool>& val
 }
 
 void ObjectReader::number(std::string_view name, double& value, const Range& range) {
-  at(name, [&](const Json& found) { value = number_in(found, range).value_or(value); });
+  at(name, [&](const Json& found) { value = number_from(found, range).value_or(value); });
 }
 
 void ObjectReader::number(std::string_view name, std::optional<double>& value, const Range& range) {
-  at(name, [&](const Json& found) { value = number_in(found, range); });
+  at(name, [&](const Json& found) { value = number_from(found, range); });
 }
 
 void ObjectReader::numbers(std::string_view name, std::vector<double>& values, const Range& range) {
@@ -170,7 +170,7 @@ void ObjectReader::series(std::string_view name, std::vector<double>& values, co
       values = numbers_in(found, range);
     else if (found.is_array())
       expected("a number, or an array of one at least", found);
-    else if (const auto read = number_in(found, range))
+    else if (const auto read = number_from(found, range))
       values = {*read};
   });
 }
@@ -204,7 +204,7 @@ std::optional<bool> ObjectReader::flag_in(const Json& value) {
   return std::nullopt;
 }
 
-std::optional<double> ObjectReader::number_in(const Json& value, const Range& range) {
+std::optional<double> ObjectReader::number_from(const Json& value, const Range& range) {
   if (value.is_number() && range.holds(value.get<double>())) return value.get<double>();
   expected("a number " + range.text(), value);
   return std::nullopt;
@@ -227,7 +227,7 @@ std::optional<std::int64_t> ObjectReader::integer_in(const Json& value, std::int
 std::vector<double> ObjectReader::numbers_in(const Json& value, const Range& range) {
   std::vector<double> numbers;
   each_element(value, [&](const Json& element) {
-    if (const auto read = number_in(element, range)) numbers.push_back(*read);
+    if (const auto read = number_from(element, range)) numbers.push_back(*read);
   });
   return numbers;
 }

@@ -126,7 +126,7 @@ class ObjectReader {
   template <class T>
   void read_part(const Json& object, T& value);
 
-  std::optional<double> number_in(const Json& value, const Range& range);
+  std::optional<double> number_from(const Json& value, const Range& range);
   std::optional<std::int64_t> integer_in(const Json& value, std::int64_t low, std::int64_t high);
   std::vector<double> numbers_in(const Json& value, const Range& range);
   std::optional<glm::dvec2> point_in(const Json& value, const Range& range);

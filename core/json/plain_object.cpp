@@ -1,5 +1,6 @@
 #include "core/json/plain_object.hpp"
 
+#include "core/json/json_text.hpp"
 #include "core/json/object_reader.hpp"
 #include "core/json/object_writer.hpp"
 
@@ -43,10 +44,6 @@ void describe(Io& io, const PlainObject& object) {
   (*object.describe_fields)(fields);
 }
 
-std::string text_of(const Json& object) {
-  return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 /// `flags` is the only field that is an object itself.
 void merge(Json& mine, const Json& before, const Json& theirs) {
   for (const auto& [name, value] : theirs.items()) {
@@ -69,13 +66,13 @@ Result<void> read_fields(std::string_view text, std::string_view name, std::stri
 }
 
 std::string write_fields(std::string_view schema, const DescribeFields& describe_fields) {
-  return text_of(ObjectWriter::write(PlainObject{schema, &describe_fields}));
+  return json_document(ObjectWriter::write(PlainObject{schema, &describe_fields}));
 }
 
 std::string merged_fields(std::string_view before, std::string_view mine, std::string_view theirs) {
   Json merged = Json::parse(mine);
   merge(merged, Json::parse(before), Json::parse(theirs));
-  return text_of(merged);
+  return json_document(merged);
 }
 
 }  // namespace clay::inline json

@@ -236,15 +236,18 @@ std::string session_block(std::span<const Pose> poses) {
   return json_line(ObjectWriter::write(block)) + "\n";
 }
 
-std::string write_session(const Session& session) {
-  std::string text = session_header(session.scene_name, session.scene_hash);
-  std::span<const Pose> rest = session.poses;
-  while (!rest.empty()) {
-    const auto block = rest.first(std::min(rest.size(), kPosesPerBlock));
+std::string session_blocks(std::span<const Pose> poses) {
+  std::string text;
+  while (!poses.empty()) {
+    const auto block = poses.first(std::min(poses.size(), kPosesPerBlock));
     text += session_block(block);
-    rest = rest.subspan(block.size());
+    poses = poses.subspan(block.size());
   }
   return text;
+}
+
+std::string write_session(const Session& session) {
+  return session_header(session.scene_name, session.scene_hash) + session_blocks(session.poses);
 }
 
 Result<Session> parse_session(std::string_view text, std::string_view name) {

@@ -94,11 +94,7 @@ std::string write_work(const WorkRecord& work) {
     text += node_text({i, node.parent, node.scene, 0}, work.scenes[node.scene],
                       i == 0 ? work.start : std::nullopt);
     if (i == 0) continue;
-    for (std::span<const Pose> rest = node.poses; !rest.empty();) {
-      const auto block = rest.first(std::min(rest.size(), kPosesPerBlock));
-      text += session_block(block);
-      rest = rest.subspan(block.size());
-    }
+    text += session_blocks(node.poses);
     text += work_end_line(node.poses.size(), {});
   }
   return text + choices(work);

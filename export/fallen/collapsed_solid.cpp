@@ -5,8 +5,8 @@
 #include "claystack/export/solid.hpp"
 #include "export/fallen/mesh_union.hpp"
 #include "export/fallen/pockets.hpp"
-#include "export/proof/completed_check.hpp"
 #include "export/proof/describe.hpp"
+#include "export/proof/inspect_mesh.hpp"
 #include "export/proof/verify_file.hpp"
 #include "export/solid/seam_cure.hpp"
 
@@ -60,7 +60,7 @@ TriangleMesh fallen(TriangleMesh mesh, const FallenPlace& place) {
 }
 
 Result<void> check_part(const TriangleMesh& mesh, const std::string& name) {
-  const MeshReport report = completed_check(rounded_to_float(mesh));
+  const MeshReport report = inspect_mesh(rounded_to_float(mesh));
   if (report.sound()) return {};
   return failure(ErrorKind::unsound,
                  "the " + name + " part in float32: found " + describe(report.problems.front()));
@@ -137,7 +137,7 @@ class Union {
 
   static Result<CollapsedSolid> finished(const CuredMesh& cured, CollapsedSolid solid) {
     solid.mesh = rounded_to_float(cured.mesh);
-    solid.check = completed_check(solid.mesh);
+    solid.check = inspect_mesh(solid.mesh);
     if (!solid.check.sound())
       return failure(ErrorKind::unsound, "the collapsed pot in float32: found " +
                                              describe(solid.check.problems.front()));

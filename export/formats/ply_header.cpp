@@ -46,7 +46,7 @@ std::optional<Number> number_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// Shortened, and without the control characters of terminals.
+/// Reads the header, line by line.
 class HeaderReader {
  public:
   HeaderReader(std::string_view file, std::string_view name) : file_(file), name_(name) {}

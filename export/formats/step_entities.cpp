@@ -39,7 +39,7 @@ const StepValue& StepEntities::item(const StepValue& value, std::size_t index) c
 
 double StepEntities::number(const StepValue& value, std::size_t index) const {
   const std::string_view found = word(value, index);
-  const auto number = number_in<double>(found);
+  const auto number = parse_number<double>(found);
   if (!number || !std::isfinite(*number))
     throw BadStep{std::string("expected a number, found ").append(found)};
   return *number;

@@ -101,7 +101,7 @@ class StepParser {
 
 std::size_t step_number(std::string_view word) noexcept {
   if (!word.starts_with('#')) return 0;
-  return number_in<std::size_t>(word.substr(1)).value_or(0);
+  return parse_number<std::size_t>(word.substr(1)).value_or(0);
 }
 
 Result<StepFile> parse_step(std::string_view text, std::string_view name) {

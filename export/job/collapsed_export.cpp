@@ -14,8 +14,8 @@
 #include "export/job/resolution.hpp"
 #include "export/job/solid_contents.hpp"
 #include "export/job/stages.hpp"
-#include "export/proof/completed_check.hpp"
 #include "export/proof/describe.hpp"
+#include "export/proof/inspect_mesh.hpp"
 #include "export/proof/verify_file.hpp"
 
 #include <algorithm>
@@ -164,7 +164,7 @@ class CollapsedExport {
         .and_then([&](DecimatedMesh decimated) -> Result<void> {
           mesh_ = rounded_to_float(decimated.mesh);
           const double moved_mm = decimated.max_error_mm + float_rounding_mm(mesh_);
-          const MeshReport check = stages_.run("check", [&] { return completed_check(mesh_); });
+          const MeshReport check = stages_.run("check", [&] { return inspect_mesh(mesh_); });
           if (!check.sound())
             return failure(ErrorKind::unsound,
                            "decimated: found " + describe(check.problems.front()));
@@ -265,7 +265,7 @@ class CollapsedExport {
     auto& list = report_.left_out;
     if (!pot_.stack.hollow()) list.push_back({"inner shell", "no ring has a bore", {}});
     if (const std::string& why = report_.section.no_smoothing; !why.empty())
-      list.push_back({"smoothing", why, {}});
+      list.push_back({kSmoothingStage, why, {}});
     add_formats_left_out(outputs_, list);
     if (options_.measure_left_out) measure_left_out(list, pot_.stack, mesh_, options_);
   }

@@ -100,18 +100,37 @@ class FilesExport {
   };
 
   Result<void> check() const {
-    std::set<std::filesystem::path> places;
-    for (const FileRequest& asked : request_.files) {
+    for (const FileRequest& asked : request_.files)
       if (auto possible = check(asked); !possible) return possible;
-      std::error_code ignored;
-      if (!places.insert(std::filesystem::weakly_canonical(asked.path, ignored)).second)
-        return wrong(asked.path, "expected one request for each file, found two");
-    }
+    if (auto names = check_names(); !names) return names;
     if (!request_.report_path.empty() && !request_.report_text)
       return wrong(request_.report_path, "expected a function for the text, found none");
     if (!pot_.collapse) return {};
     if (request_.certificates) return named(wrong("certificate", kStanding), options_.source);
     return named(check_collapsed_options(options_), options_.source);
+  }
+
+  /// No output replaces another one.
+  [[nodiscard]] Result<void> check_names() const {
+    std::vector<std::string> paths;
+    for (const FileRequest& asked : request_.files) {
+      paths.push_back(asked.path);
+      if (has_certificate(asked)) paths.push_back(certificate_path(asked));
+    }
+    if (!request_.report_path.empty()) paths.push_back(request_.report_path);
+    std::set<std::filesystem::path> places;
+    for (const std::string& path : paths) {
+      std::error_code ignored;
+      if (!places.insert(std::filesystem::weakly_canonical(path, ignored)).second)
+        return wrong(path, "expected one request for each file, found two");
+    }
+    return {};
+  }
+  [[nodiscard]] bool has_certificate(const FileRequest& asked) const {
+    return request_.certificates && asked.kind == FileKind::mesh;
+  }
+  static std::string certificate_path(const FileRequest& asked) {
+    return asked.path + ".certificate.json";
   }
 
   /// The ending of a file that is made from the section is right, and the pot can have it.
@@ -142,8 +161,8 @@ class FilesExport {
       auto file = open_file(asked.path);
       if (!file) return tl::make_unexpected(file.error());
       open.file = std::move(*file);
-      if (asked.kind != FileKind::mesh || !request_.certificates) continue;
-      auto certificate = open_file(asked.path + ".certificate.json");
+      if (!has_certificate(asked)) continue;
+      auto certificate = open_file(certificate_path(asked));
       if (!certificate) return tl::make_unexpected(certificate.error());
       open.certificate = std::move(*certificate);
     }

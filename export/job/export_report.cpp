@@ -193,4 +193,20 @@ std::vector<Problem> problems_of_solid(const ExportReport& report) {
   return problems;
 }
 
+std::string check_name(ProblemKind kind) {
+  switch (kind) {
+    case ProblemKind::thin_wall:
+      return "walls";
+    case ProblemKind::too_large:
+    case ProblemKind::overhang:
+      return "process";
+    case ProblemKind::cavity:
+    case ProblemKind::drain:
+    case ProblemKind::bodies:
+    case ProblemKind::lip_fillet:
+      break;
+  }
+  return "geometry";
+}
+
 }  // namespace clay::solid::inline job

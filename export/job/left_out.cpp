@@ -27,9 +27,9 @@ double encoding_seconds(MeshFormat format, const TriangleMesh& mesh, const Expor
 void measure_left_out(std::vector<SkippedStage>& list, const ClayStack& stack,
                       const TriangleMesh& mesh, const ExportOptions& options) {
   for (SkippedStage& item : list) {
-    if (item.what == "full verification")
-      item.saved_s = seconds_of([&] { check_mesh(rounded_to_float(mesh)); });
-    if (item.what == "smoothing")
+    if (item.what == kVerificationStage)
+      item.saved_s = seconds_of([&] { (void)check_mesh(rounded_to_float(mesh)); });
+    if (item.what == kSmoothingStage)
       item.saved_s = seconds_of([&] {
         SmoothingOptions how;
         how.tolerance_mm = options.tolerance_mm;
@@ -49,17 +49,17 @@ std::vector<SkippedStage> left_out(const ClayStack& stack, const std::string& no
     if (out) list.push_back({std::move(what), std::move(why), std::nullopt});
   };
   add(!stack.hollow(), "inner shell", "no ring has a bore");
-  add(!no_smoothing.empty(), "smoothing", no_smoothing);
+  add(!no_smoothing.empty(), kSmoothingStage, no_smoothing);
   add(true, "union", "the pot has not collapsed");
   add(!options.max_triangles, "budget", "no limit of triangles requested");
-  add(!made_mesh, "mesh in memory", "no requested file needs one");
-  add(!options.full_verification, "full verification", "the certificate covers it; not requested");
+  add(!made_mesh, kMeshStage, "no requested file needs one");
+  add(!options.full_verification, kVerificationStage, "the certificate covers it; not requested");
   add_formats_left_out(outputs, list);
   if (!options.measure_left_out || rule.triangles() > kMaxTriangles) return list;
   TriangleMesh mesh;
   const double meshing = seconds_of([&] { mesh = revolve(rule); });
   for (SkippedStage& item : list)
-    if (item.what == "mesh in memory") item.saved_s = meshing;
+    if (item.what == kMeshStage) item.saved_s = meshing;
   measure_left_out(list, stack, mesh, options);
   return list;
 }

@@ -9,7 +9,11 @@
 
 namespace clay::solid::inline job {
 
-/// For a standing pot. `no_smoothing`: reason why it was not smoothed; empty if it was.
+/// Names of the stages that `measure_left_out` measures.
+inline constexpr const char *kSmoothingStage = "smoothing", *kMeshStage = "mesh in memory",
+                            *kVerificationStage = "full verification";
+
+/// For a standing pot. `no_smoothing`: why it was not smoothed; empty if it was.
 std::vector<SkippedStage> left_out(const ClayStack& stack, const std::string& no_smoothing,
                                    const RevolveLayout& rule, bool made_mesh,
                                    const std::vector<Output>& outputs,

@@ -13,8 +13,8 @@
 #include "export/formats/three_mf_check.hpp"
 #include "export/job/resolution.hpp"
 #include "export/job/solid_contents.hpp"
-#include "export/proof/completed_check.hpp"
 #include "export/proof/describe.hpp"
+#include "export/proof/inspect_mesh.hpp"
 #include "export/proof/revolve_match.hpp"
 #include "export/proof/rounded_claims.hpp"
 #include "export/proof/verify_file.hpp"
@@ -30,7 +30,7 @@ namespace clay::solid::inline job {
 namespace {
 
 Result<void> check_sound(const TriangleMesh& mesh, const std::string& name) {
-  const MeshReport report = completed_check(mesh);
+  const MeshReport report = inspect_mesh(mesh);
   if (report.sound()) return {};
   return failure(ErrorKind::unsound, name + ": found " + describe(report.problems.front()));
 }
@@ -80,7 +80,7 @@ Result<Proof> RevolveFiles::prove_rounded(MeshFormat format, double rounding_mm)
     TriangleMesh rounded = mesh();
     for (glm::dvec3& point : rounded.points) point = held_point(point, format);
     exact = stages_.run("exact_test", [&]() -> Result<void> {
-      const MeshReport report = completed_check(rounded);
+      const MeshReport report = inspect_mesh(rounded);
       if (report.sound()) return {};
       return failure(ErrorKind::unsound,
                      lost_part(claims_.profile, rounding_mm) + describe(report.problems.front()));

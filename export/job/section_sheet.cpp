@@ -55,11 +55,16 @@ std::vector<Outline> cut_faces(const Profile& profile) {
   return faces;
 }
 
-/// Of words 3 mm high in DejaVu Sans: a little more than those of dimensions take.
+/// Number of characters in UTF-8.
+double letters_in(std::string_view words) {
+  const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+  return static_cast<double>(std::ranges::count_if(words, begins));
+}
+
+/// Of the words of a dimension, 3 mm high in DejaVu Sans: a little more than they take [mm].
 double length_of(std::string_view words) {
   constexpr double kLetterMm = 2.15, kMoreMm = 1.5;
-  const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
-  return kMoreMm + kLetterMm * static_cast<double>(std::ranges::count_if(words, begins));
+  return kMoreMm + kLetterMm * letters_in(words);
 }
 
 class SheetMaker {
@@ -99,7 +104,7 @@ class SheetMaker {
 
   void write(SheetLayer layer, glm::dvec2 at, const std::string& words, Anchor anchor,
              double height = 3.0, bool upright = false) {
-    const double length = 0.85 * height * static_cast<double>(words.size());
+    const double length = 0.85 * height * letters_in(words);  // a wide letter
     const double before = length * 0.5 * static_cast<double>(anchor);
     const glm::dvec2 way = upright ? glm::dvec2{0.0, 1.0} : glm::dvec2{1.0, 0.0};
     reach(at - before * way);

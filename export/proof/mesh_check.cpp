@@ -22,11 +22,12 @@
 namespace clay::solid::inline proof {
 namespace {
 
+/// Numbers count from 1 in the order of the file, as those of its readers do.
 std::string numbered(std::string_view noun, const std::vector<std::uint32_t>& numbers) {
   std::string text(noun);
   if (numbers.size() > 1) text += "s";
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    text += (i == 0 ? " " : ", ") + std::to_string(numbers[i]);
+    text += (i == 0 ? " " : ", ") + std::to_string(numbers[i] + 1);
   return text;
 }
 
@@ -231,18 +232,14 @@ class Inspection {
 
 }  // namespace
 
-MeshReport check_mesh(const TriangleMesh& mesh) {
-  Inspection inspection(mesh);
-  try {
-    return inspection.run();
-  } catch (const std::exception& e) {
-    // A library failed or memory ran out: an unchecked mesh is not sound.
-    MeshReport report;
-    report.triangles = mesh.triangles.size();
-    report.out_of_memory = dynamic_cast<const std::bad_alloc*>(&e) != nullptr;
-    report.problems.push_back({"check abandoned", e.what(), 1, false});
-    return report;
-  }
+MeshReport inspect_mesh(const TriangleMesh& mesh) { return Inspection(mesh).run(); }
+
+Result<MeshReport> check_mesh(const TriangleMesh& mesh) try {
+  return inspect_mesh(mesh);
+} catch (const std::bad_alloc&) {
+  return failure(ErrorKind::io, "check stopped: not enough memory");
+} catch (const std::exception& e) {
+  return failure(ErrorKind::io, std::string("check failed: ") + e.what());
 }
 
 }  // namespace clay::solid::inline proof

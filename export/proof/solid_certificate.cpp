@@ -5,8 +5,8 @@
 #include "core/compensated_sum.hpp"
 #include "core/content_hash.hpp"
 #include "core/portable_trig.hpp"
-#include "export/proof/completed_check.hpp"
 #include "export/proof/describe.hpp"
+#include "export/proof/inspect_mesh.hpp"
 #include "export/proof/revolve_match.hpp"
 #include "export/proof/rounded_claims.hpp"
 #include "export/solid/revolve_layout.hpp"
@@ -156,7 +156,7 @@ Result<void> same_solid(const SolidCertificate& stated, const Margins& margins,
                  "that margins cover the rounding of " + nine_digit_text(stated.rounding_mm),
                  "that they cover less than " + nine_digit_text(safe) + " mm");
   }
-  const MeshReport report = completed_check(decoded);
+  const MeshReport report = inspect_mesh(decoded);
   if (report.sound()) return {};
   return wrong(file, "proof", "a sound mesh", describe(report.problems.front()));
 }

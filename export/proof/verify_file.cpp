@@ -1,8 +1,8 @@
 #include "export/proof/verify_file.hpp"
 
 #include "export/formats/stored_file.hpp"
-#include "export/proof/completed_check.hpp"
 #include "export/proof/describe.hpp"
+#include "export/proof/inspect_mesh.hpp"
 #include "export/solid/mesh_topology.hpp"
 #include "export/solid/vertex_distance.hpp"
 
@@ -52,7 +52,7 @@ Result<double> verify_file(std::string_view bytes, MeshFormat format, const Tria
                  " mm of their places, found " + nine_digit_text(moved) + " mm");
   if (reordered) {
     // The decoded points differ from those checked before encoding.
-    const MeshReport check = completed_check(*decoded);
+    const MeshReport check = inspect_mesh(*decoded);
     if (!check.sound()) return wrong("found " + describe(check.problems.front()));
   } else {
     const MeshTopology topology = topology_of(decoded->points.size(), decoded->triangles);
@@ -67,7 +67,7 @@ Result<MeshReport> check_stored(const FileStore& store, std::uint64_t bytes, Mes
   const auto report =
       read_whole(store, bytes)
           .and_then([&](const std::string& file) { return decode_mesh(file, format, name); })
-          .map(completed_check);
+          .map(inspect_mesh);
   if (!report || report->sound()) return report;
   return failure(ErrorKind::unsound, name + ": found " + describe(report->problems.front()));
 }

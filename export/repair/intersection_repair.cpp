@@ -1,7 +1,7 @@
 #include "export/repair/intersection_repair.hpp"
 
 #include "export/formats/file_floats.hpp"
-#include "export/proof/completed_check.hpp"
+#include "export/proof/inspect_mesh.hpp"
 #include "export/repair/exact_refinement.hpp"
 #include "export/repair/outer_skin.hpp"
 #include "export/repair/sheet_count.hpp"
@@ -111,7 +111,7 @@ class Resolution {
 
   Result<TriangleMesh> run() {
     stage_.begin("checking");
-    report_ = completed_check(input_);
+    report_ = inspect_mesh(input_);
     note_repair(repaired_, "pair of intersecting triangles resolved", report_.self_intersections);
     if (report_.sound()) return input_;
     for (int round = 0; round < kMostRounds; ++round) {
@@ -180,7 +180,7 @@ class Resolution {
       Rounded next =
           rounded(cut, std::ldexp(unit_mm_, 2 * step + 1), std::ldexp(unit_mm_, 2 * step + 6));
       stage_.begin("checking");
-      MeshReport of_next = completed_check(next.mesh);
+      MeshReport of_next = inspect_mesh(next.mesh);
       const std::size_t faults = faults_of(of_next);
       if (fewest && faults >= *fewest)
         worse += faults == *fewest ? kMostWorse : 1;  // same faults: not caused by the steps

@@ -4,7 +4,7 @@
 #include "core/cancel.hpp"
 #include "core/parallel_parts.hpp"
 #include "core/text.hpp"
-#include "export/proof/completed_check.hpp"
+#include "export/proof/inspect_mesh.hpp"
 #include "export/repair/hole_filling.hpp"
 #include "export/repair/intersection_repair.hpp"
 #include "export/repair/order_keeping.hpp"
@@ -44,7 +44,7 @@ tl::unexpected<Error> nothing_left() {
 Result<TriangleMesh> wrapped_or_error(const TriangleMesh& soup, double offset_mm, double alpha_mm,
                                       const Error& reason) {
   TriangleMesh mesh = wrapped(soup, offset_mm, alpha_mm);
-  const MeshReport report = completed_check(mesh);
+  const MeshReport report = inspect_mesh(mesh);
   if (report.sound()) return mesh;
   return failure(ErrorKind::unsound, reason.message + "; wrapped: expected a sound mesh, found " +
                                          report.problems.front().what);
@@ -238,37 +238,38 @@ Result<RepairedMesh> repair_if_size_fits(const TriangleMesh& mesh, const RepairO
   return repair_unsound(mesh, options);
 }
 
-/// Exceptions become errors.
+/// Exceptions become errors of the job.
 template <class Work>
-auto guarded(const RepairOptions& options, const Work& work) -> decltype(work()) try {
+auto guarded(const std::string& job, const RepairOptions& options, const Work& work)
+    -> decltype(work()) try {
   const CancelScope scope(options.cancelled ? &options.cancelled : CancelScope::current());
   return work();
 } catch (const std::bad_alloc&) {
-  return failure(ErrorKind::io, "repair stopped: not enough memory");
+  return failure(ErrorKind::io, job + " stopped: not enough memory");
 } catch (const std::exception& e) {
-  return failure(ErrorKind::io, std::string("repair failed: ") + e.what());
+  return failure(ErrorKind::io, job + " failed: " + e.what());
 } catch (const Cancelled&) {
   // Without `cancelled`, an enclosing job decides the cancellation.
   if (!options.cancelled) throw;
-  return failure(ErrorKind::io, "repair stopped: cancelled");
+  return failure(ErrorKind::io, job + " stopped: cancelled");
 }
 
 }  // namespace
 
 Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
-  return guarded(options, [&]() -> Result<RepairedMesh> {
+  return guarded("repair", options, [&]() -> Result<RepairedMesh> {
     if (options.progress) options.progress("checking", 0.0);
-    if (completed_check(mesh).sound()) return RepairedMesh{mesh, {}, {}, {}};
+    if (inspect_mesh(mesh).sound()) return RepairedMesh{mesh, {}, {}, {}};
     return repair_if_size_fits(mesh, options);
   });
 }
 
 Result<RepairedMesh> repair_unsound_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
-  return guarded(options, [&] { return repair_if_size_fits(mesh, options); });
+  return guarded("repair", options, [&] { return repair_if_size_fits(mesh, options); });
 }
 
 Result<SurfaceChange> change_between(const TriangleMesh& before, const TriangleMesh& after) {
-  return guarded({}, [&]() -> Result<SurfaceChange> {
+  return guarded("measuring the change", {}, [&]() -> Result<SurfaceChange> {
     const TriangleMesh from = usable(before);
     if (from.triangles.empty() || after.triangles.empty()) return SurfaceChange{};
     return change_of_usable(from, after);

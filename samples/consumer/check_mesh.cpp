@@ -16,14 +16,15 @@ int main(int argc, char** argv) {
     return clay::read_file(path).and_then(
         [&](const std::string& bytes) { return clay::solid::decode_mesh(bytes, format, path); });
   });
-  if (!mesh) {
-    std::fprintf(stderr, "%s\n", mesh.error().message.c_str());
-    return mesh.error().kind == clay::ErrorKind::io ? 3 : 2;
+  const auto report = mesh.and_then(clay::solid::check_mesh);
+  if (!report) {
+    std::fprintf(stderr, "%s\n", report.error().message.c_str());
+    return report.error().kind == clay::ErrorKind::io ? 3 : 2;
   }
-  const clay::solid::MeshReport report = clay::solid::check_mesh(*mesh);
-  std::printf("%zu triangles, %.1f cm3, %s\n", report.triangles, report.volume_mm3 / 1000.0,
-              report.sound() ? "sound" : "not sound");
-  for (const auto& problem : report.problems)
+  std::printf("%zu triangles, %s", report->triangles, report->sound() ? "sound" : "not sound");
+  if (report->has_volume) std::printf(", %.1f cm3", report->volume_mm3 / 1000.0);
+  std::printf("\n");
+  for (const auto& problem : report->problems)
     std::printf("%s (%zu): %s\n", problem.what.c_str(), problem.count, problem.where.c_str());
-  return report.sound() ? 0 : 1;
+  return report->sound() ? 0 : 1;
 }

@@ -159,7 +159,7 @@ void compare(std::size_t shells, std::size_t triangles, std::size_t rounds) {
     decode.push_back(timed([&] { mesh = decode_stl(stl, "vase.stl").value(); }));
     found = mesh.triangles.size();
     bool sound = false;
-    check.push_back(timed([&] { sound = check_mesh(mesh).sound(); }));
+    check.push_back(timed([&] { sound = check_mesh(mesh).value().sound(); }));
     if (round == 0) check_peak_gb = peak_gb();
     if (!sound) fail("check_mesh reports a defect in a sound mesh");
     bool fault = true;
@@ -180,7 +180,7 @@ void compare_fans(const char* what, const Profile& profile, std::size_t segments
   const TriangleMesh mesh = revolve(profile, segments);
   std::printf("%s of %zu segments, %zu triangles\n", what, segments, mesh.triangles.size());
   bool sound = false;
-  print_times("check_mesh", timed([&] { sound = check_mesh(mesh).sound(); }));
+  print_times("check_mesh", timed([&] { sound = check_mesh(mesh).value().sound(); }));
   if (!sound) fail("check_mesh reports a defect in a sound mesh");
   if (segments > kMaxForCgal) return;
   bool fault = true;

@@ -57,7 +57,8 @@ TEST_F(AtomicFileFailures, FullDiskKeepsTheOldFile) {
     const auto written = file->write(std::string(150'000, 'x'));
     // A failed file must not be published later.
     return !written &&
-           written.error().message == path.string() + ": cannot write: " + std::strerror(EFBIG) &&
+           written.error().message ==
+               path.string() + ": could not write: " + std::strerror(EFBIG) &&
            !file->commit();
   });
   EXPECT_EQ(status, 0);

@@ -163,7 +163,7 @@ TEST_F(AtomicFileTest, ReadFileRefusesMissingAndLargeFiles) {
   const auto missing = read_file(folder_ / "missing");
   EXPECT_EQ(missing.error().kind, ErrorKind::io);
   EXPECT_EQ(missing.error().message,
-            (folder_ / "missing").string() + ": cannot open: " + std::strerror(ENOENT));
+            (folder_ / "missing").string() + ": could not open: " + std::strerror(ENOENT));
 }
 
 }  // namespace

@@ -59,12 +59,24 @@ TEST(NearestWord, IsTheFirstOfTheNearestWithinAThirdOfItsLength) {
   EXPECT_EQ(nearest_word("ax", {"ab"}), "") << "half of it differs";
 }
 
-TEST(NumberIn, ReadsTheWholeTextOrNothing) {
-  EXPECT_EQ(number_in<int>("-12"), -12);
-  EXPECT_EQ(number_in<double>("2.5e3"), 2500.0);
+TEST(NameOfFile, HasNeitherFolderNorKind) {
+  EXPECT_EQ(name_of_file("pots/bowl.pot.json"), "bowl");
+  EXPECT_EQ(name_of_file("Bowl.POT.CBOR"), "Bowl");
+  EXPECT_EQ(name_of_file("a/b.c/jug 2.5.scene.json"), "jug 2.5");
+  EXPECT_EQ(name_of_file("v1.2.3mf"), "v1.2");
+  EXPECT_EQ(name_of_file("cup"), "cup");
+  EXPECT_EQ(name_of_file("pots.old/cup"), "cup");
+  EXPECT_EQ(name_of_file(".pot.json"), ".pot") << "hidden, without another name";
+  EXPECT_EQ(name_of_file(".cup"), ".cup");
+  EXPECT_EQ(name_of_file("-"), "pot");
+}
+
+TEST(ParseNumber, ReadsTheWholeTextOrNothing) {
+  EXPECT_EQ(parse_number<int>("-12"), -12);
+  EXPECT_EQ(parse_number<double>("2.5e3"), 2500.0);
   for (const char* text : {"", "+5", " 5", "5 ", "5x", "2147483648", "0x5"})
-    EXPECT_EQ(number_in<int>(text), std::nullopt) << text;
-  EXPECT_EQ(number_in<std::uint32_t>("-1"), std::nullopt);
+    EXPECT_EQ(parse_number<int>(text), std::nullopt) << text;
+  EXPECT_EQ(parse_number<std::uint32_t>("-1"), std::nullopt);
 }
 
 TEST(TwoNumbers, ReadsBothOrNothing) {

@@ -207,7 +207,8 @@ def throw(scene: _Path, session: Optional[_Path] = None) -> Pot:
     path = os.fsencode(scene)
     if session is None:
         ending = b".scene.json"
-        session = (path[: -len(ending)] if path.endswith(ending) else path) + b".session"
+        named = path[-len(ending):].lower() == ending
+        session = (path[: -len(ending)] if named else path) + b".session"
     return _made(*_call(_native.throw_pot, path, os.fsencode(session)))
 
 
@@ -236,7 +237,8 @@ def export(pot: Pot, files: Union[_Path, Sequence[_Path]], *, tolerance_mm: floa
     """Proves the pot and writes the file, or all files or none. The solids are those of `claystack export`.
 
     `smooth_length_mm`, for smoothing "fair": walls of continuous curvature; marks shorter than this
-    are smoothed away. None: the radius of the pot's tool, or 0 if the pot remembers none."""
+    are smoothed away. None: as the command line chooses it: the radius of the pot's tool, or half its
+    height if that is less; 0 for a pot thrown without clay rules, and for a tolerance above 0.1 mm."""
     settings = _settings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm, process, shrinkage,
                          certificates)
     report = _call(_native.export_pot, pot._native, _paths(files), settings)

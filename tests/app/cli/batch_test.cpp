@@ -92,6 +92,31 @@ TEST_F(Batch, ResumesAfterTheJobsThatHaveAVerdict) {
                 {"jobs", 2}, {"done", 2}, {"failed", 0}, {"skipped", 2}, {"results", results}}));
 }
 
+TEST_F(Batch, NamesJobsThatFail) {
+  write_jobs({job("absent", {"check", folder.file("none.pot.json")})});
+  const Ran ran = run("-o " + folder.file("results.jsonl"));
+  EXPECT_NE(ran.err.find("warning: absent: status 3: " + folder.file("none.pot.json") +
+                         ": could not open"),
+            std::string::npos)
+      << ran.err;
+}
+
+TEST_F(Batch, RedoesJobsWhenAsked) {
+  const std::string results = folder.file("results.jsonl"), pot = folder.file("a.pot.json");
+  ASSERT_EQ(claystack("throw -q " + sample("cylinder.scene.json") + " -o " + pot).status, 0);
+  // The wall is thinner than 50 mm.
+  write_jobs({thrown("b.pot.json"), job("thin", {"check", pot, "--min-wall", "50"})});
+  EXPECT_EQ(run("-o " + results).out, "2 jobs: 1 done, 1 failed\n");
+  const auto skipped = [&](const std::string& redo) {
+    return nlohmann::json::parse(run("--json -o " + results + redo).out).at("skipped");
+  };
+  EXPECT_EQ(skipped(""), 2);
+  EXPECT_EQ(skipped(" --redo failed"), 1);
+  EXPECT_EQ(skipped(" --redo all"), 0);
+  EXPECT_EQ(skipped(""), 2);
+  EXPECT_EQ(run("--redo some -o " + results).status, 2);
+}
+
 TEST_F(Batch, IsolatesAJobThatTakesTooLong) {
   // It reads a pipe into which nothing is written.
   ASSERT_EQ(shell("mkfifo " + folder.file("pipe.pot.json")).status, 0);
@@ -318,7 +343,7 @@ TEST_F(Batch, RunsFewerJobsAtATimeWhereTheSystemAllowsNoMore) {
   // With too few for one job it ends, with the reason.
   const Ran none = shell("ulimit -n 7; " + batch + folder.file("none.jsonl"));
   EXPECT_EQ(none.status, 3);
-  EXPECT_NE(none.err.find("batch: cannot make a pipe"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("batch: could not make a pipe"), std::string::npos) << none.err;
 }
 
 // The batch is killed when the process of the job exists, but is not yet bound to it. `cat` ends

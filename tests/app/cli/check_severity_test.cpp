@@ -111,7 +111,7 @@ TEST_F(CheckSeverity, ManyIntersectionsDoNotPrint) {
   solid::TriangleMesh balls = ball(10.0);
   for (const double k : {1.0, 2.0, 3.0})
     balls = together(balls, moved(ball(10.0), {3.3 * k, 1.7 * k, 0.9 * k}));
-  ASSERT_GT(solid::check_mesh(balls).self_intersections, solid::kMostUnitedPairs);
+  ASSERT_GT(solid::check_mesh(balls).value().self_intersections, solid::kMostUnitedPairs);
   expect(balls, "will not print", 1, 1);
 }
 

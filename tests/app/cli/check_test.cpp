@@ -433,9 +433,14 @@ TEST(Check, StatesNoVolumeOfAnOpenMesh) {
   EXPECT_EQ(violation(load_schema("check"), Json::parse(repaired.out)), "") << repaired.out;
   const Ran repair_text = claystack("check --repair --dry-run " + file);
   EXPECT_NE(
-      repair_text.out.find("volume: none before, because the mesh enclosed none, 1 cm3 after"),
+      repair_text.out.find("volume: none before, because the mesh encloses none, 1 cm3 after"),
       std::string::npos)
       << repair_text.out;
+  const Ran coarser = claystack("check --dry-run --max-triangles 1000 " + file);
+  EXPECT_NE(coarser.out.find("volume: none before, because the mesh encloses none, none after, "
+                             "because the mesh encloses none"),
+            std::string::npos)
+      << coarser.out;
 }
 
 TEST(Check, StatesNoVolumeIfAFaceIsThereTwice) {

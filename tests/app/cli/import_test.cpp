@@ -250,6 +250,40 @@ TEST(Import, ReportsTheThinnestWallOfAHollowedOutline) {
   EXPECT_TRUE(solid.json().at("thinnest_wall_mm").is_null());
 }
 
+/// The facets of an export take some hundredths of a millimetre from a curved wall.
+TEST(Import, AWallOfALimitPassesIt) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("a.pot.json"), tumbler = sample("drawings/tumbler.csv");
+  for (const char* mm : {"3", "5"}) {
+    ASSERT_EQ(claystack("import " + tumbler + " --wall " + mm + " -o " + pot).status, 0);
+    const Ran check = claystack("check " + pot + " --min-wall " + mm);
+    EXPECT_EQ(check.status, 0) << check.out;
+  }
+}
+
+TEST(Import, StatesThatAnOutlineWithoutAWallIsSolid) {
+  const ScratchFolder folder;
+  const std::string pot = folder.file("a.pot.json");
+  const std::string import = "import " + sample("drawings/tumbler.csv") + " -o " + pot;
+  EXPECT_THAT(claystack(import).out, HasSubstr("solid: the drawing shows no inside (--wall LENGTH "
+                                               "makes one)"));
+  EXPECT_EQ(claystack(import + " --wall 4").out.find("solid:"), std::string::npos);
+}
+
+/// Its outside rises by 1 mm over 2 mm, so the level rim ends in an edge of 27 degrees.
+TEST(Import, WarnsOfASharpRim) {
+  const ScratchFolder folder;
+  const std::string dish = folder.file("dish.csv"), pot = folder.file("dish.pot.json");
+  write_text(dish, "radius_mm,height_mm\n30,0\n40,10\n80,30\n");
+  const Ran flat = claystack("import --wall 3 " + dish + " -o " + pot);
+  EXPECT_EQ(flat.status, 0);
+  EXPECT_THAT(flat.err,
+              HasSubstr("dish.csv: the wall leans outward by 63 degrees at the rim, which "
+                        "is cut level, so its edge is sharp"));
+  write_text(dish, "radius_mm,height_mm\n30,0\n60,30\n");
+  EXPECT_EQ(claystack("import --wall 3 " + dish + " -o " + pot).err, "");
+}
+
 // A frustum with radii of 30 and 40 mm; both of its ends could be the axis.
 TEST(Import, TakesTheRightEndAsTheAxis) {
   const ScratchFolder folder;

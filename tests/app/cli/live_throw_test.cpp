@@ -154,7 +154,8 @@ TEST(LiveThrow, RefusesUnwritableOutputsBeforeThrowing) {
   // A limit on file size simulates a full disk.
   const auto full = shell("(ulimit -f 0; " CLAYSTACK_PROGRAM " " + live + " -o " +
                           folder.file("a.pot.json") + "; echo status $?) 2>&1 | cat");
-  EXPECT_NE(full.out.find("a.pot.json: cannot write: File too large\nstatus 3"), std::string::npos)
+  EXPECT_NE(full.out.find("a.pot.json: could not write: File too large\nstatus 3"),
+            std::string::npos)
       << full.out;
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
 }
@@ -183,7 +184,7 @@ TEST(LiveThrow, KeepsAPotInTheTemporaryFolderAsALastResort) {
                                "XDG_STATE_HOME=/dev/null TMPDIR=" + temporary);
   EXPECT_EQ(run.status, 3);
   const std::string kept = only_file_in(temporary);
-  EXPECT_NE(run.err.find(pot + ": cannot write: No space left on device; the pot is in " + kept),
+  EXPECT_NE(run.err.find(pot + ": could not write: No space left on device; the pot is in " + kept),
             std::string::npos)
       << run.err;
   EXPECT_EQ(read_text(kept), replayed(folder));

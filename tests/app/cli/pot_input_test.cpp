@@ -30,8 +30,8 @@ TEST(MeshDiffers, FromThePotInAnotherSizeOrShape) {
       "the size is more than the shrinkage of a clay needs, so another program may have scaled the "
       "mesh");
   EXPECT_EQ(other_size(box(100, 60), pot),
-            "80.0 mm wide and 50.0 mm high; the mesh is 100.0 mm and 60.0 mm, 1.25 and 1.20 times "
-            "as much");
+            "80.0 mm wide and 50.0 mm high; the mesh is 100.0 mm wide and 60.0 mm high, 1.25 "
+            "and 1.20 times as much");
   EXPECT_EQ(other_size(box(80.1, 49.9), pot), std::nullopt);
 }
 

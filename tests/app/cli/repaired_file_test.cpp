@@ -151,9 +151,9 @@ TEST_F(RepairedFile, WritesNothingIfDecimationMakesTheResultUnsound) {
   ASSERT_TRUE(mesh);
   const std::string in = write("two.stl", together(*mesh, moved(*mesh, {10.0, 0.0, 0.0})));
   const std::string out = folder.file("out.stl");
-  const Ran run = claystack("check --repair " + in + " --max-triangles 200 -o " + out);
+  const Ran run = claystack("check --repair " + in + " --max-triangles 120 -o " + out);
   EXPECT_EQ(run.status, 1) << run.out;
-  EXPECT_NE(run.err.find("--max-triangles 200: expected a sound mesh, found self-intersection"),
+  EXPECT_NE(run.err.find("--max-triangles 120: expected a sound mesh, found self-intersection"),
             std::string::npos)
       << run.err;
   EXPECT_FALSE(std::filesystem::exists(out));

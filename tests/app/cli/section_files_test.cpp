@@ -134,6 +134,10 @@ TEST_F(SectionFiles, ReportLabelsItsFigures) {
   const std::string fired = html("--shrinkage 12% --fill-line 7 --process stoneware");
   EXPECT_TRUE(has(fired, "capacity to the fill line, 7 mm below the brim of the fired pot<"));
   EXPECT_TRUE(has(fired, ">Balance of the fired pot<"));
+  for (const char* shrinkage : {"", " --shrinkage 12%"})
+    EXPECT_TRUE(has(html("--glaze-allowance 0.5" + std::string(shrinkage)),
+                    "capacity to the fill line, 10 mm below the brim of the glazed pot<"))
+        << shrinkage;
   EXPECT_TRUE(has(fired, "not checked: no bed size is known for Stoneware"));
   EXPECT_FALSE(has(fired, ">fits Stoneware<"));
 }

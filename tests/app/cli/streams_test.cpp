@@ -139,7 +139,7 @@ std::string limited(const std::string& limit, const std::string& arguments) {
 TEST_F(StandardStreams, ReportsAFileSizeLimit) {
   const std::string out = folder_.file("out.pot.json");
   EXPECT_EQ(limited("-f 0", "throw -q " + bowl_ + " -o " + out),
-            "claystack: " + out + ": cannot write: File too large\nstatus 3\n");
+            "claystack: " + out + ": could not write: File too large\nstatus 3\n");
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

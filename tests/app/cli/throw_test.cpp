@@ -1,5 +1,6 @@
 #include "tests/support/run_program.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,8 +35,16 @@ TEST(Throw, NamesTheSessionThatIsMissingBesideItsScene) {
   EXPECT_EQ(run.status, 3);
   EXPECT_EQ(run.err, "claystack: " + folder.file("one.session") + ": expected the session of " +
                          scene + " beside it, found none; -s NAME.session plays another one\n");
-  EXPECT_NE(claystack("throw none.scene.json").err.find("none.scene.json: cannot open"),
+  EXPECT_NE(claystack("throw none.scene.json").err.find("none.scene.json: could not open"),
             std::string::npos);
+}
+
+TEST(Throw, FindsTheSessionBesideASceneInCapitals) {
+  const ScratchFolder folder;
+  write_text(folder.file("One.Scene.JSON"), read_text(sample("bowl.scene.json")));
+  write_text(folder.file("One.session"), read_text(sample("bowl.session")));
+  const Ran run = claystack("throw " + folder.file("One.Scene.JSON"));
+  EXPECT_EQ(run.status, 0) << run.err;
 }
 
 TEST(Throw, RefusesAListOfAPot) {
@@ -84,7 +93,8 @@ TEST(Throw, APotCutInTwoFalls) {
   EXPECT_EQ(fall.at("parted"), true);
   EXPECT_LT(fall.at("stress_kpa"), 1000.0);
   const std::string words =
-      "ring " + fall.at("ring").dump() + " no longer touches the ring above it";
+      fmt::format("the clay at a height of {:.1f} mm (ring {}) no longer touches the clay above it",
+                  fall.at("height_mm").get<double>(), fall.at("ring").get<int>());
   EXPECT_NE(run.out.find("collapsed: " + words + "; the part above came to rest, tilted by "),
             std::string::npos)
       << run.out;
@@ -182,7 +192,9 @@ TEST(Throw, ReportsACollapse) {
   EXPECT_EQ(run.status, 0);
   const auto json = claystack("throw --json " + sample("collapse.scene.json")).json();
   const auto& fall = json.at("collapse");
-  const std::string words = std::string("collapsed: ring ").append(fall.at("ring").dump());
+  const std::string words =
+      fmt::format("collapsed: the clay at a height of {:.1f} mm (ring {}) carried ",
+                  fall.at("height_mm").get<double>(), fall.at("ring").get<int>());
   EXPECT_NE(run.out.find(words), std::string::npos) << run.out;
   EXPECT_NE(run.out.find(", more than the limit of 3.300 kPa;"), std::string::npos) << run.out;
   EXPECT_EQ(fall.at("threshold_kpa"),

@@ -212,9 +212,9 @@ TEST(Usage, MessagesHoldNoControlCharacters) {
   const ScratchFolder folder;
   const std::string name = "\"$(printf 'r\\033[31med\\nb.stl')\"";
   EXPECT_EQ(claystack("check " + name).err,
-            "claystack: r?[31med?b.stl: cannot open: No such file or directory\n");
+            "claystack: r?[31med?b.stl: could not open: No such file or directory\n");
   EXPECT_EQ(claystack("check 'a\u202Elts.exe\u200B\u0085\xF6.stl'").err,
-            "claystack: a?lts.exe???.stl: cannot open: No such file or directory\n");
+            "claystack: a?lts.exe???.stl: could not open: No such file or directory\n");
   write_text(folder.file("cube.obj"),
              "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   const std::string at = "cd " + folder.path().string() + " && ";
@@ -230,7 +230,7 @@ TEST(Usage, ReportsAMissingFileEvenWithoutADisplay) {
   const auto run = shell("env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder.file("") +
                          " " CLAYSTACK_PROGRAM " studio " + file);
   EXPECT_EQ(run.status, 3);
-  EXPECT_EQ(run.err, "claystack: " + file + ": cannot open: No such file or directory\n");
+  EXPECT_EQ(run.err, "claystack: " + file + ": could not open: No such file or directory\n");
 }
 
 TEST(Usage, ReportsAnEmptyDisplayWithoutAStrayBlank) {

@@ -321,7 +321,7 @@ TEST(WriteLimits, ReportsAFileAboveItsSizeLimit) {
   // In blocks of 512 bytes. Without a handler the signal SIGXFSZ ends the program.
   const Ran ran = shell("ulimit -f 8; " CLAYSTACK_PROGRAM " export -q " + pot + " " + stl);
   EXPECT_EQ(ran.status, 3) << ran.err;
-  EXPECT_NE(ran.err.find(stl + ": cannot write"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find(stl + ": could not write"), std::string::npos) << ran.err;
   EXPECT_EQ(files_in(folder.path()).size(), 1u);
 }
 

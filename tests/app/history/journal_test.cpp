@@ -5,6 +5,7 @@
 #include "app/servo/recorder.hpp"
 #include "tests/app/history/strokes.hpp"
 #include "tests/core/system_call_fault.hpp"
+#include "tests/support/no_new_threads.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/wait_until.hpp"
 
@@ -143,7 +144,7 @@ TEST(Journal, DoesNotOfferSavedOrEmptyWorks) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path)) << "and is cleared away";
 }
 
-/// As programs leave them that are killed while they create a journal.
+/// Files of programs that were killed while they created a journal.
 TEST(Journal, RemovesAnUnfinishedJournalOfAnEndedProgram) {
   const Folder folder;
   std::filesystem::create_directories(folder.path);
@@ -334,7 +335,30 @@ TEST(Journal, ReportsAMissingFolder) {
   EXPECT_NE(journal.error().message.find("home folder"), std::string::npos);
 }
 
-// Opening a pipe without a writer blocks for ever.
+TEST(Journal, ReportsAThreadThatDoesNotStart) {
+  const Folder folder;
+  const Work work = Work::begin(small_scene()).value();
+  const auto left = journal_left(
+      folder, [](Work& changed) { (void)changed.add(small_scene(), press_stroke(1)).value(); });
+  const test::NoNewThreads none;
+  const auto expect_reported = [](const auto& journal) {
+    ASSERT_FALSE(journal);
+    EXPECT_EQ(journal.error().kind, ErrorKind::io);
+    EXPECT_TRUE(journal.error().message.starts_with("could not start the journal's thread: "))
+        << journal.error().message;
+  };
+  expect_reported(Journal::begin(work.record(), folder.path));
+  WorkReading found;
+  expect_reported(Journal::take_over(left, found));
+  std::size_t files = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder.path)) {
+    EXPECT_EQ(file.path(), left) << "the journal from before alone is left";
+    ++files;
+  }
+  EXPECT_EQ(files, 1u);
+}
+
+// Opening a pipe without a writer blocks without end.
 TEST(Journal, SkipsAPipeInTheFolder) {
   const Folder folder;
   const auto journal = journal_left(

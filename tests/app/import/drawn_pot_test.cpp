@@ -97,28 +97,35 @@ TEST(DrawnPot, DeviationIsThatOfTheSteps) {
   EXPECT_NEAR(drawn_pot(*straight, {}, "pot.csv")->deviation.mm, 0.0, 1e-9);
 }
 
+/// Without more wall for facets.
+DrawnPotSettings exact(std::optional<double> ring_height_mm, double wall_mm) {
+  DrawnPotSettings settings{ring_height_mm, wall_mm};
+  settings.facets_mm = 0.0;
+  return settings;
+}
+
 TEST(DrawnPot, WallOptionHollowsTheOutline) {
-  const auto pot = pot_of("30,0\n30,60\n", {2.0, 6.0, 1.9});
+  const auto pot = pot_of("30,0\n30,60\n", exact(2.0, 6.0));
   ASSERT_TRUE(pot) << refusal_of(pot);
   for (std::size_t i = 0; i < 30; ++i)
     EXPECT_NEAR(pot->stack.rings()[i].inner_mm(), i < 3 ? 0.0 : 24.0, 1e-9) << i;
-  EXPECT_THAT(refusal_of(pot_of("20,0\n30,0\n30,10\n20,10\n20,0\n", {2.0, 6.0, 1.9})),
+  EXPECT_THAT(refusal_of(pot_of("20,0\n30,0\n30,10\n20,10\n20,0\n", exact(2.0, 6.0))),
               HasSubstr("found a bore in it"));
   EXPECT_THAT(
-      refusal_of(pot_of("30,0\n25,60\n", {2.0, 40.0, 1.9})),
+      refusal_of(pot_of("30,0\n25,60\n", exact(2.0, 40.0))),
       HasSubstr(": wall: expected a wall that leaves a bore up to the rim, found 40 mm; there "
                 "would be no bore"));
   // The neck is 3 mm wide from 40 to 60 mm. The disc of 4 mm touches its edge at 37.35 mm.
-  EXPECT_THAT(refusal_of(pot_of("30,0\n30,40\n3,40\n3,60\n30,60\n30,90\n", {2.0, 4.0, 1.9})),
+  EXPECT_THAT(refusal_of(pot_of("30,0\n30,40\n3,40\n3,60\n30,60\n30,90\n", exact(2.0, 4.0))),
               HasSubstr("the bore would close 37.4 mm above the foot"));
-  EXPECT_THAT(refusal_of(pot_of("90,0\n90,40\n", {2.0, 40.0, 1.9})),
+  EXPECT_THAT(refusal_of(pot_of("90,0\n90,40\n", exact(2.0, 40.0))),
               HasSubstr(": wall: expected less than the height of 40 mm"));
 }
 
 TEST(DrawnPot, AHollowedWallIsEvenHoweverItLeans) {
   // A cone that opens by 3 in 4: 5 mm across its wall are 6.25 mm horizontally.
   const auto section = section_of("40,0\n70,40\n", "pot.csv");
-  const auto cone = drawn_pot(*section, {0.1, 5.0, 1.9}, "pot.csv");
+  const auto cone = drawn_pot(*section, exact(0.1, 5.0), "pot.csv");
   ASSERT_TRUE(cone) << refusal_of(cone);
   const auto& rings = cone->pot.stack.rings();
   EXPECT_EQ(rings[49].inner_mm(), 0.0);
@@ -131,7 +138,7 @@ TEST(DrawnPot, AHollowedWallIsEvenHoweverItLeans) {
   EXPECT_FALSE(drawn_pot(*section, {}, "pot.csv")->thinnest);
   // A dish whose wall rises by 5 mm over 50.
   const auto dish = section_of("30,0\n80,5\n80,10\n", "pot.csv");
-  const auto flat = drawn_pot(*dish, {{}, 3.0, 1.9}, "pot.csv");
+  const auto flat = drawn_pot(*dish, exact({}, 3.0), "pot.csv");
   ASSERT_TRUE(flat) << refusal_of(flat);
   EXPECT_NEAR(flat->thinnest->mm, 3.0, kFlatMm);
 }
@@ -141,7 +148,7 @@ TEST(DrawnPot, TheBoreOfAHemisphereIsAHemisphere) {
   std::string csv;
   for (double z = 1.0; z <= 39.0; z += 0.05)
     csv += fmt::format("{:.9f},{:.9f}\n", std::sqrt(1600.0 - (40.0 - z) * (40.0 - z)), z - 1.0);
-  const auto pot = pot_of(csv, {0.25, 4.0, 1.9});
+  const auto pot = pot_of(csv, exact(0.25, 4.0));
   ASSERT_TRUE(pot) << refusal_of(pot);
   const auto& rings = pot->stack.rings();
   for (std::size_t i = 16; i < rings.size(); ++i) {
@@ -150,6 +157,16 @@ TEST(DrawnPot, TheBoreOfAHemisphereIsAHemisphere) {
     const double square = 36.0 * 36.0 - (low * low + low * high + high * high) / 3.0;
     EXPECT_NEAR(rings[i].inner_mm(), std::sqrt(square), 5e-3) << i;
   }
+}
+
+/// The wall of a cone gets more for the facets of an export, and its floor does not.
+TEST(DrawnPot, AWallGetsMoreForFacets) {
+  const auto section = section_of("40,0\n70,40\n", "pot.csv");
+  const auto cone = drawn_pot(*section, {0.1, 5.0}, "pot.csv");
+  ASSERT_TRUE(cone) << refusal_of(cone);
+  const auto& rings = cone->pot.stack.rings();
+  EXPECT_EQ(rings[49].inner_mm(), 0.0);
+  EXPECT_NEAR(rings[50].inner_mm(), 40.0 + 0.75 * 5.05 - 1.25 * (5.0 + kFacetsMm), 2e-3);
 }
 
 TEST(DrawnPot, TheBoreKeepsItsDistanceFromLedges) {

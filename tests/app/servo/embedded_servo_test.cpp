@@ -5,11 +5,11 @@
 #include "claystack/servo/servo.hpp"
 #include "tests/app/servo/live_bench.hpp"
 #include "tests/app/servo/scripted_device.hpp"
+#include "tests/support/no_new_threads.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/wait_until.hpp"
 
 #include <gtest/gtest.h>
-#include <pthread.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -192,36 +192,13 @@ TEST(LiveThrow, ShowsThePauseBeforeTheFirstTickAfterAReconnection) {
   EXPECT_EQ(live.stop(), Ending::stopped);
 }
 
-/// As long as it exists, no thread starts: its stack would be larger than the address space.
-class NoNewThreads {
- public:
-  NoNewThreads() {
-    pthread_getattr_default_np(&before_);
-    pthread_attr_t huge;
-    pthread_attr_init(&huge);
-    pthread_attr_setstacksize(&huge, std::size_t{1} << 62);
-    pthread_setattr_default_np(&huge);
-    pthread_attr_destroy(&huge);
-  }
-  ~NoNewThreads() {
-    pthread_setattr_default_np(&before_);
-    pthread_attr_destroy(&before_);
-  }
-  NoNewThreads(const NoNewThreads&) = delete;
-  NoNewThreads& operator=(const NoNewThreads&) = delete;
-
- private:
-  pthread_attr_t before_;
-};
-
 TEST(LiveThrow, ReportsARecorderThatDoesNotStart) {
   WireLog log;
   ScriptedDevice device(log);
   const SceneSpec scene = rib_scene();
   Wheel wheel = Wheel::build(scene).value();
   StoredPoses stored;
-  const NoNewThreads none;
-  ASSERT_THROW(std::thread([] {}).join(), std::system_error) << "threads still start";
+  const test::NoNewThreads none;
   const auto live = LiveThrow::build(
       {.wheel = wheel, .device = device, .scene = scene, .sink = &stored}, one_to_one());
   ASSERT_FALSE(live);

@@ -12,7 +12,7 @@ using shapes::moved;
 using shapes::together;
 
 std::optional<HangingParts> hanging(const TriangleMesh& mesh) {
-  return hanging_parts(mesh, check_mesh(mesh));
+  return hanging_parts(mesh, check_mesh(mesh).value());
 }
 
 void expect_hanging(const TriangleMesh& mesh, std::size_t hanging_count, std::size_t parts,

@@ -271,7 +271,7 @@ RC_GTEST_PROP(CollapsedSolid, VolumesAddUpAndTheMeshIsSound, ()) {
   RC_ASSERT(std::abs(parts - pot.stack.volume_mm3()) <=
             shapes::volume_rounding(pot.stack, levelled));
   RC_ASSERT(solid->mesh == rounded_to_float(solid->mesh));
-  RC_ASSERT(check_mesh(solid->mesh).sound());
+  RC_ASSERT(check_mesh(solid->mesh).value().sound());
   // No ball in the filled pockets is larger than one of their volume.
   const double ball_mm = std::cbrt(0.75 * solid->pockets_mm3 / kPi);
   RC_ASSERT(solid->max_move_mm < ball_mm + 0.02);

@@ -52,7 +52,7 @@ TEST(ExportFallen, UnitesTheParts) {
     EXPECT_FALSE(report.files[i].certificate);
     const auto decoded = decode_mesh(result->files[i], report.files[i].format, "file");
     ASSERT_TRUE(decoded) << decoded.error().message;
-    EXPECT_TRUE(check_mesh(*decoded).sound());
+    EXPECT_TRUE(check_mesh(*decoded).value().sound());
     EXPECT_EQ(decoded->triangles.size(), report.size.triangles);
   }
 }

@@ -114,7 +114,7 @@ Read read(const PolygonMesh& mesh) {
 
 void expect_solid(const PolygonMesh& polygons, double volume_mm3) {
   const Read found = read(polygons);
-  const MeshReport report = check_mesh(found.mesh);
+  const MeshReport report = check_mesh(found.mesh).value();
   EXPECT_TRUE(report.sound()) << report.problems.front().what << ' '
                               << report.problems.front().where;
   EXPECT_NEAR(report.volume_mm3, volume_mm3, 1e-5 * volume_mm3);

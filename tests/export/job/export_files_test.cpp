@@ -293,6 +293,26 @@ TEST_F(ExportFiles, RefusesTwoRequestsForOneFile) {
   EXPECT_FALSE(std::filesystem::exists(path("a.stl")));
 }
 
+/// The certificate and the report are outputs too.
+TEST_F(ExportFiles, RefusesAnOutputThatWouldReplaceAnotherOne) {
+  ExportRequest request;
+  request.files.push_back(file_request(path("a.stl")).value());
+  const auto expect_refused = [&](const std::string& name) {
+    EXPECT_TRUE(refused(export_files(pot_of(shapes::vase(20)), request), ErrorKind::bad_input,
+                        name + ": expected one request for each file, found two"));
+    EXPECT_FALSE(std::filesystem::exists(path("a.stl")));
+  };
+  request.report_text = [](const ExportReport&) { return std::string("report"); };
+  request.report_path = path("a.stl");
+  expect_refused(request.report_path);
+  request.certificates = true;
+  request.report_path = path("a.stl.certificate.json");
+  expect_refused(request.report_path);
+  request.report_path.clear();
+  request.files.push_back({path("a.stl.certificate.json"), FileKind::given});
+  expect_refused(path("a.stl.certificate.json"));
+}
+
 TEST_F(ExportFiles, RefusesAReportWithoutItsText) {
   ExportRequest request;
   request.report_path = path("a.html");

@@ -47,7 +47,7 @@ TEST(RunExport, VaseInEveryFormat) {
     const auto decoded = decode_mesh(result->files[i], file.format, "file");
     ASSERT_TRUE(decoded) << decoded.error().message;
     EXPECT_EQ(decoded->triangles.size(), report.size.triangles);
-    const MeshReport check = check_mesh(*decoded);
+    const MeshReport check = check_mesh(*decoded).value();
     EXPECT_TRUE(check.sound());
     EXPECT_NEAR(check.volume_mm3, report.volume.solid_mm3, file.certificate->volume_bound_mm3);
     const bool draco = file.format == MeshFormat::drc || file.format == MeshFormat::glb;
@@ -279,7 +279,8 @@ TEST(RunExport, DracoKeepsCloseVerticesApartAtAnyTolerance) {
       const auto result = exported(
           pot_of(stack), {MeshFormat::stl_binary, MeshFormat::drc, MeshFormat::glb}, options);
       ASSERT_TRUE(result) << result.error().message;
-      EXPECT_TRUE(check_mesh(*decode_mesh(result->files[2], MeshFormat::glb, "pot")).sound());
+      EXPECT_TRUE(
+          check_mesh(*decode_mesh(result->files[2], MeshFormat::glb, "pot")).value().sound());
     }
   }
 }
@@ -295,7 +296,7 @@ TEST(RunExport, DracoGetsTheBitsThatThinWallsNeed) {
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_EQ(result->report.files[0].proof, Proof::margins);
   EXPECT_LT(result->report.files[0].max_error_mm, 0.01 / 8);
-  EXPECT_TRUE(check_mesh(*decode_mesh(result->files[0], MeshFormat::drc, "pot")).sound());
+  EXPECT_TRUE(check_mesh(*decode_mesh(result->files[0], MeshFormat::drc, "pot")).value().sound());
 }
 
 TEST(RunExport, WithoutMarginsDracoGetsBitsUntilTheExactTestPasses) {
@@ -314,7 +315,7 @@ TEST(RunExport, WithoutMarginsDracoGetsBitsUntilTheExactTestPasses) {
   // As measured by the test that passed: a grid moves vertices, within the tolerance.
   EXPECT_GT(result->report.files[0].max_error_mm, 0.0);
   EXPECT_LE(result->report.files[0].max_error_mm, options.tolerance_mm);
-  EXPECT_TRUE(check_mesh(*decode_mesh(result->files[0], MeshFormat::drc, "pot")).sound());
+  EXPECT_TRUE(check_mesh(*decode_mesh(result->files[0], MeshFormat::drc, "pot")).value().sound());
 }
 
 /// A wall of 2.2e-6 mm is two steps of float32 thick, less than the rounding of Draco's grid, which
@@ -344,7 +345,7 @@ RC_GTEST_PROP(RunExport, WhatIsWrittenIsSoundOrRefused, (const ClayStack& stack)
   for (std::size_t i = 0; i < result->files.size(); ++i) {
     const auto decoded = decode_mesh(result->files[i], every_format()[i], "pot");
     RC_ASSERT(decoded.has_value());
-    RC_ASSERT(check_mesh(*decoded).sound());
+    RC_ASSERT(check_mesh(*decoded).value().sound());
   }
 }
 

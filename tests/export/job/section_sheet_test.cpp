@@ -56,6 +56,18 @@ TEST(SectionSheet, StatesTheSizesOfThePot) {
   for (std::size_t i = 7; i < 11; ++i) EXPECT_EQ(found[i], expected[i]);
 }
 
+/// A letter takes one to four bytes.
+TEST(SectionSheet, HasThePaperOfItsLettersNotOfItsBytes) {
+  ExportOptions options;
+  const auto paper = [&](const char* letter) {
+    options.name.clear();
+    for (int i = 0; i < 40; ++i) options.name += letter;
+    const Sheet sheet = sheet_of(cup(), options);
+    return sheet.high - sheet.low;
+  };
+  EXPECT_EQ(paper("a"), paper("\u8336"));
+}
+
 TEST(SectionSheet, StatesNoCapacityOfATube) {
   const auto holds = [](const Sheet& sheet) {
     return std::ranges::any_of(sheet.texts, [](const SheetText& text) {

@@ -24,7 +24,7 @@ using shapes::moved;
 using shapes::together;
 
 TEST(MeshCrossings, FindsOverlappingSolids) {
-  const MeshReport report = check_mesh(together(cube(2.0), moved(cube(2.0), {1, 1, 1})));
+  const MeshReport report = check_mesh(together(cube(2.0), moved(cube(2.0), {1, 1, 1}))).value();
   EXPECT_EQ(verdict(report), (Verdict{true, true, true, false, true}));
   ASSERT_TRUE(find(report, "self-intersection")) << names(report);
 }
@@ -32,14 +32,14 @@ TEST(MeshCrossings, FindsOverlappingSolids) {
 TEST(MeshCrossings, FindsASelfIntersection) {
   TriangleMesh mesh = ball(5.0);
   mesh.points[0].z = 20.0;  // moves the lower pole through the top
-  const MeshReport report = check_mesh(mesh);
+  const MeshReport report = check_mesh(mesh).value();
   EXPECT_TRUE(report.closed && report.manifold);
   EXPECT_GT(report.self_intersections, 0u);
   EXPECT_FALSE(report.bounds_volume);
 }
 
 TEST(MeshCrossings, FindsSolidsThatTouchInAnUnsharedCorner) {
-  const MeshReport report = check_mesh(together(cube(2.0), moved(cube(2.0), {2, 2, 2})));
+  const MeshReport report = check_mesh(together(cube(2.0), moved(cube(2.0), {2, 2, 2}))).value();
   EXPECT_GT(report.self_intersections, 0u);
 }
 
@@ -50,15 +50,16 @@ TEST(MeshCrossings, FindsSelfIntersectionsInSoups) {
   soup.points.push_back({90, 90, 90});
   const auto fin = static_cast<std::uint32_t>(soup.points.size() - 1);
   soup.triangles.push_back({fin, fin, 0});
-  EXPECT_EQ(check_mesh(overlap).self_intersections, check_mesh(soup).self_intersections);
-  EXPECT_GT(check_mesh(soup).self_intersections, 0u);
+  EXPECT_EQ(check_mesh(overlap).value().self_intersections,
+            check_mesh(soup).value().self_intersections);
+  EXPECT_GT(check_mesh(soup).value().self_intersections, 0u);
 }
 
 /// A soup, because its last triangle uses a vertex twice.
 std::size_t crossings_in_soup(std::vector<glm::dvec3> points,
                               std::vector<std::array<std::uint32_t, 3>> triangles) {
   triangles.push_back({0, 0, 1});
-  return check_mesh({std::move(points), std::move(triangles)}).self_intersections;
+  return check_mesh({std::move(points), std::move(triangles)}).value().self_intersections;
 }
 
 TEST(MeshCrossings, FindsOverlapOfTrianglesThatShareAnEdge) {
@@ -88,7 +89,7 @@ TEST(MeshCrossings, FindsCrossingOfTrianglesThatShareAVertex) {
 TEST(MeshCrossings, StopsCountingAtTheLimit) {
   TriangleMesh mesh = ball(5.0);
   for (int i = 1; i < 60; ++i) mesh = together(mesh, moved(ball(5.0), {i * 1e-3, i * 2e-3, 0}));
-  const MeshReport report = check_mesh(mesh);
+  const MeshReport report = check_mesh(mesh).value();
   EXPECT_EQ(report.self_intersections, 100'000u);
 }
 

@@ -24,15 +24,15 @@ using shapes::moved;
 using shapes::together;
 
 TEST(MeshShells, DisjointSolidsAndCavitiesAreSound) {
-  const MeshReport two = check_mesh(together(cube(2.0), moved(cube(2.0), {5, 0, 0})));
+  const MeshReport two = check_mesh(together(cube(2.0), moved(cube(2.0), {5, 0, 0}))).value();
   EXPECT_TRUE(two.sound()) << names(two);
   EXPECT_EQ(two.components, 2u);
-  const MeshReport hollow = check_mesh(together(ball(10.0), inverted(ball(5.0))));
+  const MeshReport hollow = check_mesh(together(ball(10.0), inverted(ball(5.0)))).value();
   EXPECT_TRUE(hollow.sound()) << names(hollow);
   EXPECT_EQ(verdict(hollow), kSound);
   // A ball in the cavity of a ball.
   const MeshReport nested =
-      check_mesh(together(together(ball(10.0), inverted(ball(5.0))), ball(2.0)));
+      check_mesh(together(together(ball(10.0), inverted(ball(5.0))), ball(2.0))).value();
   EXPECT_TRUE(nested.sound()) << names(nested);
   EXPECT_EQ(nested.components, 3u);
 }
@@ -42,25 +42,25 @@ TEST(MeshShells, CountsCavitiesAndTheirVolume) {
   const TriangleMesh cavities =
       together(inverted(moved(cube(2), {1, 1, 1})), inverted(moved(cube(3), {5, 5, 5})));
   const TriangleMesh mesh = together(together(cube(10), cavities), moved(cube(4), {20, 0, 0}));
-  const MeshReport report = check_mesh(mesh);
+  const MeshReport report = check_mesh(mesh).value();
   EXPECT_TRUE(report.sound());
   EXPECT_EQ(report.components, 4u);
   EXPECT_EQ(report.cavities, 2u);
   EXPECT_NEAR(report.trapped_mm3, 8.0 + 27.0, 1e-9);
-  EXPECT_EQ(check_mesh(cube(10)).cavities, 0u);
+  EXPECT_EQ(check_mesh(cube(10)).value().cavities, 0u);
 }
 
 TEST(MeshShells, TrapsNoVolumeWhereBodiesLieInCavities) {
   // A cavity of 8 mm with a body of 6 mm in it, which has a cavity of 4 mm with a body of 2 mm.
   TriangleMesh mesh = together(cube(10), moved(inverted(cube(8)), {1, 1, 1}));
   mesh = together(mesh, moved(cube(6), {2, 2, 2}));
-  const MeshReport three = check_mesh(mesh);
+  const MeshReport three = check_mesh(mesh).value();
   EXPECT_TRUE(three.sound()) << names(three);
   EXPECT_EQ(three.cavities, 1u);
   EXPECT_NEAR(three.trapped_mm3, 512.0 - 216.0, 1e-9);
   mesh = together(mesh, moved(inverted(cube(4)), {3, 3, 3}));
   mesh = together(mesh, moved(cube(2), {4, 4, 4}));
-  const MeshReport five = check_mesh(together(mesh, moved(cube(5), {20, 0, 0})));
+  const MeshReport five = check_mesh(together(mesh, moved(cube(5), {20, 0, 0}))).value();
   EXPECT_TRUE(five.sound()) << names(five);
   EXPECT_EQ(five.cavities, 2u);
   EXPECT_NEAR(five.trapped_mm3, 512.0 - 216.0 + 64.0 - 8.0, 1e-9);
@@ -68,20 +68,21 @@ TEST(MeshShells, TrapsNoVolumeWhereBodiesLieInCavities) {
 
 TEST(MeshShells, ReportsAMeshWithoutVolumeNotAsInsideOut) {
   // Two cubes, one of them inside out; and a cube that is pressed flat.
-  const MeshReport opposed = check_mesh(together(cube(2), moved(inverted(cube(2)), {5, 0, 0})));
+  const MeshReport opposed =
+      check_mesh(together(cube(2), moved(inverted(cube(2)), {5, 0, 0}))).value();
   ASSERT_EQ(opposed.problems.size(), 1u) << names(opposed);
   EXPECT_EQ(opposed.problems[0].what, "shell turned against its neighbours");
   EXPECT_FALSE(opposed.oriented);
   TriangleMesh flat = cube(2);
   for (glm::dvec3& p : flat.points) p.z = 0.0;
-  const MeshReport pressed = check_mesh(flat);
+  const MeshReport pressed = check_mesh(flat).value();
   EXPECT_TRUE(find(pressed, "no volume")) << names(pressed);
   EXPECT_FALSE(find(pressed, "inside out")) << names(pressed);
   EXPECT_FALSE(pressed.sound());
 }
 
 TEST(MeshShells, ReportsAnInsideOutSolid) {
-  const MeshReport report = check_mesh(inverted(ball(5.0)));
+  const MeshReport report = check_mesh(inverted(ball(5.0))).value();
   EXPECT_EQ(verdict(report), (Verdict{true, true, false, true, false}));
   ASSERT_EQ(report.problems.size(), 1u) << names(report);
   EXPECT_EQ(report.problems[0].what, "inside out");
@@ -93,23 +94,23 @@ TEST(MeshShells, ReportsAnInsideOutSolidBelowAnUnusedPoint) {
   mesh.points.insert(mesh.points.begin(), {0, 0, 99});
   for (auto& t : mesh.triangles)
     for (auto& v : t) ++v;
-  EXPECT_FALSE(check_mesh(mesh).oriented);
+  EXPECT_FALSE(check_mesh(mesh).value().oriented);
 }
 
 TEST(MeshShells, ReportsOneInsideOutSolidOfTwo) {
   const TriangleMesh upper = moved(cube(3.0), {0, 0, 9});
-  const MeshReport below = check_mesh(together(inverted(cube(2.0)), upper));
+  const MeshReport below = check_mesh(together(inverted(cube(2.0)), upper)).value();
   EXPECT_FALSE(below.bounds_volume);
   EXPECT_FALSE(below.oriented);
   EXPECT_TRUE(find(below, "shell turned against its neighbours")) << names(below);
-  const MeshReport above = check_mesh(together(cube(4.0), inverted(upper)));
+  const MeshReport above = check_mesh(together(cube(4.0), inverted(upper))).value();
   EXPECT_FALSE(above.bounds_volume);
   EXPECT_FALSE(above.oriented);
   EXPECT_FALSE(above.sound());
 }
 
 TEST(MeshShells, ReportsNestedShellsOfEqualOrientation) {
-  const MeshReport report = check_mesh(together(ball(10.0), ball(5.0)));
+  const MeshReport report = check_mesh(together(ball(10.0), ball(5.0))).value();
   EXPECT_EQ(verdict(report), (Verdict{true, true, true, false, false}));
   EXPECT_TRUE(find(report, "closed shell inside another one that faces outward; a slicer fills it"))
       << names(report);
@@ -117,7 +118,7 @@ TEST(MeshShells, ReportsNestedShellsOfEqualOrientation) {
 
 TEST(MeshShells, ReportsACavityOutsideItsSolid) {
   const MeshReport report =
-      check_mesh(together(ball(10.0), moved(inverted(ball(5.0)), {40, 0, 0})));
+      check_mesh(together(ball(10.0), moved(inverted(ball(5.0)), {40, 0, 0}))).value();
   EXPECT_FALSE(report.bounds_volume);
   EXPECT_FALSE(report.sound());
 }

@@ -254,7 +254,7 @@ TEST(SolidCertificate, IsNeverWrong) {
     ++(certificate.proof == Proof::margins ? by_margins : by_test);
     const auto decoded = decode_mesh(store.bytes(), format, "pot");
     ASSERT_TRUE(decoded);
-    const MeshReport check = check_mesh(*decoded);
+    const MeshReport check = check_mesh(*decoded).value();
     ASSERT_TRUE(check.sound()) << k << check.problems.front().what;
     ASSERT_NEAR(check.volume_mm3, report->volume.solid_mm3, certificate.volume_bound_mm3) << k;
     const auto verdict = verify_certificate(certificate, store.bytes(), "pot");

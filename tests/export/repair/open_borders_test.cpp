@@ -43,10 +43,10 @@ void split_one_side(TriangleMesh& mesh, std::uint32_t a, std::uint32_t b) {
 
 /// The cube of 40 mm with its vertices and middles of edges only, without a fill.
 void expect_whole_cube(const TriangleMesh& broken, std::size_t splits) {
-  ASSERT_FALSE(check_mesh(broken).sound());
+  ASSERT_FALSE(check_mesh(broken).value().sound());
   const auto result = repair_mesh(broken);
   ASSERT_TRUE(result) << result.error().message;
-  EXPECT_TRUE(check_mesh(result->mesh).sound());
+  EXPECT_TRUE(check_mesh(result->mesh).value().sound());
   EXPECT_EQ(signed_volume(result->mesh), 64'000.0);  // all coordinates are small integers
   EXPECT_EQ(times(*result, kSplit), splits);
   EXPECT_EQ(result->repaired.size(), 1U);
@@ -135,7 +135,7 @@ TEST(OpenBorders, AFinerGridOnAFaceIsJoined) {
       round_to_file(mesh.points);
       const auto result = repair_mesh(mesh);
       ASSERT_TRUE(result) << n[5] << ": " << result.error().message;
-      EXPECT_TRUE(check_mesh(result->mesh).sound());
+      EXPECT_TRUE(check_mesh(result->mesh).value().sound());
       EXPECT_TRUE(result->holes.empty());
       EXPECT_EQ(times(*result, kSplit), splits_of(n));
       // Coordinates up to 67 mm are rounded by at most 2^-18 mm, the surface has 9,600 mm2.
@@ -173,7 +173,7 @@ TEST(OpenBorders, HolesThatTouchInAVertexAreFilledEachByItself) {
       mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(i));
       const auto result = repair_mesh(mesh);
       ASSERT_TRUE(result) << i << ", " << j << ": " << result.error().message;
-      EXPECT_TRUE(check_mesh(result->mesh).sound()) << i << ", " << j;
+      EXPECT_TRUE(check_mesh(result->mesh).value().sound()) << i << ", " << j;
       ASSERT_EQ(result->holes.size(), 2U) << i << ", " << j;
       for (const FilledHole& hole : result->holes) EXPECT_EQ(hole.edges, 3U);
       EXPECT_EQ(result->repaired.size(), 1U) << i << ", " << j;
@@ -207,7 +207,7 @@ TEST(OpenBorders, TheRimOfACupIsARingBetweenItsWalls) {
   for (const TriangleMesh& open : {without_level(cup, 40.0), turned(without_level(cup, 40.0))}) {
     const auto result = repair_mesh(open);
     ASSERT_TRUE(result) << result.error().message;
-    EXPECT_EQ(check_mesh(result->mesh).components, 1U);
+    EXPECT_EQ(check_mesh(result->mesh).value().components, 1U);
     ASSERT_EQ(result->holes.size(), 1U);
     EXPECT_EQ(result->holes[0].edges, 128U);
     // The 64-gons have the area of the circles: equal volume.
@@ -229,7 +229,7 @@ TEST(OpenBorders, TwoWallsOfAPipeAreJoinedByRingsOnRequest) {
     const auto capped = repair_mesh(open, {.cap_openings = true});
     ASSERT_TRUE(capped) << capped.error().message;
     EXPECT_EQ(capped->holes.size(), 2U);
-    EXPECT_EQ(check_mesh(capped->mesh).components, 1U);
+    EXPECT_EQ(check_mesh(capped->mesh).value().components, 1U);
     EXPECT_NEAR(signed_volume(capped->mesh), signed_volume(pipe), 1e-4 * signed_volume(pipe));
   }
 }
@@ -269,7 +269,7 @@ TEST(OpenBorders, ARingWithSeveralHolesIsFilledInAnyOrderOfThem) {
       EXPECT_EQ(hole.edges, 16U);
       EXPECT_EQ(hole.area_mm2, 100.0 * 100.0 - 3.0 * 10.0 * 10.0);
     }
-    EXPECT_TRUE(check_mesh(capped->mesh).sound());
+    EXPECT_TRUE(check_mesh(capped->mesh).value().sound());
     EXPECT_EQ(signed_volume(capped->mesh), (100.0 * 100.0 - 3.0 * 10.0 * 10.0) * 40.0);
   } while (std::ranges::next_permutation(middles).found);
 }
@@ -356,7 +356,7 @@ TEST(OpenBorders, AMoebiusStripIsASurfaceWithoutAWall) {
   }
   const auto thick = repair_mesh(strip, {.thicken_mm = 2.0});
   ASSERT_TRUE(thick) << thick.error().message;
-  EXPECT_TRUE(check_mesh(thick->mesh).sound());
+  EXPECT_TRUE(check_mesh(thick->mesh).value().sound());
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ TEST(PlantedFaults, AreRepairedWithinTheStatedDistance) {
   std::size_t planted = 0, sound = 0;
   for (std::size_t i = 0; i < planted_count(); ++i) {
     const TriangleMesh original = planter.sound_mesh();
-    ASSERT_TRUE(check_mesh(original).sound());
+    ASSERT_TRUE(check_mesh(original).value().sound());
     const FaultPlanter::Planted fault = planter.plant(original);
     const auto result = repair_mesh(fault.mesh);
     ++planted;
@@ -170,7 +170,7 @@ TEST(PlantedFaults, AreRepairedWithinTheStatedDistance) {
       std::printf("  %zu %s: %s\n", i, fault.kind.c_str(), result.error().message.c_str());
       continue;
     }
-    ASSERT_TRUE(check_mesh(result->mesh).sound()) << i << " " << fault.kind;
+    ASSERT_TRUE(check_mesh(result->mesh).value().sound()) << i << " " << fault.kind;
     ++sound;
     ++sound_of[fault.kind].first;
     // The bounds hold at every vertex, measured apart from the code that states them.

@@ -20,8 +20,8 @@ inline std::string names(const RepairedMesh& result) {
   std::string all;
   for (const Repair& repair : result.repaired)
     all += repair.what + " (" + std::to_string(repair.count) + "); ";
-  for (const MeshProblem& p : check_mesh(result.mesh).problems)
-    all += "REMAINS " + p.what + " " + p.where + "; ";
+  const MeshReport report = check_mesh(result.mesh).value();
+  for (const MeshProblem& p : report.problems) all += "REMAINS " + p.what + " " + p.where + "; ";
   return all;
 }
 
@@ -49,10 +49,10 @@ inline double rounding_mm3(const TriangleMesh& mesh, double units = 0.5) {
 /// The mesh is sound again with that volume, and only these repairs were made.
 inline void expect_repaired(const TriangleMesh& broken, double volume_mm3,
                             const std::vector<Repair>& as) {
-  ASSERT_FALSE(check_mesh(broken).sound());
+  ASSERT_FALSE(check_mesh(broken).value().sound());
   const auto result = repair_mesh(broken);
   ASSERT_TRUE(result) << result.error().message;
-  const MeshReport report = check_mesh(result->mesh);
+  const MeshReport report = check_mesh(result->mesh).value();
   EXPECT_TRUE(report.sound()) << names(*result);
   // Touching parts are pulled apart by 64 units of the last place, rounded once more.
   const double units = times(*result, "vertex pulled apart where surfaces touch") > 0 ? 64.5 : 0.5;

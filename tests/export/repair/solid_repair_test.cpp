@@ -33,7 +33,7 @@ TEST(Repair, KeepsTheInsideOfAStackedCup) {
     for (const TriangleMesh& mesh : {cup, inverted(cup)}) {
       const auto repaired = repair_mesh(mesh);
       ASSERT_TRUE(repaired) << repaired.error().message;
-      EXPECT_TRUE(check_mesh(repaired->mesh).sound());
+      EXPECT_TRUE(check_mesh(repaired->mesh).value().sound());
       EXPECT_NEAR(signed_volume(repaired->mesh), clay, 1e-4 * clay) << names(*repaired);
       EXPECT_EQ(times(*repaired, "solids with common edges united"), 1u) << names(*repaired);
       EXPECT_LT(repaired->change.added_mm, 0.01);
@@ -62,7 +62,7 @@ TEST(Repair, JoinsSolidsThatShareAFace) {
     add_box(boxes, 10.0, turned);
     const auto repaired = repair_mesh(boxes);
     ASSERT_TRUE(repaired) << repaired.error().message;
-    EXPECT_TRUE(check_mesh(repaired->mesh).sound());
+    EXPECT_TRUE(check_mesh(repaired->mesh).value().sound());
     EXPECT_NEAR(signed_volume(repaired->mesh), 2000.0, 1e-3) << turned;
     EXPECT_TRUE(repaired->holes.empty());
     // Faces with the same diagonal cancel.
@@ -118,7 +118,7 @@ void expect_volume_in_all_poses(const TriangleMesh& mesh, double volume_mm3) {
         p = glm::dvec3(p[shift], sign * p[(shift + 1) % 3], sign * p[(shift + 2) % 3]);
       const auto result = repair_mesh(posed);
       ASSERT_TRUE(result) << result.error().message;
-      EXPECT_TRUE(check_mesh(result->mesh).sound()) << shift << sign;
+      EXPECT_TRUE(check_mesh(result->mesh).value().sound()) << shift << sign;
       EXPECT_EQ(times(*result, "shell turned"), 0U) << shift << sign;
       EXPECT_NEAR(signed_volume(result->mesh), volume_mm3, rounding_mm3(result->mesh, 64.5))
           << shift << sign;
@@ -165,7 +165,7 @@ TEST(Repair, UnitesSolidsOnTheSameSideOfAFace) {
        {std::pair(both, 0U), std::pair(inverted(both), 0U), std::pair(doubled, 1U)}) {
     const auto repaired = repair_mesh(mesh);
     ASSERT_TRUE(repaired) << repaired.error().message;
-    EXPECT_TRUE(check_mesh(repaired->mesh).sound()) << names(*repaired);
+    EXPECT_TRUE(check_mesh(repaired->mesh).value().sound()) << names(*repaired);
     EXPECT_NEAR(signed_volume(repaired->mesh), 8.0, rounding_mm3(repaired->mesh));
     EXPECT_EQ(times(*repaired, "duplicate triangle removed"), duplicates) << names(*repaired);
   }
@@ -193,7 +193,7 @@ TEST(Repair, RepeatsCutsWhereRoundingOpensSheets) {
     for (glm::dvec3& p : mesh.points) p = rotated(p, turns);
     const auto repaired = repair_mesh(mesh);
     ASSERT_TRUE(repaired) << repaired.error().message;
-    EXPECT_TRUE(check_mesh(repaired->mesh).sound()) << names(*repaired);
+    EXPECT_TRUE(check_mesh(repaired->mesh).value().sound()) << names(*repaired);
     EXPECT_NEAR(signed_volume(repaired->mesh), 12'000.0, 1.0);
   }
 }
@@ -216,7 +216,7 @@ TEST(Repair, PullsSolidsApartThatTouchInAVertex) {
   const auto result = repair_mesh(together(cube(2.0), moved(cube(2.0), {2, 2, 2})));
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_EQ(times(*result, "vertex pulled apart where surfaces touch"), 1u) << names(*result);
-  EXPECT_EQ(check_mesh(result->mesh).components, 2u);
+  EXPECT_EQ(check_mesh(result->mesh).value().components, 2u);
   EXPECT_NEAR(signed_volume(result->mesh), 16.0, 1e-3);
 }
 
@@ -224,7 +224,7 @@ TEST(Repair, PullsSolidsApartThatTouchInAnEdge) {
   const auto result = repair_mesh(together(cube(2.0), moved(cube(2.0), {2, 2, 0})));
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_EQ(times(*result, "vertex pulled apart where surfaces touch"), 2u) << names(*result);
-  EXPECT_EQ(check_mesh(result->mesh).components, 2u);
+  EXPECT_EQ(check_mesh(result->mesh).value().components, 2u);
   EXPECT_NEAR(signed_volume(result->mesh), 16.0, 1e-3);
 }
 
@@ -232,12 +232,12 @@ TEST(Repair, UnitesOverlappingBodies) {
   const TriangleMesh mesh = together(cube(2.0), moved(cube(2.0), {1, 1, 1}));
   const auto result = repair_mesh(mesh);
   ASSERT_TRUE(result) << result.error().message;
-  const MeshReport report = check_mesh(result->mesh);
+  const MeshReport report = check_mesh(result->mesh).value();
   EXPECT_TRUE(report.sound()) << names(*result);
   EXPECT_EQ(report.components, 1u);
   EXPECT_NEAR(report.volume_mm3, 15.0, 1e-12);
   EXPECT_EQ(times(*result, "pair of intersecting triangles resolved"),
-            check_mesh(mesh).self_intersections);
+            check_mesh(mesh).value().self_intersections);
 }
 
 TEST(Repair, UnitesBodiesThatShareCoplanarFaces) {

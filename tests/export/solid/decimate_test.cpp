@@ -71,12 +71,12 @@ TEST(Decimate, FlatFacesHaveNoError) {
   for (const glm::dvec3& by : {glm::dvec3(0.0), glm::dvec3(4096.0, -1024.0, 512.0)}) {
     const TriangleMesh fine = moved(grid_cube(8.0, 8), by);
     ASSERT_EQ(fine.triangles.size(), 768u);
-    ASSERT_TRUE(check_mesh(fine).sound());
+    ASSERT_TRUE(check_mesh(fine).value().sound());
     const auto coarse = decimate(fine, 12);
     ASSERT_TRUE(coarse) << coarse.error().message;
     EXPECT_EQ(coarse->mesh.triangles.size(), 12u);
     EXPECT_EQ(coarse->max_error_mm, 0.0);
-    const MeshReport report = check_mesh(coarse->mesh);
+    const MeshReport report = check_mesh(coarse->mesh).value();
     EXPECT_TRUE(report.sound());
     EXPECT_DOUBLE_EQ(report.volume_mm3, 512.0);
   }
@@ -118,7 +118,7 @@ TEST(Decimate, VaseAtATenthStaysSoundAndClose) {
   const auto coarse = decimate(fine, tenth);
   ASSERT_TRUE(coarse) << coarse.error().message;
   EXPECT_LE(coarse->mesh.triangles.size(), tenth);
-  EXPECT_TRUE(check_mesh(coarse->mesh).sound());
+  EXPECT_TRUE(check_mesh(coarse->mesh).value().sound());
   EXPECT_GT(coarse->max_error_mm, 0.0);
   EXPECT_LT(coarse->max_error_mm, 3.0);  // the wall
   // Every remaining point is an original one.

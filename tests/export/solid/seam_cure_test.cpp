@@ -37,10 +37,10 @@ std::vector<bool> only(std::size_t count, std::size_t point) {
 
 TEST(SeamCure, CollapsesShortEdgesToThePointOfThePart) {
   const TriangleMesh mesh = cube_with_a_point_on_its_edge(1e-4);
-  ASSERT_TRUE(check_mesh(mesh).sound());
+  ASSERT_TRUE(check_mesh(mesh).value().sound());
   const auto cured = cure_seam(mesh, only(9, 8), 1e-3);
   ASSERT_TRUE(cured);
-  EXPECT_TRUE(check_mesh(cured->mesh).sound());
+  EXPECT_TRUE(check_mesh(cured->mesh).value().sound());
   EXPECT_EQ(cured->mesh.points.size(), 8u);
   EXPECT_EQ(cured->mesh.triangles.size(), 12u);
   EXPECT_EQ(signed_volume(cured->mesh), 512.0);
@@ -65,10 +65,10 @@ TEST(SeamCure, FlipsTheLongestEdgeOfFlatTriangles) {
   std::erase(mesh.triangles, std::array<std::uint32_t, 3>{0, 2, 1});
   for (const auto& t : std::vector<std::array<std::uint32_t, 3>>{{0, 2, 8}, {2, 1, 8}, {1, 0, 8}})
     mesh.triangles.push_back(t);
-  ASSERT_TRUE(check_mesh(mesh).sound());
+  ASSERT_TRUE(check_mesh(mesh).value().sound());
   const auto cured = cure_seam(mesh, only(9, 8), 1e-3);
   ASSERT_TRUE(cured);
-  EXPECT_TRUE(check_mesh(cured->mesh).sound());
+  EXPECT_TRUE(check_mesh(cured->mesh).value().sound());
   EXPECT_EQ(cured->mesh.triangles.size(), mesh.triangles.size());
   EXPECT_NEAR(signed_volume(cured->mesh), 512.0, 1e-9);
   double lowest = 1e9;
@@ -103,18 +103,18 @@ TEST(SeamCure, NeverFoldsTheSurface) {
                                                                          {12, 2, 11},
                                                                          {11, 2, 3}})
     mesh.triangles.push_back({c, b, a});
-  ASSERT_TRUE(check_mesh(mesh).sound()) << check_mesh(mesh).problems.front().where;
+  ASSERT_TRUE(check_mesh(mesh).value().sound()) << check_mesh(mesh).value().problems.front().where;
   const auto cured = cure_seam(mesh, only(13, 8), 1e-3);
   ASSERT_TRUE(cured);
   EXPECT_EQ(cured->mesh.points.size(), 12u);
-  EXPECT_TRUE(check_mesh(cured->mesh).sound());
+  EXPECT_TRUE(check_mesh(cured->mesh).value().sound());
 }
 
 TEST(SeamCure, KeepsATetrahedron) {
   const TriangleMesh mesh{{{0, 0, 0}, {1e-4, 0, 0}, {0, 5, 0}, {0, 0, 5}},
                           {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-  ASSERT_TRUE(check_mesh(mesh).sound());
-  EXPECT_TRUE(check_mesh(cure_seam(mesh, std::vector<bool>(4, true), 1e-3)->mesh).sound());
+  ASSERT_TRUE(check_mesh(mesh).value().sound());
+  EXPECT_TRUE(check_mesh(cure_seam(mesh, std::vector<bool>(4, true), 1e-3)->mesh).value().sound());
 }
 
 TEST(SeamCure, RefusesANonManifoldMesh) {

@@ -20,12 +20,13 @@ Result<std::string> read_file(const std::filesystem::path& path,
 
 class TemporaryName;
 
-/// A file under construction: unnamed in the target's folder until `commit`, which syncs it and
-/// names it in one step. If it is destroyed before that, nothing remains. A symbolic link stays a
-/// link; the mode of an existing file is kept; the umask is respected. Where the file system has no
-/// unnamed files, or /proc is not mounted, a temporary name is used: ".NAME.claystack-K". After a
-/// signal, `remove_temporary_files` removes such files; the next `create` for the same target
-/// removes those of a killed program.
+/// A file under construction: unnamed in the target's folder until `commit`, which syncs it, gives
+/// it the temporary name ".NAME.claystack-K" and renames it to the target. Where the file system
+/// has no unnamed files, or /proc is not mounted, it has this name from the beginning. If it is
+/// destroyed before `commit`, nothing remains. After a signal, `remove_temporary_files` removes
+/// files with a temporary name; the next `create` for the same target removes those of a killed
+/// program. A symbolic link stays a link; the mode of an existing file is kept; the umask is
+/// respected.
 ///
 /// Pipes, devices and standard output ("-") cannot be replaced: bytes are written to them directly.
 /// Errors name the file and the system's reason; after an error the file is discarded and every

@@ -78,6 +78,8 @@ std::string session_header(std::string_view scene_name, std::uint64_t scene_hash
 /// One block line, with its newline. At most kPosesPerBlock poses, times strictly increasing from 0
 /// to 2^53 us. Empty for no poses.
 std::string session_block(std::span<const Pose> poses);
+/// Any number of poses, in lines of kPosesPerBlock and a last one of the rest.
+std::string session_blocks(std::span<const Pose> poses);
 /// Header and all blocks.
 std::string write_session(const Session& session);
 

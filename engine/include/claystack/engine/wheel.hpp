@@ -66,7 +66,8 @@ class Wheel {
 
   /// Contact and force at this pose on the clay as it is; changes neither clay nor state. Does not
   /// report growth, a cut or a collapse, and does not divide a long motion into parts as step()
-  /// does. For a force rate above the rate of the clay.
+  /// does. For a force rate above the rate of the clay. Uses the wheel's scratch memory: one thread
+  /// at a time may call step, probe and pot.
   [[nodiscard]] StepReport probe(const Pose& pose) noexcept;
 
   [[nodiscard]] const StepPlan& plan() const noexcept;

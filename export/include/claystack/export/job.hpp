@@ -326,6 +326,9 @@ struct ExportReport {
 
 enum class ProblemKind { thin_wall, too_large, cavity, drain, overhang, bodies, lip_fillet };
 
+/// The check that it belongs to, of a pot and of a mesh: "walls", "process" or "geometry".
+[[nodiscard]] std::string check_name(ProblemKind kind);
+
 /// A problem for printing, with its place on the section of the written solid, if it has one.
 struct Problem {
   std::string text;

@@ -104,7 +104,7 @@ Result<SolidCertificate> parse_certificate(std::string_view bytes, std::string_v
 /// One defect of a mesh, and its place.
 struct MeshProblem {
   std::string what;       ///< "open edge", "inside out", "self-intersection", ...
-  std::string where;      ///< triangle numbers and coordinates in mm, for people
+  std::string where;      ///< triangle numbers from 1 and coordinates in mm, for people
   std::size_t count = 1;  ///< number of this kind; `where` shows the first
   bool at_least = false;  ///< counting stopped at `count`
 };
@@ -131,8 +131,6 @@ struct MeshReport {
   double volume_mm3 = 0.0;  ///< the sum over the triangles; meaningless without a volume
   double area_mm2 = 0.0;    ///< of all triangles
   glm::dvec3 size_mm{0.0};  ///< width, depth and height, without points that no triangle uses
-  bool out_of_memory =
-      false;  ///< the check stopped for lack of memory, which is no fault of the mesh
   std::vector<MeshProblem> problems;
 
   [[nodiscard]] bool sound() const noexcept { return problems.empty(); }
@@ -143,8 +141,9 @@ struct MeshReport {
 /// the nesting of shells uses one ray from the top of each, also with exact predicates.
 /// `check_bench 20000000 1 1` prints time and peak memory for the largest mesh, `check_bench fans`
 /// the time for vertices of many triangles. An inward shell (a closed cavity) is sound if it lies
-/// inside an outward one.
-MeshReport check_mesh(const TriangleMesh& mesh);
+/// inside an outward one. An error (io) is no fault of the mesh: not enough memory, or a library
+/// failed.
+Result<MeshReport> check_mesh(const TriangleMesh& mesh);
 
 /// Whether the triangles of a mesh enclose a volume, by their edges alone: no test for
 /// intersections, vertices or shells, and so much faster than `check_mesh`.
