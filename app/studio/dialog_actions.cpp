@@ -5,6 +5,7 @@
 #include "app/history/pot_scene.hpp"
 #include "app/studio/output_dialogs.hpp"
 #include "claystack/export/walls.hpp"
+#include "core/text.hpp"
 
 #include <utility>
 
@@ -170,7 +171,7 @@ void Performer::operator()(const TakeImport&) const {
   const auto* import = std::get_if<ImportDialog>(&state.ui.dialog);
   if (import == nullptr || !import->made) return;
   const Pot& pot = import->made->pot;
-  apply(state, BeginWork{history::scene_for(pot, import->path.stem().string()),
+  apply(state, BeginWork{history::scene_for(pot, name_of_file(import->path.string())),
                          std::make_shared<const Pot>(pot), import->path});
 }
 

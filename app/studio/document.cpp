@@ -133,7 +133,7 @@ Result<Document::Opened> Document::read(const std::filesystem::path& path) {
   if (!text) return tl::make_unexpected(text.error());
   if (is_pot(name) || cli::is_3mf(name))
     return cli::pot_from(*text, name).and_then([&](Pot&& pot) {
-      const SceneSpec scene = history::scene_for(pot, path.stem().stem().string());
+      const SceneSpec scene = history::scene_for(pot, name_of_file(name));
       return history::Work::begin(scene, pot).map([&](history::Work&& work) {
         return Opened{scene, std::move(work)};
       });
@@ -181,6 +181,11 @@ bool Document::has_file(const std::filesystem::path& path) const {
 
 std::string Document::name() const {
   return file_.empty() ? scene_.name : file_.filename().string();
+}
+
+std::string Document::title() const {
+  if (!file_.empty()) return name_of_file(file_.string());
+  return scene_.name.empty() ? "pot" : scene_.name;
 }
 
 SceneSpec Document::scene_with(const ToolSpec& tool, double wheel_rpm) const {

@@ -84,6 +84,8 @@ class Document {
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
   /// The name of the file, or of the scene.
   [[nodiscard]] std::string name() const;
+  /// The same without the kind of the file; "pot" if there is no name.
+  [[nodiscard]] std::string title() const;
   [[nodiscard]] bool unsaved() const noexcept {
     return work_ && work_->unsaved() && !changes_discarded_;
   }

@@ -42,11 +42,9 @@ std::filesystem::path save_folder(const Settings& settings) {
 
 /// NAME.work in the folder, or NAME-2.work and so on: the first that is free.
 std::filesystem::path unused_name(const std::filesystem::path& folder, const std::string& name) {
-  std::string stem = std::filesystem::path(name).stem().string();
-  if (stem.empty()) stem = "pot";
   std::error_code ignored;
   for (int n = 1;; ++n) {
-    const auto path = folder / (n == 1 ? stem + ".work" : fmt::format("{}-{}.work", stem, n));
+    const auto path = folder / (n == 1 ? name + ".work" : fmt::format("{}-{}.work", name, n));
     if (!std::filesystem::exists(path, ignored)) return path;
   }
 }
@@ -318,7 +316,7 @@ void Performer::open_drawing(const std::filesystem::path& path) const {
 void Performer::ask_for_name(std::optional<Action> next) const {
   show_present(state);
   const std::filesystem::path path =
-      unused_name(save_folder(state.settings), state.document.name());
+      unused_name(save_folder(state.settings), state.document.title());
   if (!open_desktop_dialog(state, FileDialog::Kind::save, path))
     state.ui.dialog = SaveDialog{shown_name(path), std::move(next)};
 }

@@ -18,7 +18,7 @@ struct Exporter::State {
   };
   State() : thread([this] { run(); }) {}
   void put(Job job);
-  [[nodiscard]] std::optional<Kind> at_work() const;  ///< see `running`
+  [[nodiscard]] std::optional<Kind> at_work() const;
   void run();
   Outcome done(const Job& job);
 
@@ -58,8 +58,10 @@ void Exporter::write(history::SharedPot pot, const ExportChoices& choices) {
 }
 
 std::optional<ExportKind> Exporter::State::at_work() const {
-  if (outcome && outcome->kind == Kind::files) return Kind::files;
-  return running ? running : next ? std::optional(next->kind) : std::nullopt;
+  const auto kind_of = [](const auto& job) {
+    return job ? std::optional(job->kind) : std::nullopt;
+  };
+  return Exporter::at_work(running, kind_of(next), kind_of(outcome));
 }
 
 /// A preview neither cancels a job that writes files nor drops its outcome.

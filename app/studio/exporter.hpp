@@ -45,13 +45,20 @@ class Exporter {
   [[nodiscard]] bool busy() const;
   /// Stage of the running job; empty: no job.
   [[nodiscard]] std::string stage() const;
-  /// Of the job that runs or waits, or of files whose outcome has not been taken.
+  /// Of the job that runs or waits, or of files whose outcome has not been taken; files go first.
   [[nodiscard]] std::optional<Kind> running() const;
   /// The newest outcome; returned once.
   [[nodiscard]] std::optional<Outcome> take();
   void wait();  ///< blocks until no job runs
 
  private:
+  /// Files that run, wait or were not taken; else a preview that runs or waits.
+  static std::optional<Kind> at_work(std::optional<Kind> running, std::optional<Kind> waiting,
+                                     std::optional<Kind> done) {
+    if (running == Kind::files || waiting == Kind::files || done == Kind::files) return Kind::files;
+    return running ? running : waiting;
+  }
+
   struct State;
   std::unique_ptr<State> state_;
 };

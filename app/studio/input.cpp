@@ -33,6 +33,7 @@ constexpr std::array kNamedKeys = {
     NamedKey{"Up", GLFW_KEY_UP},
     NamedKey{"Down", GLFW_KEY_DOWN},
     NamedKey{"F1", GLFW_KEY_F1},
+    NamedKey{"F2", GLFW_KEY_F2},
     NamedKey{"F6", GLFW_KEY_F6},
     NamedKey{"F10", GLFW_KEY_F10},
     NamedKey{"Num1", GLFW_KEY_KP_1},

@@ -78,7 +78,8 @@ Result<void> run_script(const StudioOptions& options, const LogLine& log) {
 Result<void> expect_file(const std::string& file) {
   std::error_code unknown;
   if (file.empty() || std::filesystem::exists(file, unknown) || unknown) return {};
-  return failure(ErrorKind::io, file + ": cannot open: " + std::generic_category().message(ENOENT));
+  return failure(ErrorKind::io,
+                 file + ": could not open: " + std::generic_category().message(ENOENT));
 }
 
 /// Logs the delay from a motion of the mouse to its picture, and the rate of frames.

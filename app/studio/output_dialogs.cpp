@@ -28,12 +28,6 @@ std::string replace_question(const std::vector<std::string>& files) {
   return names + (files.size() == 1 ? " exists in the folder." : " exist in the folder.");
 }
 
-std::string export_name(const AppState& state) {
-  const std::string& scene = state.document.scene().name;
-  const std::filesystem::path& file = state.document.file();
-  return !file.empty() ? file.stem().string() : scene.empty() ? "pot" : scene;
-}
-
 std::string export_folder(const AppState& state) {
   return state.settings.folder.empty() ? current_folder().string() : state.settings.folder;
 }
@@ -102,7 +96,7 @@ void show_picture(AppState& state, bool turntable) {
   file.look.elevation_deg = degrees(camera.elevation_rad);
   file.wall_map = settings.wall_map;
   file.process = settings.process;
-  file.name = export_name(state);
+  file.name = state.document.title();
   file.folder = export_folder(state);
   pictures = {.file = std::move(file), .written = {}, .problem = {}, .result = {}};
   state.ui.dialog = PictureDialog{};
@@ -131,7 +125,7 @@ void show_export(AppState& state) {
   ExportState& exporting = state.ui.exporting;
   ExportChoices& choices = exporting.choices;
   choices.process = state.settings.process;
-  choices.name = export_name(state);
+  choices.name = state.document.title();
   choices.folder = export_folder(state);
   choices.material = state.settings.material.id;
   exporting = ExportState{.choices = choices, .of_other_work = exporting.of_other_work};

@@ -29,10 +29,14 @@ render::Viewport SceneView::viewport() const noexcept {
 
 void SceneView::place(const ViewRect& rect, float covered_px) {
   const auto before = drag_ == Drag::shape ? pointed_mm() : std::nullopt;
+  // The timeline appears with the first stroke.
+  const bool uncovers = drag_ == Drag::none && covered_px > covered_px_ && shows(extent_, 0.0);
   rect_ = rect;
+  covered_px_ = covered_px;
   camera_.covered = covered_px / rect.size_px.y;
   const auto now = before ? pointed_mm() : std::nullopt;
   if (now) offset_mm_ += *before - *now;
+  if (uncovers) back_off(extent_, 0.0);
 }
 
 float SceneView::free_height_px() const noexcept {

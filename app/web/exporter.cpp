@@ -43,9 +43,10 @@ struct Exporter::State {
   double posted_ms = 0.0;  ///< time of the page when `running` began
 
   [[nodiscard]] std::optional<Kind> at_work() const {
-    const auto writes = [](const auto& job) { return job && job->kind == Kind::files; };
-    if (writes(running) || writes(next) || writes(outcome)) return Kind::files;
-    return running || next ? std::optional(Kind::preview) : std::nullopt;
+    const auto kind_of = [](const auto& job) {
+      return job ? std::optional(job->kind) : std::nullopt;
+    };
+    return Exporter::at_work(kind_of(running), kind_of(next), kind_of(outcome));
   }
   /// A preview neither cancels a job that writes files nor drops its outcome. The next job cancels
   /// a preview that takes long, because a new worker starts in less time.

@@ -28,8 +28,7 @@ void add_pot(Report& report, const studio::AppState& state) {
   report.row("Largest diameter", length_text(state.readings.diameter_mm(), unit));
   report.row("Weight", studio::mass_text(state.readings.account().in_stack_g));
   if (!state.readings.fallen())
-    report.row("Capacity to the brim",
-               studio::capacity_text(state.readings.account().capacity_mm3));
+    report.row("Capacity to the brim", studio::capacity_text(state.readings.capacity_mm3()));
 }
 
 void add_check(Report& report, const studio::PotCheck& check, studio::LengthUnit unit) {

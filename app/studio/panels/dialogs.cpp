@@ -1,6 +1,7 @@
 // Small dialogs: unsaved changes, file names, settings.
 
 #include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/value_slider.hpp"
 #include "app/studio/panels/widgets.hpp"
 
 #include <imgui_stdlib.h>
@@ -22,7 +23,8 @@ void draw_look_settings(const ViewModel& model, Actions& actions) {
   ImGuiStorage& kept = *ImGui::GetStateStorage();
   const ImGuiID id = ImGui::GetID("scale");
   float scale = ImGui::IsAnyItemActive() ? kept.GetFloat(id, settings.scale) : settings.scale;
-  form_slider("Text scale", scale, kSmallestScale, kLargestScale, fmt::format("{:.2f}", scale));
+  form_slider("Text scale", scale, kSmallestScale, kLargestScale, fmt::format("{:.2f}", scale),
+              kPlain);
   kept.SetFloat(id, scale);
   if (ImGui::IsItemDeactivatedAfterEdit()) actions.emplace_back(SetScale{scale});
   constexpr std::array kUnits = {"mm", "cm", "in"};
@@ -36,20 +38,21 @@ void draw_work_settings(const ViewModel& model, Actions& actions) {
   float speed = static_cast<float>(settings.pressing_mm_s);
   if (form_slider("Speed in clay", speed, static_cast<float>(kSlowestHandMmPerS),
                   static_cast<float>(kFastestHandMmPerS),
-                  "at most " + speed_text(settings.pressing_mm_s, settings.unit)))
+                  "at most " + speed_text(settings.pressing_mm_s, settings.unit), kSpeeds))
     actions.emplace_back(SetHandSpeed{static_cast<double>(speed)});
   float bite = static_cast<float>(settings.bite_mm);
   if (form_slider("Strength of the hand", bite, static_cast<float>(kSoftestBiteMm),
                   static_cast<float>(kFirmestBiteMm),
                   length_text(settings.bite_mm, settings.unit) + " per turn",
-                  ImGuiSliderFlags_Logarithmic))
+                  lengths_in(settings.unit), ImGuiSliderFlags_Logarithmic))
     actions.emplace_back(SetBite{static_cast<double>(bite)});
   form_row("Process");
   std::string process = settings.process;
   if (choose_process(model, "None", process, actions)) actions.emplace_back(SetProcess{process});
   std::string folder = settings.folder;
   if (!kInPage) form_row("Output folder");
-  if (!kInPage && ImGui::InputTextWithHint("##folder", "The current folder", &folder))
+  if (!kInPage &&
+      ImGui::InputTextWithHint("##folder", "The folder where the window was started", &folder))
     actions.emplace_back(SetFolder{folder});
   form_row("First steps");
   bool hints = settings.hints;

@@ -2,6 +2,7 @@
 
 #include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/value_slider.hpp"
 #include "app/studio/panels/widgets.hpp"
 #include "core/text.hpp"
 
@@ -101,7 +102,7 @@ void choose_tenths(const char* label, double& mm, double low_mm, double high_mm,
 /// The cuts and fillets after throwing; none at first.
 void draw_finish(const ViewModel& model, ExportChoices& choices) {
   const LengthUnit unit = model.settings.unit;
-  choose_tenths("Foot ring", choices.foot_width_mm, 0.0, kWidestFootMm, unit, "none");
+  choose_tenths("Foot ring width", choices.foot_width_mm, 0.0, kWidestFootMm, unit, "none");
   tip("The width of a ring on which the pot stands. Inside it the foot is cut away.");
   if (choices.foot_width_mm > 0.0)
     choose_tenths("Depth of the foot", choices.foot_depth_mm, 0.1, kDeepestFootMm, unit, nullptr);
@@ -153,17 +154,17 @@ void draw_size(const ViewModel& model, ExportChoices& choices) {
   if (choices.size == ExportSize::height) length("Height", choices.height_mm);
   if (choices.size == ExportSize::diameter) length("Diameter", choices.diameter_mm);
   const auto amount = [](const char* label, double& value, double least, double most,
-                         const std::string& text) {
+                         const std::string& text, const ValueUnits& units) {
     float shown = static_cast<float>(value);
-    if (form_slider(label, shown, static_cast<float>(least), static_cast<float>(most), text,
+    if (form_slider(label, shown, static_cast<float>(least), static_cast<float>(most), text, units,
                     ImGuiSliderFlags_Logarithmic))
       value = std::round(static_cast<double>(shown));
   };
   if (choices.size == ExportSize::capacity)
     amount("Capacity", choices.holds_ml, kLeastMl, kMostGoalMl,
-           capacity_text(1e3 * choices.holds_ml));
+           capacity_text(1e3 * choices.holds_ml), kVolumes);
   if (choices.size == ExportSize::weight)
-    amount("Weight", choices.weighs_g, kLeastG, kMostGoalG, mass_text(choices.weighs_g));
+    amount("Weight", choices.weighs_g, kLeastG, kMostGoalG, mass_text(choices.weighs_g), kWeights);
 }
 
 void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actions) {
@@ -186,8 +187,8 @@ void draw_choices(const ViewModel& model, ExportChoices& choices, Actions& actio
   form_length("Minimum wall", choices.min_wall_mm, 0.0, kThickestDemandMm, unit,
               choices.process.empty() ? "no limit" : "by the process");
   float percent = static_cast<float>(choices.shrinkage_percent);
-  if (form_slider("Shrinkage", percent, 0.0f, 25.0f,
-                  percent > 0.0f ? fmt::format("{:.1f} %", percent) : "none"))
+  if (form_slider("Shrinkage", percent, 0.0f, static_cast<float>(kMostShrinkagePercent),
+                  percent > 0.0f ? fmt::format("{:.1f} %", percent) : "none", kPercent))
     // Rounded to tenths, as shown, so that the command line gives the same file for the same
     // number.
     choices.shrinkage_percent = std::round(10.0 * static_cast<double>(percent)) / 10.0;

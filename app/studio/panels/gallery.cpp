@@ -3,6 +3,7 @@
 #include "app/studio/commands.hpp"
 #include "app/studio/new_scene.hpp"
 #include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/value_slider.hpp"
 #include "app/studio/panels/widgets.hpp"
 #include "app/studio/samples.hpp"
 
@@ -71,10 +72,9 @@ void draw_lump(const ViewModel& model, Actions& actions) {
   double radius_mm = static_cast<double>(kept.GetFloat(radius_id, 50.0f));
   const bool wide = ImGui::GetContentRegionAvail().x >= kLeastLumpEm * ImGui::GetFontSize();
   ImGui::Columns(wide ? 3 : 1, "lump", false);
-  slider_label("Clay weight", fmt::format("{:.2f} kg", kg));
-  if (ImGui::SliderFloat("##clay", &kg, static_cast<float>(kLeastClayKg),
-                         static_cast<float>(kMostClayKg), "",
-                         kSlider | ImGuiSliderFlags_Logarithmic))
+  if (panel_slider("Clay weight", kg, static_cast<float>(kLeastClayKg),
+                   static_cast<float>(kMostClayKg), fmt::format("{:.2f} kg", kg), kKilograms,
+                   ImGuiSliderFlags_Logarithmic))
     kept.SetFloat(kg_id, kg);
   ImGui::NextColumn();
   if (length_slider("Radius", radius_mm, 20.0, 200.0, model.settings.unit))

@@ -2,6 +2,7 @@
 
 #include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/value_slider.hpp"
 #include "app/studio/panels/widgets.hpp"
 #include "app/studio/samples.hpp"
 
@@ -16,15 +17,12 @@
 namespace clay::studio {
 namespace {
 
-/// A slider from 0; `none`: text shown for 0.
-bool slider(const char* label, double& value, double most, const char* format, const char* none) {
-  slider_label(label, value > 0.0 ? fmt::format(fmt::runtime(format), value) : none);
+/// A slider from 0, for whole numbers; `none`: text shown for 0.
+void slider(const char* label, double& value, double most, const std::string& text,
+            const char* none, const ValueUnits& units) {
   float shown = static_cast<float>(value);
-  const std::string id = fmt::format("##{}", label);
-  if (!ImGui::SliderFloat(id.c_str(), &shown, 0.0f, static_cast<float>(most), "", kSlider))
-    return false;
-  value = std::round(static_cast<double>(shown));
-  return true;
+  if (panel_slider(label, shown, 0.0f, static_cast<float>(most), value > 0.0 ? text : none, units))
+    value = std::round(static_cast<double>(shown));
 }
 
 /// The command that chose this target: that of its sample, or of a file.
@@ -59,17 +57,15 @@ void draw_goal(const ViewModel& model, Actions& actions) {
   PotGoal goal = model.settings.goal;
   const LengthUnit unit = model.settings.unit;
   constexpr double kUsualMl = 1500.0, kUsualMm = 300.0;
-  slider("Capacity", goal.holds_ml, kUsualMl, "{:.0f} ml", "any");
+  slider("Capacity", goal.holds_ml, kUsualMl, fmt::format("{:.0f} ml", goal.holds_ml), "any",
+         kVolumes);
   const auto length = [&](const char* label, double& mm) {
-    slider_label(label, mm > 0.0 ? length_text(mm, unit) : "any");
-    float shown = static_cast<float>(mm);
-    const std::string id = fmt::format("##{}", label);
-    if (ImGui::SliderFloat(id.c_str(), &shown, 0.0f, static_cast<float>(kUsualMm), "", kSlider))
-      mm = std::round(static_cast<double>(shown));
+    slider(label, mm, kUsualMm, length_text(mm, unit), "any", lengths_in(unit));
   };
   length("Height", goal.height_mm);
   length("Diameter", goal.diameter_mm);
-  slider("Shrinkage", goal.shrinkage_percent, kMostShrinkagePercent, "{:.0f} %", "not fired");
+  slider("Shrinkage", goal.shrinkage_percent, kMostShrinkagePercent,
+         fmt::format("{:.0f} %", goal.shrinkage_percent), "not fired", kPercent);
   if (goal != model.settings.goal) actions.emplace_back(SetGoal{goal});
   choose_target(model, actions);
 }

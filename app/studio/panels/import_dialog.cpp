@@ -2,6 +2,7 @@
 
 #include "app/studio/commands.hpp"
 #include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/value_slider.hpp"
 #include "app/studio/panels/widgets.hpp"
 
 #include <fmt/format.h>

@@ -69,7 +69,8 @@ void draw_background(PictureFile& file) {
 
 void draw_frames(PictureFile& file) {
   form_row("Frames");
-  ImGui::SliderInt("##frames", &file.look.frames, kFewestFrames, kMostShownFrames, "%d", kSlider);
+  ImGui::SliderInt("##frames", &file.look.frames, kFewestFrames, kMostShownFrames, "%d",
+                   ImGuiSliderFlags_AlwaysClamp);
 }
 
 /// The result, or a description of the picture, in a place of fixed height.

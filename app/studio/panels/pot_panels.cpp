@@ -142,7 +142,7 @@ void draw_ledger(const ViewModel& model, Actions&) {
                      fmt::format("Clay unaccounted for: {}", account.unaccounted).c_str());
   if (!sound) faint_text(colours, fmt::format("{:g} g", account.unaccounted_g));
   if (readings.fallen()) return faint_text(colours, "A fallen pot has no capacity.");
-  value_row(colours, "Capacity to the brim", capacity_text(account.capacity_mm3));
+  value_row(colours, "Capacity to the brim", capacity_text(readings.capacity_mm3()));
 }
 
 }  // namespace clay::studio

@@ -26,7 +26,8 @@ Section mouse_section() {
            {"Ctrl+Left", "Trim, or press if the tool trims"},
            {"Middle or right", "Turn the view"},
            {"Shift+middle or right", "Move the view"},
-           {"Wheel", "Zoom"}}};
+           {"Wheel", "Zoom"},
+           {"Left on a value", "Type it"}}};
 }
 
 Section touch_section() {

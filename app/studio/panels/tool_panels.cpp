@@ -1,6 +1,7 @@
 // The tool, the wheel, and the force on the hand.
 
 #include "app/studio/panels/panels.hpp"
+#include "app/studio/panels/value_slider.hpp"
 #include "app/studio/panels/widgets.hpp"
 #include "app/studio/tool_choice.hpp"
 #include "claystack/engine/plan.hpp"
@@ -46,15 +47,15 @@ bool draw_gap(ToolChoice& tool, LengthUnit unit) {
   constexpr double kUsualShare = 0.7;
   bool changed = false, share = tool.gap_share > 0.0;
   if (share) {
-    slider_label("Gap", fmt::format("{:.0f} % of the wall", 100.0 * tool.gap_share));
     float percent = static_cast<float>(100.0 * tool.gap_share);
-    changed = ImGui::SliderFloat("##share", &percent, static_cast<float>(100.0 * kLeastGapShare),
-                                 static_cast<float>(100.0 * kMostGapShare), "", kSlider);
+    changed = panel_slider("Gap", percent, static_cast<float>(100.0 * kLeastGapShare),
+                           static_cast<float>(100.0 * kMostGapShare),
+                           fmt::format("{:.0f} % of the wall", percent), kPercent);
     if (changed) tool.gap_share = 0.01 * std::round(static_cast<double>(percent));
   } else {
     changed = length_slider("Gap", tool.gap_mm, kNarrowestGapMm, kWidestPinchMm, unit);
   }
-  if (!ImGui::Checkbox("Part of the wall", &share)) return changed;
+  if (!ImGui::Checkbox("As a share of the wall", &share)) return changed;
   tool.gap_share = share ? kUsualShare : 0.0;
   return true;
 }
@@ -141,18 +142,19 @@ void draw_tool(const ViewModel& model, Actions& actions) {
 }
 
 void draw_wheel(const ViewModel& model, Actions& actions) {
-  slider_label("Speed", fmt::format("{:.0f} rpm", model.settings.wheel_rpm));
+  constexpr std::array kRpm{cli::Unit{"rpm", 1.0}};
   float rpm = static_cast<float>(model.settings.wheel_rpm);
-  if (ImGui::SliderFloat("##rpm", &rpm, static_cast<float>(kSlowestRpm),
-                         static_cast<float>(kFastestRpm), "", kSlider))
+  if (panel_slider("Speed", rpm, static_cast<float>(kSlowestRpm), static_cast<float>(kFastestRpm),
+                   fmt::format("{:.0f} rpm", rpm), {kRpm}))
     actions.emplace_back(SetWheelSpeed{static_cast<double>(rpm)});
   faint_text(model.colours(), "The clay yields and smooths faster at a higher speed.");
   if (!model.document.has_work() || !model.document.scene().force) return;
-  slider_label("Stiffness", fmt::format("{:.3g} N/mm\xc2\xb2", model.document.stiffness()));
+  constexpr std::array kStiffness{cli::Unit{"N/mm\xc2\xb2", 1.0}};
   float stiffness = static_cast<float>(model.document.stiffness());
-  if (ImGui::SliderFloat("##stiffness", &stiffness, static_cast<float>(kSoftestClay),
-                         static_cast<float>(kStiffestClay), "",
-                         kSlider | ImGuiSliderFlags_Logarithmic))
+  if (panel_slider("Stiffness", stiffness, static_cast<float>(kSoftestClay),
+                   static_cast<float>(kStiffestClay),
+                   fmt::format("{:.3g} {}", stiffness, kStiffness[0].name), {kStiffness},
+                   ImGuiSliderFlags_Logarithmic))
     actions.emplace_back(SetStiffness{static_cast<double>(stiffness)});
   faint_text(model.colours(), "Affects the force you feel, not the clay.");
 }

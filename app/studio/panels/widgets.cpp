@@ -13,8 +13,6 @@
 namespace clay::studio {
 namespace {
 
-constexpr float kNarrowEm = 28.0f;
-
 /// Columns of equal width, for buttons with these titles: the fewest rows that show every title
 /// completely.
 int columns_of(std::span<const char* const> titles, float room, float gap) {
@@ -25,12 +23,6 @@ int columns_of(std::span<const char* const> titles, float room, float gap) {
   const int fitting = std::clamp(static_cast<int>((room + gap) / (widest + gap)), 1, count);
   const int rows = (count + fitting - 1) / fitting;
   return (count + rows - 1) / rows;
-}
-
-/// Whether a label and its control have no room beside each other.
-bool narrow() {
-  return ImGui::GetContentRegionMax().x - ImGui::GetCursorStartPos().x <
-         kNarrowEm * ImGui::GetFontSize();
 }
 
 }  // namespace
@@ -103,8 +95,14 @@ void dialog_title(const ViewModel& model, const char* text) {
   ImGui::Spacing();
 }
 
+bool narrow_form() {
+  constexpr float kNarrowEm = 28.0f;
+  return ImGui::GetContentRegionMax().x - ImGui::GetCursorStartPos().x <
+         kNarrowEm * ImGui::GetFontSize();
+}
+
 void form_row(const char* label) {
-  const bool above = narrow();
+  const bool above = narrow_form();
   if (!above) ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
   if (!above) ImGui::SameLine(kFormEm * ImGui::GetFontSize());
@@ -115,61 +113,16 @@ void tip(const char* text) {
   constexpr float kTipEm = 24.0f;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   const float left = ImGui::GetWindowPos().x, right = left + ImGui::GetWindowWidth();
-  if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect({left, low.y}, {right, high.y}))
-    ImGui::SetTooltip("%s", wrapped(text, kTipEm * ImGui::GetFontSize()).c_str());
-}
-
-bool form_slider(const char* label, float& value, float low, float high, const std::string& text,
-                 int flags) {
-  constexpr float kTextEm = 9.5f;
-  if (narrow()) {
-    slider_label(label, text);
-  } else {
-    form_row(label);
-    const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
-    ImGui::SetCursorPosX(left + room - ImGui::CalcTextSize(text.c_str()).x);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::SameLine(left);
-    ImGui::SetNextItemWidth(room - kTextEm * ImGui::GetFontSize());
-  }
-  const std::string id = fmt::format("##{}", label);
-  return ImGui::SliderFloat(id.c_str(), &value, low, high, "", kSlider | flags);
-}
-
-bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
-                 const char* none) {
-  const int fine = high_mm <= 1.0 ? 2 : 0;  // more digits for a tolerance
-  const std::string value =
-      none != nullptr && mm <= 0.0
-          ? std::string(none)
-          : length_text(mm, unit, thickness_digits(unit) - unit_text(unit).digits + fine);
-  // In mm for every unit, because a logarithmic slider takes less than a thousandth as 0.
-  float shown_mm = static_cast<float>(mm);
-  if (!form_slider(label, shown_mm, static_cast<float>(low_mm), static_cast<float>(high_mm), value,
-                   low_mm > 0.0 ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None))
-    return false;
-  mm = std::clamp(static_cast<double>(shown_mm), low_mm, high_mm);
-  return true;
-}
-
-bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit) {
-  slider_label(label, thickness_text(mm, unit));
-  float shown_mm = static_cast<float>(mm);
-  const std::string id = fmt::format("##{}", label);
-  if (!ImGui::SliderFloat(id.c_str(), &shown_mm, static_cast<float>(low_mm),
-                          static_cast<float>(high_mm), "", kSlider | ImGuiSliderFlags_Logarithmic))
-    return false;
-  mm = std::clamp(static_cast<double>(shown_mm), low_mm, high_mm);
-  return true;
-}
-
-void slider_label(const char* label, const std::string& value) {
-  ImGui::TextUnformatted(label);
-  const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
-  ImGui::SameLine();
-  ImGui::SetCursorPosX(right - ImGui::CalcTextSize(value.c_str()).x);
-  ImGui::TextUnformatted(value.c_str());
-  ImGui::SetNextItemWidth(kToEdge);
+  if (!ImGui::IsWindowHovered() || !ImGui::IsMouseHoveringRect({left, low.y}, {right, high.y}) ||
+      ImGui::IsAnyItemActive())
+    return;
+  // Above the line, so that it covers neither the value nor the next control, if there is room.
+  const float em = ImGui::GetFontSize();
+  const std::string shown = wrapped(text, kTipEm * em);
+  const float above = low.y - 0.4f * em;
+  if (above > ImGui::CalcTextSize(shown.c_str()).y + em)
+    ImGui::SetNextWindowPos({ImGui::GetIO().MousePos.x, above}, ImGuiCond_Always, {0.0f, 1.0f});
+  ImGui::SetTooltip("%s", shown.c_str());
 }
 
 void form_place(std::string& name, std::string& folder, Actions& actions) {
@@ -304,8 +257,7 @@ namespace {
 /// "workshop.process.json" is shown as workshop.
 std::string title_of(const std::string& process) {
   if (!ends_ignoring_case(process, ".json")) return process_title(process);
-  const std::filesystem::path stem = std::filesystem::path(process).stem();
-  return (stem.extension() == ".process" ? stem.stem() : stem).string();
+  return name_of_file(process);
 }
 
 }  // namespace

@@ -18,18 +18,10 @@ namespace clay::studio {
 /// A width: up to the right edge of the window's content.
 inline constexpr float kToEdge = -std::numeric_limits<float>::min();
 
-/// Flags of all sliders. The value is shown beside the slider, so no text field opens over it.
-inline constexpr int kSlider = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput;
-
 /// Buttons of equal width, one of which is selected: in one row, or in several if their titles have
 /// no room. Returns the index of a clicked button, or -1.
 int choice_row(const char* id, std::span<const char* const> titles, int chosen);
 
-/// A label and, at the right, the value of the slider that follows.
-void slider_label(const char* label, const std::string& value);
-
-/// A labelled slider for a length in mm, shown in `unit`. Returns true if it has moved.
-bool length_slider(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit);
 /// The next button or text, with this text, stands beside the last item if the window has room.
 /// `beside_px`: width of other controls that belong to it.
 void same_line_if_room(const char* text, float beside_px = 0.0f);
@@ -48,14 +40,10 @@ void dialog_title(const ViewModel& model, const char* text);
 /// is above it.
 inline constexpr float kFormEm = 10.5f;
 void form_row(const char* label);
+/// Whether the label is above.
+[[nodiscard]] bool narrow_form();
 /// A tooltip for the line of the last control.
 void tip(const char* text);
-/// A slider in such a line, with its value as text beside it, or above it.
-bool form_slider(const char* label, float& value, float low, float high, const std::string& text,
-                 int flags = 0);
-/// For a length; `none`: text shown for 0.
-bool form_length(const char* label, double& mm, double low_mm, double high_mm, LengthUnit unit,
-                 const char* none = nullptr);
 
 /// Lines for the name and the folder of files; a page has downloads only.
 void form_place(std::string& name, std::string& folder, Actions& actions);

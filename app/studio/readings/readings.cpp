@@ -74,6 +74,11 @@ double Readings::diameter_mm() const noexcept {
   return current_ && check_->maker ? check_->maker->thrown.size.diameter_mm : 2.0 * widest_mm_;
 }
 
+double Readings::capacity_mm3() const noexcept {
+  return current_ && check_->maker ? 1e3 * check_->maker->thrown.capacity_ml
+                                   : account_.capacity_mm3;
+}
+
 const ClayStack* Readings::stack() const noexcept {
   if (subject_.pot) return &subject_.pot->stack;
   return outline_stack_ ? &*outline_stack_ : nullptr;

@@ -40,6 +40,8 @@ class Readings {
   /// The largest diameter: that of the smoothed section, as the export states it, or, until that is
   /// known, that of the rings.
   [[nodiscard]] double diameter_mm() const noexcept;
+  /// To the brim, likewise.
+  [[nodiscard]] double capacity_mm3() const noexcept;
   [[nodiscard]] bool live() const noexcept { return subject_.live(); }
   [[nodiscard]] bool fallen() const noexcept { return subject_.pot && subject_.pot->collapse; }
   [[nodiscard]] const ClayAccount& account() const noexcept { return account_; }

@@ -291,7 +291,7 @@ async function start() {
     event.preventDefault();
     changed = true;
     store();
-    say('The browser has taken the graphics away. ' + (kept() ? 'The work is stored: reload the page.'
+    say('The browser has closed the graphics context. ' + (kept() ? 'The work is stored: reload the page.'
       : 'The work is not stored: press Ctrl+S and Enter, which saves it as a file. Then reload the page.'));
   });
   by('about').onclick = () => by('about-text').showModal();

@@ -93,7 +93,7 @@ function checkMesh(file) {
   };
   checker = new PageWorker(data => done(
     data.status === 0 ? 'Sound: one closed solid without self-intersections'
-      : data.status === 1 ? 'Not sound: the report says why' : 'The file could not be read',
+      : data.status === 1 ? 'Not sound: the report lists the faults' : 'The file could not be read',
     data.out || data.err),
   failure => done('The check stopped: the browser may have too little memory, or lacks a file', failure));
   checker.post({words: ['check', '--json', '--', file.name], files: [file]}, [file.bytes.buffer]);

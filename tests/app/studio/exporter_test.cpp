@@ -271,6 +271,17 @@ TEST_F(Exporting, APreviewDoesNotDropTheOutcomeOfFiles) {
   EXPECT_FALSE(exporter.running());
 }
 
+TEST_F(Exporting, APreviewDoesNotReplaceFilesThatWait) {
+  choices.tolerance_mm = 0.001;
+  exporter.preview(pot, choices);
+  while (exporter.stage().empty() && exporter.busy()) std::this_thread::yield();
+  exporter.write(pot, choices);
+  EXPECT_EQ(exporter.running(), Exporter::Kind::files);
+  exporter.preview(pot, choices);
+  EXPECT_EQ(outcome().kind, Exporter::Kind::files);
+  EXPECT_EQ(files(), 10u);
+}
+
 TEST_F(Exporting, CancelledExportLeavesNoFile) {
   choices.tolerance_mm = 0.001;
   exporter.write(pot, choices);

@@ -3,6 +3,7 @@
 #include "tests/app/studio/panels.hpp"
 #include "app/studio/panels/at_tool.hpp"
 #include "app/studio/panels/timeline.hpp"
+#include "app/studio/panels/value_slider.hpp"
 #include "app/studio/panels/widgets.hpp"
 
 #include <gtest/gtest.h>
@@ -100,6 +101,78 @@ TEST_F(Panels, ALengthSliderIsTheSameInEveryUnit) {
     (void)click(slider, {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)});
     EXPECT_NEAR(mm, std::sqrt(0.001 * 1.0), 0.004);
   }
+}
+
+/// A length slider in which texts are typed.
+class TypedLength : public Panels {
+ protected:
+  /// The length after a click on the shown value, this text and Enter.
+  double typed(const char* text, LengthUnit unit) {
+    double mm = 5.0;
+    ImVec2 low, high;
+    const auto slider = in_window([&](const ViewModel&, Actions&) {
+      (void)length_slider("Radius", mm, 1.0, 50.0, unit);
+      low = ImGui::GetItemRectMin();
+      high = ImGui::GetItemRectMax();
+    });
+    (void)frame(slider);
+    const float em = ImGui::GetFontSize();
+    (void)click(slider, {high.x - 0.3f * em, low.y - 0.7f * em});
+    for (int i = 0; i < 2; ++i) (void)frame(slider);
+    ImGuiIO& io = ImGui::GetIO();
+    constexpr int kEnter = 257;
+    io.KeyMap[ImGuiKey_Enter] = kEnter;
+    io.AddInputCharactersUTF8(text);
+    (void)frame(slider);
+    for (const bool down : {true, false}) {
+      io.KeysDown[kEnter] = down;
+      (void)frame(slider);
+    }
+    (void)frame(slider);
+    EXPECT_FALSE(ImGui::IsAnyItemActive());
+    return mm;
+  }
+};
+
+TEST_F(TypedLength, HasTheShownUnitOrItsOwn) {
+  EXPECT_NEAR(typed("12.5", LengthUnit::mm), 12.5, 1e-5);
+  EXPECT_NEAR(typed("1.25", LengthUnit::cm), 12.5, 1e-5);
+  EXPECT_NEAR(typed("0.5", LengthUnit::in), 12.7, 1e-5);
+  EXPECT_NEAR(typed("0.5in", LengthUnit::mm), 12.7, 1e-5);
+  EXPECT_NEAR(typed("8 MM", LengthUnit::in), 8.0, 1e-5);
+}
+
+TEST_F(TypedLength, StaysWithinTheSlider) {
+  EXPECT_EQ(typed("900", LengthUnit::mm), 50.0);
+  EXPECT_EQ(typed("0", LengthUnit::mm), 1.0);
+}
+
+TEST_F(Panels, ATextThatIsNoNumberMayBeTypedAgain) {
+  float percent = 30.0f;
+  const auto field = in_window([&](const ViewModel&, Actions&) {
+    (void)panel_slider("Share", percent, 0.0f, 100.0f, "30 % of the wall", kPercent);
+  });
+  (void)frame(field);
+  ImVec2 value;
+  (void)frame(in_window([&](const ViewModel&, Actions&) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    value = {at.x + ImGui::GetContentRegionAvail().x - 4.0f, at.y + 0.5f * ImGui::GetFontSize()};
+  }));
+  (void)click(field, value);
+  for (int i = 0; i < 2; ++i) (void)frame(field);
+  ImGuiIO& io = ImGui::GetIO();
+  constexpr int kEnter = 257;
+  io.KeyMap[ImGuiKey_Enter] = kEnter;
+  for (const char* text : {"much", "45 %"}) {
+    io.AddInputCharactersUTF8(text);
+    (void)frame(field);
+    for (const bool down : {true, false}) {
+      io.KeysDown[kEnter] = down;
+      (void)frame(field);
+    }
+    for (int i = 0; i < 2; ++i) (void)frame(field);
+  }
+  EXPECT_EQ(percent, 45.0f);
 }
 
 TEST_F(Panels, ChoicesWithoutRoomStandInSeveralRows) {
@@ -263,7 +336,7 @@ TEST_F(Panels, TheFootOfAFallenPotIsNotTrimmed) {
   EXPECT_NE(text_of(tool).find("fallen"), std::string::npos) << text_of(tool);
 }
 
-TEST_F(FiguresAtTool, TheDiameterIsThatOfTheExport) {
+TEST_F(FiguresAtTool, DiameterAndCapacityAreThoseOfTheExport) {
   // Smoothing evens out ridges a millimetre apart, between which the rings are narrower.
   std::vector<Ring> rings(20, Ring{quanta_from_radius(40.0), 0});
   rings.resize(120, Ring{quanta_from_radius(40.0), quanta_from_radius(34.0)});
@@ -275,6 +348,15 @@ TEST_F(FiguresAtTool, TheDiameterIsThatOfTheExport) {
   EXPECT_EQ(state.readings.diameter_mm(), check->maker->thrown.size.diameter_mm);
   EXPECT_NEAR(2.0 * state.readings.widest_mm(), 80.6, 1e-3);
   EXPECT_NE(state.readings.diameter_mm(), 2.0 * state.readings.widest_mm());
+  EXPECT_EQ(state.readings.capacity_mm3(), 1e3 * check->maker->thrown.capacity_ml);
+  // A bore below the floor's edge, which the rings count and the section rounds.
+  rings = std::vector<Ring>(20, Ring{quanta_from_radius(40.0), 0});
+  for (int i = 0; i < 100; ++i)
+    rings.push_back({quanta_from_radius(40.0), quanta_from_radius(i < 2 ? 20.0 + i : 34.0)});
+  put(std::move(rings));
+  ASSERT_TRUE(check && check->maker);
+  EXPECT_EQ(state.readings.capacity_mm3(), 1e3 * check->maker->thrown.capacity_ml);
+  EXPECT_NE(state.readings.capacity_mm3(), state.readings.account().capacity_mm3);
 }
 
 TEST(PlaceBeside, CoversNeitherToolNorPotWhereThereIsRoom) {
