@@ -41,14 +41,15 @@ std::string_view unit_of(std::string_view number, const ValueUnits& units) {
 
 /// The text of the value at the right of a line. A click opens the field. Keys go to the slider.
 void value_text(const char* label, const std::string& text) {
-  const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::CalcTextSize(text.c_str());
-  ImGui::PushItemFlag(ImGuiItemFlags_NoNav, true);
-  const bool clicked = ImGui::InvisibleButton(fmt::format("{} value", label).c_str(), size);
-  ImGui::PopItemFlag();
-  if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_TextInput);
-  if (clicked) ImGui::GetStateStorage()->SetInt(field_of(label), typing::asked);
-  ImGui::SetCursorScreenPos(corner);
   ImGui::TextUnformatted(text.c_str());
+  const ImRect place(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
+  const ImGuiID id = ImGui::GetID(fmt::format("{} value", label).c_str());
+  // Adds no item to the layout, so that the line stays as the text made it.
+  if (!ImGui::ItemAdd(place, id, nullptr, ImGuiItemFlags_NoNav)) return;
+  bool hovered = false, held = false;
+  const bool clicked = ImGui::ButtonBehavior(place, id, &hovered, &held);
+  if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_TextInput);
+  if (clicked) ImGui::GetStateStorage()->SetInt(field_of(label), typing::asked);
 }
 
 /// The field over the slider. It closes with Enter, or when it loses the keyboard.
