@@ -53,14 +53,17 @@ void value_text(const char* label, const std::string& text) {
 }
 
 /// The field over the slider. It closes with Enter, or when it loses the keyboard.
-bool typed_value(ImGuiID field, float& value, const std::string& text, const ValueUnits& units) {
+bool typed_value(const char* label, float& value, const std::string& text,
+                 const ValueUnits& units) {
+  const ImGuiID field = field_of(label);
   ImGuiStorage& kept = *ImGui::GetStateStorage();
   const int state = kept.GetInt(field);
   if (state == typing::asked) ImGui::SetKeyboardFocusHere();
   const std::string shown = number_in(text);
   std::string typed = shown;
-  const bool entered = ImGui::InputText(
-      "##typed", &typed, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  const bool entered =
+      ImGui::InputText(fmt::format("##{} typed", label).c_str(), &typed,
+                       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   kept.SetInt(field, std::min(state + 1, static_cast<int>(typing::open)));
   if (!entered) {
     if (state == typing::open && !ImGui::IsItemActive()) kept.SetInt(field, typing::closed);
@@ -68,7 +71,7 @@ bool typed_value(ImGuiID field, float& value, const std::string& text, const Val
   }
   const auto number = cli::number_with_unit(typed, units.all, unit_of(shown, units));
   // What cannot be read may be typed again.
-  kept.SetInt(field, number ? typing::closed : typing::asked);
+  kept.SetInt(field, number || typed.empty() ? typing::closed : typing::asked);
   if (!number) return false;
   value = static_cast<float>(*number / units.per_value);
   return true;
@@ -80,7 +83,7 @@ bool slider(const char* label, float& value, float low, float high, const std::s
   ImGuiStorage& kept = *ImGui::GetStateStorage();
   const ImGuiID field = field_of(label);
   if (kept.GetInt(field) != typing::closed) {
-    if (!typed_value(field, value, text, units)) return false;
+    if (!typed_value(label, value, text, units)) return false;
     value = std::clamp(value, low, high);
     return true;
   }
