@@ -52,6 +52,7 @@ struct PixelRows {
 /// A cylinder on the wheel that contains the pot.
 struct Extent {
   double radius_mm = 0.0, height_mm = 0.0;
+  double foot_mm = 0.0;  ///< radius of the foot
 };
 /// Steps of the mouse wheel: positive zooms in, by a ninth of the distance each, until the camera
 /// is at the pot; negative zooms out, as long as the pot is in sight.

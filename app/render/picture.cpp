@@ -86,7 +86,8 @@ double wheel_radius_mm(const PotView& pot) noexcept {
 Extent extent_of(const PotView& pot) noexcept {
   float radius = 0.0f;
   for (const Row& row : pot.rows) radius = std::max(radius, row.outer_mm);
-  return {static_cast<double>(radius), pot.height_mm};
+  const float foot = pot.rows.empty() ? 0.0f : pot.rows.front().outer_mm;
+  return {static_cast<double>(radius), pot.height_mm, static_cast<double>(foot)};
 }
 
 Camera framed(const PotView& pot, double aspect, Camera camera) noexcept {

@@ -79,9 +79,8 @@ class SceneView {
   void zoom(double notches) { camera_ = render::zoomed(camera_, notches, extent_); }
   /// To the right and up.
   void turn(glm::dvec2 by_rad);
-  /// `covered_px`: the height at the foot of the view over which the timeline lies. If that grows,
-  /// a pot that was in sight stays in sight. If the view changes in a stroke, the pointer means
-  /// another place, but the tool stays where it is.
+  /// `covered_px`: the height at the foot of the view over which the timeline lies. If the view
+  /// changes in a stroke, the pointer means another place, but the tool stays where it is.
   void place(const ViewRect& rect, float covered_px = 0.0f);
   [[nodiscard]] const ViewRect& rect() const noexcept { return rect_; }
   [[nodiscard]] const render::Camera& camera() const noexcept { return camera_; }
@@ -122,7 +121,6 @@ class SceneView {
   [[nodiscard]] glm::dvec3 in_stroke(glm::dvec2 place_mm) const;
 
   ViewRect rect_;
-  float covered_px_ = 0.0f;  // of the last `place`
   render::Camera camera_;
   Drag drag_ = Drag::none;
   glm::vec2 mouse_px_{-1.0f};

@@ -29,14 +29,10 @@ render::Viewport SceneView::viewport() const noexcept {
 
 void SceneView::place(const ViewRect& rect, float covered_px) {
   const auto before = drag_ == Drag::shape ? pointed_mm() : std::nullopt;
-  // The timeline appears with the first stroke.
-  const bool uncovers = drag_ == Drag::none && covered_px > covered_px_ && shows(extent_, 0.0);
   rect_ = rect;
-  covered_px_ = covered_px;
   camera_.covered = covered_px / rect.size_px.y;
   const auto now = before ? pointed_mm() : std::nullopt;
   if (now) offset_mm_ += *before - *now;
-  if (uncovers) back_off(extent_, 0.0);
 }
 
 float SceneView::free_height_px() const noexcept {
@@ -77,13 +73,17 @@ void SceneView::look(const render::PotView& pot, ViewFrom from) {
 }
 
 bool SceneView::shows(const render::Extent& pot, double above_mm) const noexcept {
-  const auto rim = pixel_of({0.0, pot.height_mm + above_mm}), foot = pixel_of({0.0, 0.0});
+  const auto rim = pixel_of({0.0, pot.height_mm + above_mm});
+  // The edge of the foot that is nearest to the camera, in the view alone.
+  const glm::dvec3 toward =
+      glm::cross(render::profile_direction(camera_), glm::dvec3(0.0, 1.0, 0.0));
+  const auto foot = render::pixel_of(camera_, viewport(), pot.foot_mm * toward);
   // Parts of the pot that are nearer than the section plane look wider.
   const double side_mm = 1.1 * pot.radius_mm;
   const auto left = pixel_of({-side_mm, 0.5 * pot.height_mm});
   const auto right = pixel_of({side_mm, 0.5 * pot.height_mm});
   return rim && foot && left && right && rim->y >= rect_.corner_px.y &&
-         foot->y <= rect_.corner_px.y + free_height_px() && left->x >= rect_.corner_px.x &&
+         foot->y <= static_cast<double>(free_height_px()) && left->x >= rect_.corner_px.x &&
          right->x <= rect_.corner_px.x + rect_.size_px.x;
 }
 

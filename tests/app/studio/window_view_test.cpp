@@ -27,6 +27,16 @@ TEST_F(Window, APotThatBecomesWiderStaysInSight) {
   EXPECT_EQ(ran.status, 0) << ran.err;
 }
 
+/// The near edge of the foot is lower in the picture than the middle of the foot.
+TEST_F(Window, TheFootOfAPotThatGrowsStaysAboveTheTimeline) {
+  const auto ran =
+      run("point 0 70\npress left\npoint 0 15 over 2\npoint 20 15 over 2\npoint 22 60 over 1.5\n"
+          "release left\nwait 0.3\nkey H\npoint 41 12\npress left\npoint 48 70 over 4\n"
+          "point 50 90 over 2\nrelease left\nwait 0.3\nexpect height_mm above 100\n"
+          "expect distance_mm above 450\n");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+}
+
 TEST_F(Window, UndoShowsAllOfATallerPot) {
   const auto ran =
       run(std::string(kWiden) +
