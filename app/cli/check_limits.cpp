@@ -33,7 +33,7 @@ void report_wall(const solid::SampledWall& wall, const solid::WallLimit& limit, 
     return verdict.add(solid::check_name(ProblemKind::thin_wall), Grade::pass,
                        sampled + ": " + solid::wall_text(wall.least_mm, limit));
   // The triangles of united shells are not those of the file.
-  const std::string triangle = united ? "" : fmt::format("triangle {} ", wall.triangle);
+  const std::string triangle = united ? "" : fmt::format("triangle {} ", wall.triangle + 1);
   verdict.add(solid::check_name(ProblemKind::thin_wall), Grade::fail,
               fmt::format("thin wall ({}): {}at ({:.6g}, {:.6g}, {:.6g}) mm: {}", sampled, triangle,
                           wall.place.x, wall.place.y, wall.place.z,

@@ -59,10 +59,10 @@ Result<void> set_axis(ImportOptions& options) {
   return {};
 }
 
-/// How far the outside leans from the vertical at the rim, if the corner there is so narrow that
-/// the wall counts as thinner [degrees].
+/// Slope of the outside at the rim, from the vertical [degrees], if the corner there is so narrow
+/// that the check measures a thinner wall.
 std::optional<double> sharp_rim(const HalfSection& section) {
-  constexpr double kMostDeg = 50.0;
+  constexpr double kMostDeg = 50.0;  // at 45 the check finds the whole wall, at 55 a tenth of a mm
   const Slab& top = section.slabs.back();
   const double lean_deg = std::atan2(top.outer_to_mm - top.outer_from_mm, top.to_mm - top.from_mm) *
                           180.0 / std::numbers::pi;

@@ -17,11 +17,10 @@ std::optional<PotEncoding> pot_encoding_of(std::string_view path) {
 
 Result<void> check_pot_name(const std::string& path) {
   if (path.empty() || path == "-" || pot_encoding_of(path)) return {};
-  return failure(
-      ErrorKind::bad_input,
-      path +
-          ": expected a name that ends in .pot.json or .pot.cbor; claystack export makes "
-          "meshes of a pot");
+  return failure(ErrorKind::bad_input,
+                 path +
+                     ": expected a name that ends in .pot.json or .pot.cbor; claystack export "
+                     "makes meshes of a pot");
 }
 
 Result<void> expect_room_to_write(std::size_t rings, PotEncoding encoding,

@@ -138,8 +138,7 @@ std::optional<std::string> other_size(const solid::TriangleMesh& mesh, const Pot
     return std::nullopt;
   return fmt::format(
       "{} mm wide and {} mm high; the mesh is {} mm wide and {} mm high, {:.2f} and {:.2f} times "
-      "as "
-      "much",
+      "as much",
       size_text(sizes.pot_width_mm, 1), size_text(sizes.pot_height_mm, 1),
       size_text(sizes.mesh_width_mm, 1), size_text(sizes.mesh_height_mm, 1), sizes.across(),
       sizes.up());

@@ -81,8 +81,7 @@ Result<void> check_gaps(const StrokeScript& script, const SceneSpec& scene) {
                      "gap between two");
 }
 
-/// Mentions the place on the tool's way where it presses clay, if it does so for long enough to
-/// mark it.
+/// A warning if the tool presses clay on its way for long enough to mark it.
 std::optional<std::string> obstacle_of(Hand& hand) {
   constexpr double kLongS = 0.05;
   const Hand::Obstacle obstacle = hand.take_obstacle();

@@ -70,7 +70,7 @@ struct StrokeScript {
 /// poses than a session holds (kMaxPoses).
 Result<StrokeScript> parse_strokes(std::string_view text, std::string_view name);
 
-/// The pot after a stroke, and what the script's author should know about it.
+/// The pot after a stroke, and warnings for the author of the script.
 struct PlayedStroke {
   double seconds = 0.0;    ///< all passes, with the ways between them
   double height_mm = 0.0;  ///< of the pot

@@ -226,16 +226,13 @@ void take_squeezed(std::span<const ToolRemoval> removals, ClayStack& stack, Rim*
 void relieve(const RulePress& press, std::span<const ToolRemoval> removals, const RuleWork& work,
              const ClayStack& stack, StackWriter& writer, LooseClay& loose) noexcept {
   const double dt_s = press.tool.dt_s * work.pressed.aside;
+  const bool bends = press.plan.clay.pushed_wall_bends && removals.size() == 1;
   for (std::size_t k = 0; k < removals.size(); ++k)
     if (!removals[k].contact.rings.empty())
-      for (const Cone& cone : work.cones[k]) {
-        if (!cone.meets) continue;
-        const bool bends = press.plan.clay.pushed_wall_bends && removals.size() == 1;
-        if (bends && cone.outside)
-          bend_beyond(press.plan, cone, stack, dt_s, removals[k].contact, writer, loose);
-        else
-          relieve_beyond(press.plan, cone, stack, dt_s, removals[k].contact, writer, loose);
-      }
+      for (const Cone& cone : work.cones[k])
+        if (cone.meets)
+          relieve_beyond(press.plan, cone, stack, dt_s, removals[k].contact, bends && cone.outside,
+                         writer, loose);
   if (work.finger.stands())
     relieve_finger(press.plan, work.finger, stack, dt_s, removals[0].contact, writer, loose);
 }

@@ -76,6 +76,29 @@ double bent_part(const Cone& cone, std::span<const Ring> rings, double h, double
   return pliancy(ring) * held * std::clamp(1.0 - heaped / out, 0.0, 1.0);
 }
 
+/// Clay that leaves a ring on the pressed side, and the part of it that goes to its other side.
+struct Yield {
+  Quanta taken = 0, kept = 0;
+};
+
+/// Of a ring outside of which a cone projects by `out` [mm], and whose part `bent` is above 0. It
+/// keeps the clay of that part, but for half of its hoop strain. The rest is squeezed out, and
+/// leaves the minimum wall.
+Yield bend_ring(const StepPlan& plan, const Ring& ring, double bent, double dt_s,
+                double out) noexcept {
+  constexpr double kMostOfBore = 0.25;  // in one tick
+  RemovalPlan removal = plan.removal;
+  const double wall = wall_mm(ring), spare = std::max(wall - removal.min_wall_mm, 0.0);
+  removal.min_wall_mm = bent < 1.0 ? wall - spare / (1.0 - bent) : 0.0;
+  const double outer2 = static_cast<double>(ring.outer2), inner2 = static_cast<double>(ring.inner2);
+  const bool hoop = (plan.clay.rules & kHoop) != 0;
+  const double keeps = bent * (1.0 - (hoop ? 0.5 * (outer2 - inner2) / (outer2 + inner2) : 0.0));
+  Quanta taken = yielded(removal, dt_s, ring, true, out);
+  if (keeps * static_cast<double>(taken) > kMostOfBore * inner2)
+    taken = static_cast<Quanta>(kMostOfBore * inner2 / keeps);
+  return {taken, static_cast<Quanta>(keeps * static_cast<double>(taken))};
+}
+
 /// Height of the solid clay or the wheel head on which the wall of a contact stands [mm]; very low
 /// if it is far below.
 double foot_of(const ClayStack& stack, const Contact& contact) noexcept {
@@ -149,48 +172,25 @@ std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoul
 }
 
 void relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack, double dt_s,
-                    const Contact& contact, StackWriter& writer, LooseClay& loose) noexcept {
+                    const Contact& contact, bool bends, StackWriter& writer,
+                    LooseClay& loose) noexcept {
   const double h = stack.ring_height_mm(), reach = kReliefMm / h;
+  const double foot_mm = bends ? foot_of(stack, contact) : 0.0;
   std::size_t i = cone.up ? contact.rings.to() - 1 : contact.rings.from();
   for (double k = 1.0; k <= reach && next(i, cone.up, stack.size()); k += 1.0) {
     const Ring& ring = stack.rings()[i];
     double out = excess(cone, ring, (static_cast<double>(i) + 0.5) * h);
     if (!(out > 0.0)) break;
-    const Quanta amount = yielded(plan.removal, dt_s, ring, cone.outside, out);
+    const double bent = bends ? bent_part(cone, stack.rings(), h, foot_mm, i, out) : 0.0;
+    const auto [taken, kept] = bent > 0.0
+                                   ? bend_ring(plan, ring, bent, dt_s, out)
+                                   : Yield{yielded(plan.removal, dt_s, ring, cone.outside, out), 0};
+    if (kept > 0) writer.gain(writer.put_inside(i, kept));
     if (cone.outside)
-      writer.take_outside(i, amount);
+      writer.take_outside(i, taken);
     else
-      writer.take_inside(i, amount);
-    loose.add(amount, ring);
-  }
-}
-
-void bend_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack, double dt_s,
-                 const Contact& contact, StackWriter& writer, LooseClay& loose) noexcept {
-  const double h = stack.ring_height_mm(), reach = kReliefMm / h, foot_mm = foot_of(stack, contact);
-  const bool hoop = (plan.clay.rules & kHoop) != 0;
-  std::size_t i = cone.up ? contact.rings.to() - 1 : contact.rings.from();
-  for (double k = 1.0; k <= reach && next(i, cone.up, stack.size()); k += 1.0) {
-    const Ring ring = stack.rings()[i];
-    double out = excess(cone, ring, (static_cast<double>(i) + 0.5) * h);
-    if (!(out > 0.0)) break;
-    const double bent = bent_part(cone, stack.rings(), h, foot_mm, i, out);
-    RemovalPlan removal = plan.removal;  // the part that is squeezed out keeps the minimum wall
-    const double wall = wall_mm(ring), spare = std::max(wall - removal.min_wall_mm, 0.0);
-    if (bent > 0.0) removal.min_wall_mm = bent < 1.0 ? wall - spare / (1.0 - bent) : 0.0;
-    const double outer2 = static_cast<double>(ring.outer2),
-                 inner2 = static_cast<double>(ring.inner2);
-    const double strain = hoop ? 0.5 * (outer2 - inner2) / (outer2 + inner2) : 0.0;
-    const double keeps = bent * (1.0 - strain);
-    Quanta amount = yielded(removal, dt_s, ring, true, out);
-    // A bore keeps most of its area in one tick.
-    if (keeps * static_cast<double>(amount) > 0.25 * inner2)
-      amount = static_cast<Quanta>(0.25 * inner2 / keeps);
-    const Quanta kept =
-        writer.put_inside(i, static_cast<Quanta>(keeps * static_cast<double>(amount)));
-    writer.gain(kept);
-    writer.take_outside(i, amount);
-    loose.add(amount - kept, ring);
+      writer.take_inside(i, taken);
+    loose.add(taken - kept, ring);
   }
 }
 

@@ -59,14 +59,11 @@ struct Cone {
                              double& out) noexcept;
 
 /// Removes the clay in a cone beyond the contact, never through the minimum wall, nor where there
-/// is no bore. Adds it to `loose`.
+/// is no bore. Adds it to `loose`. With `bends`, for a cone outside, a thin wall instead moves
+/// inward as far as it is thin and keeps its clay, but for half of its hoop strain: that, and the
+/// clay by which the ring is thicker than the wall beyond it, is added to `loose`.
 void relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack, double dt_s,
-                    const Contact& contact, StackWriter& writer, LooseClay& loose) noexcept;
-
-/// The same for a cone outside of a thin wall, which moves inward as far as it is thin and keeps
-/// its clay, but for half of its hoop strain: that, and what the ring has more than the wall beyond
-/// it, is added to `loose`. No wall becomes thinner than the minimum.
-void bend_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack, double dt_s,
-                 const Contact& contact, StackWriter& writer, LooseClay& loose) noexcept;
+                    const Contact& contact, bool bends, StackWriter& writer,
+                    LooseClay& loose) noexcept;
 
 }  // namespace clay
