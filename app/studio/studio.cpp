@@ -97,7 +97,7 @@ void Studio::take(Input input) {
 bool Studio::frame(Painting painting) {
   const std::int64_t now_ns = state_.host.frame_ns();
   const double now_s = seconds(now_ns);
-  const double elapsed_s = std::clamp(now_s - last_s_, 1e-4, kLongestFrameS);
+  const double elapsed_s = std::clamp(now_s - last_s_, kShortestFrameS, kLongestFrameS);
   last_s_ = now_s;
   if (state_.ui.restyle) restyle();
   if (awake_frames_ > 0) --awake_frames_;

@@ -51,6 +51,8 @@ class Studio {
   void take(Input input);
   /// Updates everything to the current time of the clock. Returns whether it has painted a frame.
   bool frame(Painting painting);
+  /// Draws the panels once more, but not on the screen, for a reader of their texts.
+  void repeat_panels() { build_frame(kShortestFrameS); }
 
   [[nodiscard]] AppState& state() noexcept { return state_; }
   [[nodiscard]] const AppState& state() const noexcept { return state_; }
@@ -81,6 +83,7 @@ class Studio {
   void paint();
   bool update_canvas();
 
+  static constexpr double kShortestFrameS = 1e-4;
   static constexpr int kFramesAfterInput = 3;  // frames until an ImGui window has settled
 
   AppState state_;

@@ -6,6 +6,7 @@
 #include "app/web/pot_text.hpp"
 #include "app/web/web_hid.hpp"
 #include "app/web/web_host.hpp"
+#include "app/web/window_reader.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "core/worker.hpp"
@@ -13,7 +14,7 @@
 #include <emscripten.h>
 #include <emscripten/html5.h>
 #include <fmt/format.h>
-#include <imgui.h>
+#include <imgui_internal.h>
 
 #include <filesystem>
 #include <memory>
@@ -30,10 +31,13 @@ EM_JS(void, page_log, (const char* text, int size),
 EM_JS(void, page_fail, (const char* text), { Module["page"].fail(UTF8ToString(text)); });
 EM_JS(bool, page_stores, (), { return Module["page"].stores(); });
 EM_JS(void, page_theme, (const char* name), { Module["page"].setTheme(UTF8ToString(name)); });
+EM_JS(void, page_show_controls, (const char* json),
+      { Module["page"].showControls(UTF8ToString(json)); });
 EM_JS(void, page_announce, (const char* text), { Module["page"].announce(UTF8ToString(text)); });
 
 constexpr const char* kCanvas = "#canvas";
 constexpr int kFramesAfterEvent = 3;
+constexpr double kBetweenReadingsMs = 250.0;
 
 std::unique_ptr<WebHost> host;
 std::unique_ptr<studio::Studio> window;
@@ -42,6 +46,9 @@ bool damaged = true;
 std::string announced;                     // by page_announce
 std::optional<studio::Theme> shown_theme;  // by page_theme
 std::string report;                        // of claystack_report
+std::string shown_controls;                // by page_show_controls
+bool unread = true;                        // the window has changed since the last reading
+double read_ms = 0.0;
 
 void take(studio::Input input) {
   if (!window) return;
@@ -55,6 +62,21 @@ void announce() {
   if (!summary || *summary == announced) return;
   announced = std::move(*summary);
   page_announce(announced.c_str());
+}
+
+/// Gives the controls and texts of the window to screen readers, but not during a stroke.
+void read_window(double page_ms) {
+  if (!unread || window->state().stroke.throwing() || page_ms - read_ms < kBetweenReadingsMs)
+    return;
+  unread = false;
+  read_ms = page_ms;
+  WindowReader reader;
+  reader.begin();
+  window->repeat_panels();
+  std::string controls = reader.end();
+  if (controls == shown_controls) return;
+  shown_controls = std::move(controls);
+  page_show_controls(shown_controls.c_str());
 }
 
 /// The rest of the page has the theme of the window.
@@ -129,12 +151,15 @@ EMSCRIPTEN_KEEPALIVE bool claystack_frame(double page_ms) {
   if (!window) return false;
   PeriodicWorker::run_all();
   host->begin_frame(page_ms);
-  window->frame(std::exchange(damaged, false) ? studio::Painting::always
-                                              : studio::Painting::if_changed);
+  if (window->frame(std::exchange(damaged, false) ? studio::Painting::always
+                                                  : studio::Painting::if_changed))
+    unread = true;
+  read_window(page_ms);
   announce();
   show_theme();
   if (frames_wanted > 0) --frames_wanted;
-  return frames_wanted > 0 || window->wakeful();
+  const bool reads = unread && !window->state().stroke.throwing();
+  return frames_wanted > 0 || reads || window->wakeful();
 }
 /// The browser's preferred theme has changed: the window uses it, unless the user has chosen a
 /// theme.
@@ -182,6 +207,12 @@ EMSCRIPTEN_KEEPALIVE int claystack_recoverable() {
   return window ? static_cast<int>(window->state().recoverable.size()) : 0;
 }
 EMSCRIPTEN_KEEPALIVE void claystack_open(const char* path) { take(studio::FilesDropped{{path}}); }
+/// A screen reader has pressed the control with this number, see window_reader.hpp.
+EMSCRIPTEN_KEEPALIVE void claystack_press(unsigned id) {
+  if (!window) return;
+  ImGui::ActivateItem(id);
+  frames_wanted = kFramesAfterEvent;
+}
 /// Whether gestures and the key Tab are for an open dialog or menu, not for the pot.
 EMSCRIPTEN_KEEPALIVE bool claystack_dialog_open() {
   return window && (!window->state().ui.shows<studio::NoDialog>() ||

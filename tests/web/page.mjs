@@ -10,6 +10,7 @@ import {join, resolve} from 'node:path';
 import {inflateRawSync} from 'node:zlib';
 import {beginBowl, choose, chord, downloaded as downloadedIn, drag, drop, launch as launchIn, openPage as openPageIn, pause} from './browser.mjs';
 import {browsersKeys, clipboard, followedTheme, hiddenTab, untouchedLink, versions} from './browsing.mjs';
+import {readAndPressed} from './controls.mjs';
 import {gamepad, partsOfOneController, pen, saved, spaceMouse} from './devices.mjs';
 import {failing, keysAndButtons, oddFiles, oddLinks, otherScreen, palms, typedByFinger} from './odd_input.mjs';
 import {serve} from './server.mjs';
@@ -521,13 +522,19 @@ async function browsing(browser) {
   console.log('theme, hidden tab, clipboard, keys, links and versions of the browser');
 }
 
+/// The window for screen readers, see controls.mjs.
+async function controls(browser) {
+  await each(browser, readAndPressed);
+  console.log('controls of panels, menus and dialogs: read and pressed');
+}
+
 /// The works after unusual events, see storage.mjs.
 async function storage(browser) {
   await each(browser, twoTabs, twoTabsWithoutLocks, savedPot, closedWithoutStorage, clearedStorage, unreadStorage, lostGraphics, pickedAgain, listedWorks, reloadedLink);
   console.log('a second tab, a reload, cleared or unreadable storage: no work is lost');
 }
 
-const kAll = {throwAndExport, files, drawn, words, phone, lesson, devices, odd, browsing, storage, offline, offlineBeside, incomplete, repeated, looks};
+const kAll = {throwAndExport, files, drawn, words, controls, phone, lesson, devices, odd, browsing, storage, offline, offlineBeside, incomplete, repeated, looks};
 let failed = 0;
 const only = process.env.ONLY?.split(',');  // some tests, by name
 try {

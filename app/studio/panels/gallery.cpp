@@ -41,7 +41,9 @@ void draw_sample(std::size_t index, float width, const ViewModel& model, Actions
   ImGui::BeginGroup();
   ImGui::PushID(sample.title);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const bool clicked = ImGui::Button("##card", {width, (kPictureEm + 6.8f) * em});
+  const bool clicked =
+      ImGui::Button(fmt::format("##{}. {}", sample.title, sample.description).c_str(),
+                    {width, (kPictureEm + 6.8f) * em});
   const float inset = 0.5f * (width - kPictureEm * em);
   draw_half_section(section_of(sample), {at.x + inset, at.y + 0.5f * em}, kPictureEm * em, colours);
   ImDrawList* draw = ImGui::GetWindowDrawList();

@@ -41,7 +41,7 @@ void choose_target(const ViewModel& model, Actions& actions) {
   const Target* target = model.ui.target.get();
   ImGui::TextUnformatted("Target profile");
   ImGui::SetNextItemWidth(kToEdge);
-  if (!ImGui::BeginCombo("##target", target != nullptr ? target->name.c_str() : "None")) return;
+  if (!begin_list("Target profile", target != nullptr ? target->name.c_str() : "None")) return;
   const std::string_view present = command_of(target);
   for (const std::string_view id : kChoices) {
     if (ImGui::Selectable(find_command(id)->title, id == present))

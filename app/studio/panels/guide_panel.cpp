@@ -164,7 +164,7 @@ void draw_guide(const ViewModel& model, Actions& actions, const ViewRect& rect) 
   ImGui::SetNextWindowSize({width, 0.0f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.6f * em);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
-  ImGui::Begin(kCardId, nullptr, kCard);
+  begin_window(kCardId, kCard);
   const Guide& guide = model.guide;
   const std::string title = guide.finished() ? guide.title()
                                              : fmt::format("{}, step {} of {}", guide.title(),

@@ -214,7 +214,7 @@ void draw_column(const ViewModel& model, Actions& actions, Column column, glm::v
                  glm::vec2 size_px) {
   ImGui::SetNextWindowPos({corner_px.x, corner_px.y});
   ImGui::SetNextWindowSize({size_px.x, size_px.y});
-  ImGui::Begin(column == Column::context ? "##context" : "##diagnostics", nullptr, kFixed);
+  begin_window(column == Column::context ? "##context" : "##diagnostics", kFixed);
   if (model.ui.focus_column && model.ui.keys_in == column) ImGui::SetWindowFocus();
   for (const Panel& panel : kPanels) {
     if (panel.column != column) continue;
@@ -276,7 +276,7 @@ void draw_status_bar(const ViewModel& model, glm::vec2 corner_px, glm::vec2 size
                       ImVec2(ImGui::GetStyle().WindowPadding.x, 0.3f * ImGui::GetFontSize()));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
-  ImGui::Begin("##status", nullptr, kBar);
+  begin_window("##status", kBar);
   const Palette& colours = model.colours();
   const ImVec4 text = ImGui::GetStyleColorVec4(ImGuiCol_Text);
   std::vector<Part> parts{{model.device_name(), text}};
@@ -317,7 +317,7 @@ float draw_notice(const ViewModel& model, const std::optional<Notice>& notice,
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   const ImVec4 colour = colour_of(notice->grade, model.colours());
   ImGui::PushStyleColor(ImGuiCol_Border, colour);
-  ImGui::Begin(close.state ? "##state" : "##answer", nullptr,
+  begin_window(close.state ? "##state" : "##answer",
                kBar | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
   if (answers_dialog(model, *notice)) ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
   const char* grade = notice->grade == Grade::note      ? "Note"
@@ -365,7 +365,7 @@ void draw_hint(const ViewModel& model, Actions& actions, const ViewRect& rect) {
   ImGui::SetNextWindowSize({width, 0.0f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.4f * pad);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
-  ImGui::Begin("##hint", nullptr,
+  begin_window("##hint",
                kBar | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
   wrapped_text(text);
   if (ImGui::Button("Hide")) actions.emplace_back(SetHints{false});

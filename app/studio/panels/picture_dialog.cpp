@@ -32,7 +32,7 @@ void draw_size(PictureFile& file) {
                       std::clamp(sides[1], kSmallestSidePx, render::kMaxSidePx)};
   ImGui::SameLine();
   ImGui::SetNextItemWidth(kToEdge);
-  if (!ImGui::BeginCombo("##size", "Usual sizes")) return;
+  if (!begin_list("Size", "Usual sizes")) return;
   const auto offer = [&](const auto& sizes) {
     for (const render::Viewport& size : sizes)
       if (ImGui::Selectable(fmt::format("{} \xc3\x97 {}", size.width_px, size.height_px).c_str(),

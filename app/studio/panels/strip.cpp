@@ -116,6 +116,7 @@ bool icon_button(const char* label, void (*draw_icon)(const Pen&), bool enabled,
   ImGui::PushStyleColor(ImGuiCol_Button, on ? ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive)
                                             : ImVec4(0.0f, 0.0f, 0.0f, 0.0f));
   const bool pressed = ImGui::Button("##icon", {width, kButtonEm * em});
+  mark_chosen(label, on);
   ImGui::PopStyleColor();
   ImGui::PopID();
   if (ImGui::IsItemHovered() && !model.fingers) ImGui::SetTooltip("%s", tip.c_str());
@@ -155,10 +156,10 @@ void draw_strip(const ViewModel& model, Actions& actions, glm::vec2 corner_px, g
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0.3f * em, 0.3f * em));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0.0f, 0.15f * em));
   ImGui::PushStyleVar(ImGuiStyleVar_ScrollbarSize, 0.3f * em);
-  ImGui::Begin("##strip", nullptr,
-               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+  begin_window("##strip", ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                              ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                              ImGuiWindowFlags_NoSavedSettings |
+                              ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::BeginDisabled(!model.ui.shows<NoDialog>());
   for (std::size_t i = 0; i < kIcons.size(); ++i) {
     if (i == kTools) {

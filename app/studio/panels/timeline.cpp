@@ -243,7 +243,7 @@ void draw_timeline(const ViewModel& model, Actions& actions, glm::vec2 corner_px
   ImGui::SetNextWindowBgAlpha(0.72f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(2.0f * kPadEm * em, kPadEm * em));
   ImGui::PushStyleVar(ImGuiStyleVar_ScrollbarSize, kBarEm * em);
-  ImGui::Begin("##timeline", nullptr,
+  begin_window("##timeline",
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_HorizontalScrollbar);

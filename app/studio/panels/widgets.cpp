@@ -4,6 +4,7 @@
 #include "core/text.hpp"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -48,6 +49,7 @@ int choice_row(const char* id, std::span<const char* const> titles, int chosen) 
     const bool last = i % columns + 1 == columns;
     if (ImGui::Button(titles[static_cast<std::size_t>(i)], ImVec2(last ? kToEdge : width, 0.0f)))
       clicked = i;
+    mark_chosen(titles[static_cast<std::size_t>(i)], on);
     if (on) ImGui::PopStyleColor(3);
   }
   ImGui::EndGroup();
@@ -139,8 +141,7 @@ void form_place(std::string& name, std::string& folder, Actions& actions) {
 
 const Material* choose_material(const Material& shown) {
   const Material* chosen = nullptr;
-  if (!ImGui::BeginCombo("##material", shown.title.data(), ImGuiComboFlags_HeightLargest))
-    return chosen;
+  if (!begin_list("Material", shown.title.data(), ImGuiComboFlags_HeightLargest)) return chosen;
   for (const Material& material : kMaterials)
     if (ImGui::Selectable(material.title.data(), material == shown)) chosen = &material;
   ImGui::EndCombo();
@@ -182,6 +183,28 @@ void fill_row(float y, float from, float to, ImVec4 colour) {
 
 }  // namespace
 
+void begin_window(const char* id, int flags) {
+  ImGui::Begin(id, nullptr, flags);
+  // ImGui's log, which app/web/window_reader.cpp reads, ends with each window.
+  if (ImGui::GetCurrentContext()->TestEngineHookItems) ImGui::LogToClipboard(0);
+}
+
+// ImGui of the native program has no hooks, and the macro no arguments.
+void mark_chosen([[maybe_unused]] const char* name, [[maybe_unused]] bool chosen) {
+  [[maybe_unused]] ImGuiContext& g = *ImGui::GetCurrentContext();
+  IMGUI_TEST_ENGINE_ITEM_INFO(
+      ImGui::GetItemID(), name,
+      ImGuiItemStatusFlags_Checkable | (chosen ? ImGuiItemStatusFlags_Checked : 0));
+}
+
+bool begin_list(const char* name, const char* shown, int flags) {
+  const bool open = ImGui::BeginCombo(fmt::format("##{}", name).c_str(), shown, flags);
+  [[maybe_unused]] ImGuiContext& g = *ImGui::GetCurrentContext();
+  // An open list is the present window, and its entries follow.
+  if (!open) IMGUI_TEST_ENGINE_ITEM_INFO(ImGui::GetItemID(), name, ImGuiItemStatusFlags_Openable);
+  return open;
+}
+
 void begin_dialog(const char* id, const ViewRect& rect, float width_em, float steady_em) {
   const float em = ImGui::GetFontSize();
   const ImVec2 low(rect.corner_px.x, rect.corner_px.y);
@@ -201,9 +224,9 @@ void begin_dialog(const char* id, const ViewRect& rect, float width_em, float st
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
                       ImVec2(std::round(1.3f * em), std::round(1.1f * em)));
-  ImGui::Begin(id, nullptr,
-               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+  begin_window(id, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                       ImGuiWindowFlags_NoSavedSettings);
   ImGui::PopStyleVar(2);
   dim_around(low.y, ImGui::GetIO().DisplaySize.y - status_height());
 }
@@ -264,8 +287,7 @@ std::string title_of(const std::string& process) {
 
 bool choose_process(const ViewModel& model, const char* none, std::string& process,
                     Actions& actions) {
-  if (!ImGui::BeginCombo("##process", process.empty() ? none : title_of(process).c_str()))
-    return false;
+  if (!begin_list("Process", process.empty() ? none : title_of(process).c_str())) return false;
   const std::string before = process;
   if (ImGui::Selectable(none, process.empty())) process.clear();
   for (const std::string& name : process_names())

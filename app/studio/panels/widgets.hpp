@@ -57,6 +57,13 @@ void form_place(std::string& name, std::string& folder, Actions& actions);
 void draw_half_section(const render::PotView& pot, ImVec2 corner, float side,
                        const Palette& colours);
 
+/// ImGui::Begin for a part of the window. On the page screen readers get its texts (app/web).
+void begin_window(const char* id, int flags);
+/// For screen readers: the name of the last control, and whether it is the chosen one.
+void mark_chosen(const char* name, bool chosen);
+/// ImGui::BeginCombo with a name for screen readers.
+bool begin_list(const char* name, const char* shown, int flags = 0);
+
 /// Begins a window in the middle of the dimmed view, as high as its content. Call ImGui::End() to
 /// end it. `steady_em`: where more or less content must not move its top, its usual height.
 void begin_dialog(const char* id, const ViewRect& rect, float width_em, float steady_em = 0.0f);

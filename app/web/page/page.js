@@ -11,6 +11,7 @@ const kVersion = '@VERSION@';  // of the page: app/web/site.cmake
 const by = id => document.getElementById(id);
 const canvas = by('canvas');
 let studio = null;
+let controls = null;  // of the window, for screen readers
 
 function say(text) { by('message').textContent = text; }
 function status(text) { by('status').textContent = text; }
@@ -150,6 +151,7 @@ const page = {
   stores() { return stores; },
   /// For people who do not see the picture.
   announce(text) { by('pot').textContent = text; },
+  showControls(json) { controls?.show(JSON.parse(json)); },
   copy(text) { navigator.clipboard?.writeText(text).catch(() => {}); },
   /// Whether the worker has sent this file of an export.
   has(path) { return exported.has(baseName(path)); },
@@ -159,6 +161,7 @@ const page = {
     save(name, sent ?? studio.FS.readFile(path));
     if (sent) exported.delete(name);
     else if (!/\.work$/i.test(path)) studio.FS.unlink(path);
+    else keepStorage();
   },
   setTheme(name) { document.documentElement.dataset.theme = name; },
   pick() {
@@ -261,6 +264,10 @@ async function start() {
   say('');
   listenToPointer();
   listenToKeys();
+  controls = new WindowControls(canvas, id => {
+    studio._claystack_press(id);
+    ask();
+  }, text => { by('opened').textContent = text; });
   listenToGamepads();
   listenToHid();
   new ResizeObserver(resize).observe(canvas);

@@ -124,6 +124,16 @@ function notStored(error) {
     'Save the work as a file (Ctrl+S).');
 }
 
+let askedToKeep = false;
+/// After the first save: asks the browser not to delete the storage when the disk is full. Firefox
+/// asks the user, so a page that was only looked at does not ask.
+function keepStorage() {
+  if (askedToKeep) return;
+  askedToKeep = true;
+  navigator.storage?.persist?.().then(persistent =>
+    page.log(persistent ? 'storage: persistent' : 'storage: the browser may delete it')).catch(() => {});
+}
+
 /// Keeps the files of the page, so that the next start needs no server. Browsers permit this only
 /// on https and localhost.
 async function keepOffline() {
