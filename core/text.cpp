@@ -79,13 +79,6 @@ bool is_visible(std::uint32_t code) {
       kHidden, [&](const auto& range) { return code >= range.first && code <= range.second; });
 }
 
-/// A header of 80 bytes, the number of triangles, and 50 bytes for each.
-bool is_binary_stl(std::string_view bytes) {
-  if (bytes.size() < 84) return false;
-  const std::uint64_t count = load_u32(bytes.data() + 80);
-  return count > 0 && bytes.size() == 84 + 50 * count;
-}
-
 bool is_text(char c) { return (c >= ' ' && c <= '~') || c == '\t' || c == '\r' || c == '\n'; }
 
 template <class... Format>
@@ -148,10 +141,17 @@ std::string_view without_byte_order_mark(std::string_view text) noexcept {
   return text;
 }
 
+bool is_binary_stl(std::string_view head, std::uint64_t file_bytes) {
+  constexpr std::size_t kHeaderBytes = 80, kFacetBytes = 50;
+  if (head.size() < kHeaderBytes + sizeof(std::uint32_t)) return false;
+  const std::uint64_t facets = load_u32(head.data() + kHeaderBytes);
+  return facets > 0 && file_bytes == kHeaderBytes + sizeof(std::uint32_t) + kFacetBytes * facets;
+}
+
 std::string_view known_kind(std::string_view bytes) {
   for (const auto& [beginning, kind] : kBeginnings)
     if (bytes.starts_with(beginning)) return kind;
-  if (is_binary_stl(bytes)) return "an STL mesh";
+  if (is_binary_stl(bytes, bytes.size())) return "an STL mesh";
   const std::string_view first = bytes.substr(0, kSchemaBytes);
   if (const std::size_t at = first.find("claystack-"); at != std::string_view::npos)
     for (const auto& [schema, kind] : kSchemas)

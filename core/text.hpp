@@ -3,6 +3,7 @@
 #include "claystack/core/result.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,8 @@ namespace clay {
 /// A name for scripts as words: "needs homing" of "needs_homing".
 [[nodiscard]] std::string words_of_name(std::string_view name);
 
+/// Whether the file has the size that the number of triangles in its head states, above 0.
+[[nodiscard]] bool is_binary_stl(std::string_view head, std::uint64_t file_bytes);
 /// The kind of a file by its first bytes, such as "a Draco mesh" or "a pot"; empty if unknown.
 [[nodiscard]] std::string_view known_kind(std::string_view bytes);
 /// The same for a message; if unknown, "text that begins with 'abc'" or "binary data".

@@ -65,8 +65,10 @@ Result<void> check_usage(const CheckCommand& command, const Console& console) {
                        {command.file, command.certificate, command.walls.process()}, console);
 }
 
-/// A map in CBOR, with which no text begins, or an object in JSON.
+/// A map in CBOR, with which no text begins, or an object in JSON; the header of a binary STL may
+/// begin with either.
 bool begins_as_pot(std::string_view bytes) {
+  if (is_binary_stl(bytes, bytes.size())) return false;
   const std::size_t begin = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
   return static_cast<unsigned char>(bytes.front()) >> 5 == 5 ||
          bytes.substr(begin).starts_with('{');

@@ -42,7 +42,7 @@ void print_wall(const Console& console, const solid::SampledWall& wall) {
     console.print(fmt::format(
         "  thinnest sample {} mm at ({:.6g}, {:.6g}, {:.6g}), {} rays; a sampled "
         "value, not a bound",
-        size_text(wall.least_mm, 2), wall.place.x, wall.place.y, wall.place.z, wall.rays));
+        size_text(wall.least_mm, 3), wall.place.x, wall.place.y, wall.place.z, wall.rays));
   if (wall.escaped > 0)
     console.print(fmt::format("  {} of {} passed through an opening", wall.escaped,
                               counted(wall.rays, "ray")));

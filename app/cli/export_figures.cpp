@@ -15,8 +15,8 @@ using solid::FileReport;
 
 /// The clay that finishing moved: "12 g (6.67 cm3)".
 std::string clay_text(const ExportReport& report, double mm3) {
-  return fmt::format("{:.0f} g ({:.2f} cm3)", 1e-3 * mm3 * report.maker->clay.density_g_cm3,
-                     1e-3 * mm3);
+  return fmt::format("{} g ({} cm3)", size_text(1e-3 * mm3 * report.maker->clay.density_g_cm3, 0),
+                     size_text(1e-3 * mm3, 2));
 }
 
 }  // namespace

@@ -53,7 +53,9 @@ std::vector<std::string> replay_warnings(std::size_t refused, bool ring_limit) {
   std::vector<std::string> warnings;
   if (refused > 0) warnings.push_back(fmt::format("{} invalid poses were not played", refused));
   if (ring_limit)
-    warnings.emplace_back("there is clay above the top ring: increase lump.max_rings");
+    warnings.emplace_back(
+        "there is clay above the top ring, and the pot grows no higher: increase lump.max_rings in "
+        "the scene, or max_rings in the pot file");
   return warnings;
 }
 

@@ -113,7 +113,8 @@ std::string WindowReader::end() {
     if (!left_out && !item.name.empty()) items.push_back(json_of(item));
   }
   const bool typing = g.ActiveId != 0 && g.ActiveId == g.InputTextState.ID;
-  const ImGuiID focus = typing ? g.ActiveId : g.NavDisableHighlight ? 0 : g.NavId;
+  const bool by_keys = !g.NavDisableHighlight || g.OpenPopupStack.Size > 0;
+  const ImGuiID focus = typing ? g.ActiveId : by_keys ? g.NavId : 0;
   return nlohmann::json{{"focus", focus}, {"items", std::move(items)}}.dump(
       -1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -152,7 +153,9 @@ void WindowReader::item_ends(std::uint32_t id, std::string_view label, int flags
   WindowItem& item = control_at(id);
   item.disabled = (g.LastItemData.InFlags & ImGuiItemFlags_Disabled) != 0;
   item.name = trimmed(shown_part(label));
-  if ((flags & ImGuiItemStatusFlags_Checkable) != 0) {
+  constexpr int kMarked = ImGuiItemStatusFlags_Checkable | ImGuiItemStatusFlags_Openable;
+  const bool in_menu = (g.CurrentWindow->Flags & ImGuiWindowFlags_ChildMenu) != 0;
+  if ((flags & kMarked) == kMarked || (!in_menu && (flags & ImGuiItemStatusFlags_Checkable) != 0)) {
     item.on = (flags & ImGuiItemStatusFlags_Checked) != 0;
     item.role = Role::checkbox;
   } else if ((flags & ImGuiItemStatusFlags_Openable) != 0) {

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -35,14 +38,14 @@ Result<void> check_collapse(const Pot& pot) {
   if (collapse.failed_ring >= pot.stack.size())
     return wrong("expected a failed ring below " + std::to_string(pot.stack.size()) + ", found " +
                  std::to_string(collapse.failed_ring));
-  constexpr double kRounding = 1e-6;
-  const bool horizontal = std::abs(glm::length(collapse.axis) - 1.0) < kRounding &&
-                          std::abs(collapse.axis.y) < kRounding;
-  const bool near = glm::length(collapse.pivot_mm) < 1e6 && glm::length(collapse.shift_mm) < 1e6 &&
-                    std::abs(collapse.angle_rad) < 1e6;
-  if (!horizontal || !near)
+  const auto near = [](const glm::dvec3& place) {  // false for NaN
+    return glm::all(glm::lessThanEqual(glm::abs(place), glm::dvec3(Collapse::kMostMm)));
+  };
+  if (!collapse.has_valid_axis() || !near(collapse.pivot_mm) || !near(collapse.shift_mm) ||
+      !(std::abs(collapse.angle_rad) <= 2.0 * std::numbers::pi))
     return wrong(
-        "expected a horizontal axis of length 1, a pivot, a shift and an angle within 1e6");
+        "expected a horizontal axis of length 1, a pivot and a shift within 1e6 mm, and at most a "
+        "full turn");
   return {};
 }
 

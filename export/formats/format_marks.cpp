@@ -1,7 +1,6 @@
 #include "export/formats/format_marks.hpp"
 
 #include "claystack/export/formats.hpp"
-#include "core/little_endian.hpp"
 #include "core/text.hpp"
 #include "export/formats/stl_layout.hpp"
 #include "export/formats/text_scanner.hpp"
@@ -24,11 +23,6 @@ std::string_view first_word(std::string_view bytes) {
   while (bytes.starts_with('#'))
     bytes = without_blanks(bytes.substr(std::min(bytes.find('\n'), bytes.size())));
   return bytes.substr(0, bytes.find_first_of(" \t\r\n#"));
-}
-
-bool has_size_of_binary_stl(std::string_view bytes) {
-  return bytes.size() >= stl::kPrologueBytes &&
-         bytes.size() == stl::file_bytes(load_u32(bytes.data() + stl::kHeaderBytes));
 }
 
 }  // namespace
@@ -56,7 +50,7 @@ MeshFormat mesh_format_of_bytes(std::string_view bytes) {
                                                                  {"glTF", MeshFormat::glb},
                                                                  {"DRACO", MeshFormat::drc},
                                                                  {"ply", MeshFormat::ply}};
-  if (has_size_of_binary_stl(bytes)) return MeshFormat::stl_binary;
+  if (is_binary_stl(bytes, bytes.size())) return MeshFormat::stl_binary;
   for (const auto& [begin, format] : kBegins)
     if (bytes.starts_with(begin)) return format;
   if (begins_with_solid(bytes) || !is_text(bytes)) return MeshFormat::stl_binary;

@@ -55,7 +55,6 @@ class GlbReader {
 
  private:
   [[nodiscard]] Result<void> check_limit() {
-    constexpr std::uint64_t kFree = 1'000'000, kMostCopies = 64;
     std::uint64_t points = 0, triangles = 0;
     for (const auto& [mesh, matrix] : scene_.placed) {
       points += meshes_.read(mesh).points.size();
@@ -63,13 +62,13 @@ class GlbReader {
     }
     const auto most = [&](std::uint64_t stored, std::uint64_t free, std::string_view what,
                           std::uint64_t found) {
-      if (found <= std::max(free, kMostCopies * stored)) return;
+      if (found <= most_with_copies(stored, free)) return;
       throw BadGlb("expected a scene of at most " + std::to_string(kMostCopies) + " times the " +
                    std::to_string(stored) + " " + std::string(what) + " in the file, found " +
                    std::to_string(found));
     };
-    most(meshes_.triangles(), kFree, "triangles", triangles);
-    most(meshes_.points(), 3 * kFree, "points", points);
+    most(meshes_.triangles(), kFreeTriangles, "triangles", triangles);
+    most(meshes_.points(), 3 * kFreeTriangles, "points", points);
     if (points > kMaxPoints) throw BadGlb(expected_at_most(kMaxPoints, "vertices"));
     return check_facet_count(triangles, name_);
   }

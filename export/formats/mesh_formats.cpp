@@ -2,7 +2,6 @@
 
 #include "core/text.hpp"
 #include "export/formats/file_floats.hpp"
-#include "export/formats/stl_layout.hpp"
 #include "export/formats/text_scanner.hpp"
 
 #include <algorithm>
@@ -81,9 +80,7 @@ constexpr std::size_t kHeadBytes = 4096;
 std::string_view kind_of(std::string_view head, std::uint64_t file_bytes) {
   if (file_bytes == 0) return "an empty file";
   if (const auto kind = known_kind(head); !kind.empty()) return kind;
-  const bool stl = head.size() >= stl::kPrologueBytes &&
-                   file_bytes == stl::file_bytes(load_u32(head.data() + stl::kHeaderBytes));
-  return stl ? "an STL mesh" : "";
+  return is_binary_stl(head, file_bytes) ? "an STL mesh" : "";
 }
 
 /// The error of a reader; for a file that is empty or of another kind, an error that states this.

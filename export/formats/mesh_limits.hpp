@@ -5,6 +5,7 @@
 #include "claystack/export/formats.hpp"
 #include "claystack/export/solid.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,8 +21,16 @@ namespace clay::solid::inline formats {
 inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 inline constexpr std::size_t kMaxPoints = 3 * kMaxTriangles;  // if no facets share a corner
 inline constexpr std::size_t kMaxFaceCorners = 65536;
+// A few instances can stand for billions of triangles.
+inline constexpr std::uint64_t kMostCopies = 64, kFreeTriangles = 1'000'000;
 inline constexpr float kMaxCoordinateMm = 1e6F;
 inline constexpr std::string_view kCoordinateRule = "a coordinate within +-1e6 mm";
+
+/// The most elements that instances may make of those stored in a file; `free` of them in any case.
+[[nodiscard]] constexpr std::uint64_t most_with_copies(std::uint64_t stored,
+                                                       std::uint64_t free) noexcept {
+  return std::max(free, kMostCopies * stored);
+}
 
 /// False for NaN.
 [[nodiscard]] inline bool is_coordinate(float mm) noexcept {

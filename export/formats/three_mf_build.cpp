@@ -30,6 +30,7 @@ class Builder {
 
   /// False if a coordinate is out of range.
   [[nodiscard]] bool add(const Placed& placed, const Transform& outer) {
+    step_of_loop();
     const Transform matrix = composed(placed.transform, outer);
     const Object& object = objects_[placed.object];
     for (const Placed& component : object.components)
@@ -97,9 +98,8 @@ Result<ModelReader::Counts> ModelReader::counted_build(std::string_view name) co
     sum.points += object.all_points;
     sum.triangles += object.all_triangles;
   }
-  constexpr std::uint64_t kFree = 1'000'000, kMostCopies = 64;
-  if (sum.triangles > std::max(kFree, kMostCopies * stored_triangles_) ||
-      sum.points > std::max(3 * kFree, kMostCopies * stored_points_) || sum.points > kMaxPoints)
+  if (sum.triangles > most_with_copies(stored_triangles_, kFreeTriangles) ||
+      sum.points > most_with_copies(stored_points_, 3 * kFreeTriangles) || sum.points > kMaxPoints)
     return bad_file(name, "expected a build of at most " + std::to_string(kMostCopies) +
                               " times the " + std::to_string(stored_triangles_) +
                               " triangles in the file, found " + std::to_string(sum.triangles));

@@ -231,6 +231,9 @@ void ModelReader::end_object(XmlReader& reader) {
     drop_unused_points(object);
   else if (has_mesh_ ? object.triangles.empty() : object.components.empty())
     return reader.fail("expected an object with triangles or components, found neither");
+  // Components without clay count for nothing in the limits, however often they are nested.
+  std::erase_if(object.components,
+                [&](const Placed& part) { return objects_[part.object].all_triangles == 0; });
   object.all_points = object.points.size();
   object.all_triangles = object.triangles.size();
   for (const Placed& component : object.components) {

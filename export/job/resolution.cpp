@@ -36,7 +36,7 @@ Result<std::size_t> segments_within(const Profile& profile, double tolerance_mm,
   if (budget > 0.0 && chordal_error_mm(extent.radius, segments) <= budget) return segments;
   return failure(ErrorKind::bad_input,
                  "tolerance: expected at least " +
-                     nine_digit_text(rounding + chordal_error_mm(extent.radius, kMaxSegments)) +
+                     sufficient_text(rounding + chordal_error_mm(extent.radius, kMaxSegments)) +
                      " mm for a pot of this size, found " + nine_digit_text(tolerance_mm) + " mm");
 }
 

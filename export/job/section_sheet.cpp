@@ -1,5 +1,6 @@
 #include "export/job/section_sheet.hpp"
 
+#include "core/size_text.hpp"
 #include "core/svg_writer.hpp"
 #include "export/section/stack_section.hpp"
 #include "export/smoothing/wall_guard.hpp"
@@ -128,8 +129,8 @@ class SheetMaker {
 
   /// "174.5", with the fired size if the shrinkage is known.
   [[nodiscard]] std::string size(double mm) const {
-    std::string text = fixed(mm, 1);
-    if (shrinkage_ > 0.0) text += " (fired " + fixed((1.0 - shrinkage_) * mm, 1) + ")";
+    std::string text = size_text(mm, 1);
+    if (shrinkage_ > 0.0) text += " (fired " + size_text((1.0 - shrinkage_) * mm, 1) + ")";
     return text;
   }
 
@@ -253,9 +254,9 @@ class SheetMaker {
   }
 
   [[nodiscard]] static std::string state(std::string_view name, const PotState& pot) {
-    return std::string(name) + ": " + fixed(pot.size.diameter_mm, 1) + " x " +
-           fixed(pot.size.height_mm, 1) + " mm, " + fixed(pot.weight_g, 0) + " g" +
-           (pot.capacity_ml > 0.0 ? ", holds " + fixed(pot.capacity_ml, 0) + " ml" : "");
+    return std::string(name) + ": " + size_text(pot.size.diameter_mm, 1) + " x " +
+           size_text(pot.size.height_mm, 1) + " mm, " + size_text(pot.weight_g, 0) + " g" +
+           (pot.capacity_ml > 0.0 ? ", holds " + size_text(pot.capacity_ml, 0) + " ml" : "");
   }
 
   /// On two lines, which are as long as the others.
@@ -279,8 +280,8 @@ class SheetMaker {
     if (numbers_.glazed) facts.push_back(state("glazed", *numbers_.glazed));
     if (goal_) facts.push_back("scaled to: " + text_of(*goal_));
     if (shrinkage_ > 0.0) add_assumptions(facts);
-    facts.push_back("thinnest wall " + fixed(report_.walls.thinnest.thickness_mm, 1) +
-                    " at a height of " + fixed(report_.walls.thinnest.from.y, 1) +
+    facts.push_back("thinnest wall " + size_text(report_.walls.thinnest.thickness_mm, 1) +
+                    " at a height of " + size_text(report_.walls.thinnest.from.y, 1) +
                     "; all sizes in mm");
     for (const std::string& fact : facts)
       write(SheetLayer::text, {left, y -= 5.5}, fact, Anchor::start, 2.5);
@@ -307,7 +308,7 @@ class SheetMaker {
       std::vector<std::string> cells;
       for (const double factor : factors)
         for (const double mm : {caliper.height, caliper.outer, caliper.bore, caliper.wall()})
-          cells.push_back(fixed(factor * mm, 1));
+          cells.push_back(size_text(factor * mm, 1));
       row(cells);
     }
   }

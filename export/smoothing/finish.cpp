@@ -66,11 +66,9 @@ class FootCut {
       return wrong("foot ring", "expected a solid foot, found a pot that is open or hollow below");
     // The clay on the axis above the foot.
     if (const double floor = lines_.bore[1].y - low_; !(floor > ring_.depth_mm))
-      return wrong("foot ring", "expected a depth below " + mm(floor) +
-                                    ", the thickness of the floor, found " + mm(ring_.depth_mm));
+      return wrong("foot ring", below("depth", floor, "thickness of the floor", ring_.depth_mm));
     if (!(outside_ > ring_.width_mm))
-      return wrong("foot ring", "expected a width below " + mm(outside_) +
-                                    ", the radius of the ring, found " + mm(ring_.width_mm));
+      return wrong("foot ring", below("width", outside_, "radius of the ring", ring_.width_mm));
     const double narrowest = narrowest_mm();
     if (ring_.diameter_mm && outside_ > narrowest)
       return wrong("foot ring",
@@ -84,6 +82,18 @@ class FootCut {
                                     "the ring, found " +
                                     mm(ring_.width_mm));
     return {};
+  }
+
+  /// With the decimals that distinguish both sizes.
+  static std::string below(const std::string& name, double limit_mm, const std::string& meaning,
+                           double found_mm) {
+    const bool apart = mm(limit_mm) != mm(found_mm) || limit_mm == found_mm;
+    const int decimals = decimals_apart(limit_mm, found_mm, kDecimals);
+    const auto text = [&](double size_mm) {
+      return apart ? mm(size_mm) : fixed(size_mm, decimals) + " mm";
+    };
+    return "expected a " + name + " below " + text(limit_mm) + ", the " + meaning + ", found " +
+           text(found_mm);
   }
 
   /// The outer radius at the upper end of the cut; at a step, of the clay above it.

@@ -2,7 +2,7 @@
 
 #include "core/text.hpp"
 
-#include <cstdio>
+#include <string>
 
 namespace clay::falcon::inline device {
 namespace {
@@ -59,10 +59,9 @@ DeviceError::DeviceError(DeviceFault device_fault, std::string found, std::strin
 
 Error error_of(const OutOfRange& out) {
   // Limits may be computed (0.009000000000000001), and a value may be just beyond one.
-  char text[160];
-  std::snprintf(text, sizeof text, "%s: expected a value from %.9g to %.9g, found %s", out.setting,
-                out.low, out.high, number_text(out.found).c_str());
-  return {ErrorKind::bad_input, text};
+  return {ErrorKind::bad_input, std::string(out.setting) + ": expected a value from " +
+                                    nine_digit_text(out.low) + " to " + nine_digit_text(out.high) +
+                                    ", found " + number_text(out.found)};
 }
 
 std::string_view name_of(DeviceState state) noexcept {

@@ -74,8 +74,10 @@ export async function readAndPressed({open}) {
   await page.focus('#canvas');
   await page.keyboard.press('F10');
   await focused(page, 'New...');
+  await page.keyboard.press('ArrowDown');  // shows the place
   await page.keyboard.press('ArrowDown');
-  await focused(page, 'Learn');
+  await focused(page, 'Throw a bowl');
+  assert.equal(await page.$eval('[aria-label="Open..."]', e => e.getAttribute('aria-keyshortcuts')), 'Control+O');
   await page.keyboard.press('Escape');
 
   await chord(page, 'KeyE', 'Control');

@@ -252,6 +252,7 @@ float draw_menu(const ViewModel& model, Actions& actions) {
       if (ImGui::MenuItem(command.title, text_of(command.chord).c_str(), on,
                           command.enabled(model)))
         actions.emplace_back(RunCommand{command.id});
+      if (command.checked != nullptr) mark_chosen(command.title, on);
       if (!command.enabled(model) && command.why_not != nullptr &&
           ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         ImGui::SetTooltip("%s", tip_of(command, model).c_str());

@@ -194,7 +194,8 @@ void mark_chosen([[maybe_unused]] const char* name, [[maybe_unused]] bool chosen
   [[maybe_unused]] ImGuiContext& g = *ImGui::GetCurrentContext();
   IMGUI_TEST_ENGINE_ITEM_INFO(
       ImGui::GetItemID(), name,
-      ImGuiItemStatusFlags_Checkable | (chosen ? ImGuiItemStatusFlags_Checked : 0));
+      ImGuiItemStatusFlags_Checkable | ImGuiItemStatusFlags_Openable |
+          (chosen ? ImGuiItemStatusFlags_Checked : 0));  // the flags of no control of ImGui
 }
 
 bool begin_list(const char* name, const char* shown, int flags) {

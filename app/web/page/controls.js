@@ -64,6 +64,7 @@ class WindowControls {
     set('aria-disabled', item.disabled);
     set('aria-checked', item.role === 'checkbox' ? item.on : undefined);
     set('aria-expanded', item.role === 'header' ? item.on : item.role === 'choice' ? false : undefined);
+    set('aria-keyshortcuts', item.role === 'button' ? item.value?.replaceAll('Ctrl', 'Control') : undefined);
     set('aria-valuetext', item.role === 'slider' ? item.value : undefined);
     set('aria-valuenow', item.role === 'slider' ? parseFloat(item.value) || 0 : undefined);
     if (item.role === 'field' || item.role === 'choice') element.textContent = item.value ?? '';

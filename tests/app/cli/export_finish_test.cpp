@@ -110,6 +110,23 @@ TEST_F(ExportFinish, ReportsTheClayThatFinishingTrims) {
   const auto fired = run("--json --shrinkage 50% --glaze-allowance 0.5").json();
   EXPECT_NEAR(fired.at("height_mm").get<double>(), 2.0 * plain.at("height_mm").get<double>() - 1.0,
               1e-6);
+  // The limit and what was found are printed apart, also where they differ by little.
+  const std::string begin = "expected a depth below ", found = "thickness of the floor, found ";
+  const auto number_after = [](const std::string& text, const std::string& words) {
+    const std::size_t at = text.find(words);
+    return at == text.npos
+               ? std::string()
+               : text.substr(at + words.size(), text.find(" mm", at) - at - words.size());
+  };
+  const double floor_mm = std::stod(number_after(run("--foot 44x5x30").err, begin));
+  int refused = 0;
+  for (int i = -4; i <= 4; ++i) {
+    const Ran near = run("--foot 44x5x" + std::to_string(floor_mm + 0.001 * i));
+    if (near.err.find(begin) == std::string::npos) continue;
+    ++refused;
+    EXPECT_NE(number_after(near.err, begin), number_after(near.err, found)) << near.err;
+  }
+  EXPECT_GT(refused, 0);
   const Ran deep = run("--foot 44x5x3 --min-wall 6.5");
   EXPECT_EQ(deep.status, 1) << deep.err;
   // The walls are too thin without the ring too: the message states where its limit comes from.

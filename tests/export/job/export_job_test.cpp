@@ -136,6 +136,22 @@ TEST(RunExport, RefusesOptionsThatCannotBeMet) {
       refused(exported(pot, {MeshFormat::stl_binary}, options), ErrorKind::bad_input, "triangles"));
 }
 
+/// The limit that the error states is enough, whatever digits it has.
+TEST(RunExport, AcceptsTheToleranceThatTheErrorNames) {
+  for (int millimetres = 60; millimetres < 90; ++millimetres) {
+    const Pot pot = pot_of(shapes::vase(static_cast<std::size_t>(millimetres)));
+    ExportOptions options;
+    options.tolerance_mm = 1e-6;
+    const auto refusal = exported(pot, {}, options);
+    ASSERT_FALSE(refusal);
+    const std::string expected = "expected at least ", &text = refusal.error().message;
+    ASSERT_NE(text.find(expected), text.npos) << text;
+    options.tolerance_mm = std::stod(text.substr(text.find(expected) + expected.size()));
+    const auto again = exported(pot, {}, options);
+    if (!again) EXPECT_EQ(again.error().message.find("tolerance"), std::string::npos) << text;
+  }
+}
+
 TEST(RunExport, ThinWallsAreSmoothedNoThinner) {
   // A bulge of 3.9 mm outside may be left out, one of 4.1 mm inside may not: they would cross.
   std::vector<shapes::Radii> radii;

@@ -183,6 +183,11 @@ struct Collapse {
   double energy_lost_mj = 0.0;   ///< potential energy, by the upper part
   double plastic_work_mj = 0.0;  ///< of that, spent on the lower clay; the rest was damped
 
+  static constexpr double kMostMm = 1e6;  ///< of each component of pivot and shift
+  /// Whether the axis is horizontal and of length 1.
+  [[nodiscard]] bool has_valid_axis() const noexcept {
+    return axis.y == 0.0 && std::abs(axis.x * axis.x + axis.z * axis.z - 1.0) < 1e-9;
+  }
   /// The failed ring bore its load, but a press or a cut parted it from the ring above.
   [[nodiscard]] bool parted() const noexcept {
     return threshold_kpa > 0.0 && stress_kpa <= threshold_kpa;

@@ -204,7 +204,7 @@ Result<TriangleMesh> read_obj(const ByteSource& source, std::string_view name,
 /// any other file must be complete text from "solid" to "endsolid"; for repairs, the last endsolid
 /// may be missing. The solids of a text file make one mesh.
 /// Corners with equal float32 coordinates are welded. Normals are not used: binary ones and
-/// attributes are ignored, text ones must be finite.
+/// attributes are ignored, text ones must be numbers; infinite ones and NaN get a note.
 Result<TriangleMesh> decode_stl(std::string_view bytes, std::string_view name,
                                 const ReadOptions& options = {});
 
