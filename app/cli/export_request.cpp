@@ -156,8 +156,10 @@ Result<FileRequest> file_of(const std::string& path, bool ascii) {
           file.format = MeshFormat::stl_ascii;
         return file;
       })
-      .map_error([](const Error& error) {
-        return Error{error.kind, error.message + ", .pot.json or .pot.cbor for the pot"};
+      .map_error([&](const Error& error) {
+        const bool picture = ends_ignoring_case(path, ".png") || ends_ignoring_case(path, ".gif");
+        return Error{error.kind, error.message + ", .pot.json or .pot.cbor for the pot" +
+                                     (picture ? "; claystack render makes pictures" : "")};
       });
 }
 

@@ -33,6 +33,9 @@ Result<void> check_usage(const RenderCommand& command, const Console& console) {
     return failure(ErrorKind::bad_input,
                    "--transparent: expected a picture (-o FILE.png), found --turntable: a GIF here "
                    "has a background");
+  if (ends_ignoring_case(command.out, ".gif"))
+    return failure(ErrorKind::bad_input, "-o: expected a picture (.png), found " + command.out +
+                                             "; --turntable FILE.gif makes an animation");
   std::vector<std::string> inputs = {command.pot};
 #ifdef CLAYSTACK_EXPORT
   inputs.push_back(command.walls.process());

@@ -208,6 +208,11 @@ class Copier {
     if (value && !is(value, "inherit")) opaque = !is_zero(value);
   }
 
+  /// In either case, as in DXF.
+  [[nodiscard]] bool is_asked(const std::string& layer) const {
+    return lower_case(layer) == lower_case(layer_);
+  }
+
   /// Returns false for layers that are not drawn.
   bool enter_layer(xmlNode* node, Inherited& state) {
     std::string label, mode;
@@ -222,7 +227,7 @@ class Copier {
     const std::string id = svg_attribute(node, "id");
     if (const std::string& shown = label.empty() ? id : label; !shown.empty())
       (mode == "layer" ? layers_ : groups_).insert(shown);
-    if (!layer_.empty() && (label == layer_ || id == layer_)) found_layer_ = state.in_layer = true;
+    if (!layer_.empty() && (is_asked(label) || is_asked(id))) found_layer_ = state.in_layer = true;
     return !for_construction(label.empty() ? id : label) || (!layer_.empty() && state.in_layer);
   }
 

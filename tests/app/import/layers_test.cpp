@@ -35,6 +35,7 @@ TEST(Layers, OneOrAll) {
   EXPECT_EQ(lines_of(kSvg, "a.svg", "Pot"), 1u);
   EXPECT_EQ(lines_of(kSvg, "a.svg", "layer2"), 2u);
   EXPECT_EQ(lines_of(kSvg, "a.svg", "Construction lines"), 1u);
+  EXPECT_EQ(lines_of(kSvg, "a.svg", "pot"), 1u);
   EXPECT_EQ(lines_of(kDxf, "a.dxf", ""), 3u);
   EXPECT_EQ(lines_of(kDxf, "a.dxf", "pot"), 1u);
   EXPECT_EQ(lines_of(kDxf, "a.dxf", "LID"), 2u);
