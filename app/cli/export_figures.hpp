@@ -9,7 +9,7 @@
 
 namespace clay::cli {
 
-/// The clay that finishing trimmed and added, with the weight as thrown: "foot ring", "trimmed 12 g
+/// The clay that finishing trimmed and added, with the wet weight: "foot ring", "trimmed 12 g
 /// (6.30 cm3)".
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> finish_rows(
     const solid::ExportReport& report);

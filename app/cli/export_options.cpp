@@ -95,7 +95,7 @@ void add_clay_options(CLI::App& sub, ExportCommand& command) {
              return options.clay.drying_shrinkage.emplace();
            });
   add_part(sub, command, "--water", solid::kMostWeightLoss,
-           "Water that leaves in drying, in percent of the weight as thrown (default: 20%)",
+           "Water that leaves in drying, in percent of the wet weight (default: 20%)",
            [](solid::ExportOptions& options) -> double& { return options.clay.water; });
   add_part(sub, command, "--ignition-loss", solid::kMostWeightLoss,
            "Loss in firing, in percent of the dry weight (default: 9%)",
@@ -137,7 +137,7 @@ void add_goal_options(CLI::App& sub, ExportCommand& command) {
   add_size("--diameter", command.goal.diameter_mm, "Scale the pot to this largest diameter");
   sub.add_flag("--fired", command.goal.fired,
                "The goal applies to the finished pot: after --shrinkage, and with the glaze of "
-               "--glaze-allowance, whose weight is not counted (default: to the pot as thrown)");
+               "--glaze-allowance, whose weight is not counted (default: to the wet pot)");
 }
 
 /// Options of smoothing, which turns the steps of the rings into walls.
@@ -183,7 +183,7 @@ void add_solid_options(CLI::App& sub, ExportCommand& command) {
   begin_group(sub, "Finish");
   add_finish_options(sub, command.request.options, command.glaze_mm);
   add_length(sub, "--drain", command.request.options.drain_mm,
-             "Diameter of a hole along the axis that opens closed cavities, as thrown [mm] "
+             "Diameter of a hole along the axis that opens closed cavities, of the wet pot [mm] "
              "(default: none)",
              solid::kDrainRange.lowest, solid::kDrainRange.highest);
 }

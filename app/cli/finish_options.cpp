@@ -58,21 +58,24 @@ void add_finish_options(CLI::App& command, solid::ExportOptions& options, double
           [&options](const std::string& text) {
             if (const auto foot = foot_of(text)) options.finish.foot = *foot;
           },
-          "Cut a foot ring: DIAMETERxWIDTHxDEPTH [mm] as thrown, such as 60x6x4 or 6x0.6x0.4cm; "
+          "Cut a foot ring: DIAMETERxWIDTHxDEPTH [mm] of the wet pot, such as 60x6x4 or "
+          "6x0.6x0.4cm; "
           "without a diameter, 6x4, it is as wide as the foot of the pot (default: none)")
       ->type_name(fmt::format("[{0}x]{0}x{0}", kLengthName))
       ->check([](const std::string& text) {
         const auto parsed = foot_of(text);
         return parsed ? std::string() : parsed.error().message;
       });
-  add_part_length(command, "--floor-fillet", options.finish.floor_fillet_mm,
-                  "Radius where the wall meets the floor inside, filled with clay, as thrown [mm] "
-                  "(default: none)",
-                  solid::kFloorFilletRange.highest);
-  add_part_length(command, "--lip-fillet", options.lip_fillet_mm,
-                  "Radius of the fillet at both edges of the lip, as thrown [mm] (default: that of "
-                  "--process; else none)",
-                  solid::kLipFilletRange.highest);
+  add_part_length(
+      command, "--floor-fillet", options.finish.floor_fillet_mm,
+      "Radius where the wall meets the floor inside, filled with clay, of the wet pot [mm] "
+      "(default: none)",
+      solid::kFloorFilletRange.highest);
+  add_part_length(
+      command, "--lip-fillet", options.lip_fillet_mm,
+      "Radius of the fillet at both edges of the lip, of the wet pot [mm] (default: that of "
+      "--process; else none)",
+      solid::kLipFilletRange.highest);
   add_part_length(command, "--glaze-allowance", glaze_mm,
                   "Thickness of the glaze, fired: every face but the foot is set back by it, so "
                   "that the fired and glazed pot has the size of the pot; at least a tenth of "

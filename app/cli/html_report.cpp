@@ -99,7 +99,7 @@ class Page {
       html_.element("img", {{"alt", "picture of the pot"},
                             {"src", "data:image/png;base64," + to_base64(picture)}});
       if (report_.section.finish.any())
-        html_.element("figcaption", {}, "The pot as thrown, before it is finished");
+        html_.element("figcaption", {}, "The pot before it is finished");
       html_.close("figure");
     }
     if (!report_.walls.field.empty()) {
@@ -115,7 +115,7 @@ class Page {
     const bool fired = !maker["fired"].is_null(), glazed = !maker["glazed"].is_null();
     table("Size, weight, capacity and surface", [&] {
       std::vector<std::pair<std::string, const Json*>> states;
-      for (const auto& [key, name] : {std::pair("thrown", "as thrown"), std::pair("dry", "dry"),
+      for (const auto& [key, name] : {std::pair("thrown", "wet"), std::pair("dry", "dry"),
                                       std::pair("fired", "fired"), std::pair("glazed", "glazed")})
         if (!maker[key].is_null()) states.emplace_back(name, &maker[key]);
       std::vector<std::string> heads{""};
@@ -144,7 +144,7 @@ class Page {
       line("surface outside, without the foot", "outside_cm2", " cm2", 0);
     });
     if (maker["empty"].is_null()) return;
-    table(fired ? "Balance of the fired pot" : "Balance of the pot as thrown", [&] {
+    table(fired ? "Balance of the fired pot" : "Balance of the wet pot", [&] {
       row({"", "centre of gravity", "tips at"}, "th");
       for (const auto& [key, name] : {std::pair("empty", "empty"), std::pair("full", "full")})
         if (!maker[key].is_null())

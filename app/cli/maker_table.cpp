@@ -30,14 +30,14 @@ Json balance_json(const solid::Balance& balance) {
 }
 #endif
 
-/// "500 g as thrown, 364 g fired"; "500 g" if the shrinkage is not known. Sizes and capacities also
+/// "500 g wet, 364 g fired"; "500 g" if the shrinkage is not known. Sizes and capacities also
 /// under the glaze.
 template <class Text>
 std::string by_state(const Json& numbers, Text text, bool under_glaze = true) {
   const bool fired = !numbers["fired"].is_null();
   const bool glazed = under_glaze && !numbers["glazed"].is_null();
   std::string all = text(numbers["thrown"]);
-  if (fired || glazed) all += " as thrown";
+  if (fired || glazed) all += " wet";
   if (fired) all += ", " + text(numbers["fired"]) + " fired";
   if (glazed) all += ", " + text(numbers["glazed"]) + " glazed";
   return all;

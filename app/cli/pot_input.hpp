@@ -33,7 +33,7 @@ Result<Pot> read_pot(const std::string& path, const Console& console);
 [[nodiscard]] bool carries_pot(const std::string& path);
 
 /// The difference in words if the mesh beside a pot cannot be of that pot: another program may have
-/// scaled or cut it, or added other objects. Empty if it may be, in its size as thrown or enlarged
+/// scaled or cut it, or added other objects. Empty if it may be, in its own size or enlarged
 /// for a shrinkage of up to 20 %, as clays have: the file does not state the shrinkage of the
 /// export. The mesh may be moved, or turned about the vertical.
 [[nodiscard]] std::optional<std::string> mesh_differs(const solid::TriangleMesh& mesh,

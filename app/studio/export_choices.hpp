@@ -42,7 +42,7 @@ struct ExportChoices {
   double min_wall_mm = 0.0;                  ///< 0: the limit of the process, if there is one
   double shrinkage_percent = 0.0;
   std::string material{kWet.id};  ///< of a GLB, as for --material
-  /// As for --foot, --floor-fillet and --lip-fillet, as thrown; 0: none.
+  /// As for --foot, --floor-fillet and --lip-fillet, of the wet pot; 0: none.
   double foot_width_mm = 0.0, foot_depth_mm = 4.0;
   double floor_fillet_mm = 0.0, lip_fillet_mm = 0.0;  ///< of the lip also: that of the process
   double glaze_mm = 0.0;                              ///< as for --glaze-allowance, fired

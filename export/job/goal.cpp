@@ -215,7 +215,7 @@ std::string text_of(const MetGoal& met) {
   add(goal.weighs_g, "weighs ", met.glazed && !only_weight ? " g without its glaze" : " g");
   add(goal.height_mm, "", " mm high");
   add(goal.diameter_mm, "", " mm wide");
-  if (!goal.fired) return text + ", as thrown";
+  if (!goal.fired) return text + ", wet";
   if (!met.glazed) return text + ", fired";
   return text + (only_weight ? ", fired, without its glaze" : ", fired and glazed");
 }

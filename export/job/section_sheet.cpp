@@ -274,7 +274,7 @@ class SheetMaker {
   double write_facts(double y) {
     const double left = -radius_;
     write(SheetLayer::text, {left, y}, sheet_.title, Anchor::start, 4.0);
-    std::vector<std::string> facts{state("as thrown (drawn)", numbers_.thrown)};
+    std::vector<std::string> facts{state("wet (drawn)", numbers_.thrown)};
     if (numbers_.dry) facts.push_back(state("dry", *numbers_.dry));
     if (numbers_.fired) facts.push_back(state("fired", *numbers_.fired));
     if (numbers_.glazed) facts.push_back(state("glazed", *numbers_.glazed));

@@ -175,12 +175,12 @@ Result<void> ClayFigures::check() const {
 
 std::vector<std::pair<std::string, std::string>> assumptions_of(const ClayFigures& clay) {
   std::vector<std::pair<std::string, std::string>> rows{
-      {"density as thrown", nine_digit_text(clay.density_g_cm3) + " g/cm3"}};
+      {"wet density", nine_digit_text(clay.density_g_cm3) + " g/cm3"}};
   if (!(clay.shrinkage > 0.0)) return rows;
   const double drying = clay.drying_shrinkage.value_or(0.5 * clay.shrinkage);
   rows.emplace_back("shrinkage", in_percent(clay.shrinkage) + " of each length");
   rows.emplace_back("of it in drying", in_percent(drying));
-  rows.emplace_back("water", in_percent(clay.water) + " of the weight as thrown");
+  rows.emplace_back("water", in_percent(clay.water) + " of the wet weight");
   rows.emplace_back("ignition loss", in_percent(clay.ignition_loss) + " of the dry weight");
   return rows;
 }

@@ -89,7 +89,7 @@ class Pot:
 
     @property
     def weight_g(self) -> float:
-        """Of the clay as thrown."""
+        """Of the wet clay."""
         return 1e-3 * self.volume_mm3 * self.density_g_cm3
 
     def write(self, path: _Path) -> None:

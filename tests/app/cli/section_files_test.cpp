@@ -99,7 +99,7 @@ TEST_F(SectionFiles, TheReportIsOnePage) {
   ASSERT_LE(made.status, 1) << made.err;
   const std::string html = read_text(page);
   for (const char* part :
-       {"<!DOCTYPE html>", "as thrown", "fired", "centre of gravity", "tips at",
+       {"<!DOCTYPE html>", ">wet<", "fired", "centre of gravity", "tips at",
         "wall of the round section", "steepest overhang", "distance from the round solid",
         "Left out", "Time", "closed and embedded", "</html>"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
@@ -128,7 +128,7 @@ TEST_F(SectionFiles, ReportLabelsItsFigures) {
   const std::string plain = html("");
   EXPECT_TRUE(has(plain, "o limits were set.") && !has(plain, "all limits met"));
   EXPECT_TRUE(has(plain, "capacity to the fill line, 10 mm below the brim<"));
-  EXPECT_TRUE(has(plain, ">Balance of the pot as thrown<"));
+  EXPECT_TRUE(has(plain, ">Balance of the wet pot<"));
   EXPECT_FALSE(has(plain, "no bed size"));
   EXPECT_TRUE(has(html("--min-wall 0.1"), "; all limits met."));
   const std::string fired = html("--shrinkage 12% --fill-line 7 --process stoneware");
@@ -188,7 +188,7 @@ TEST_F(SectionFiles, ScalesAPotToACapacityUnderItsGlaze) {
   EXPECT_NEAR(json.at("goal").at("holds_ml").get<double>(), kHoldsMl, 1e-9);
   for (const std::string& text : {read_text(page), read_text(drawing)})
     for (const char* part : {"fired and glazed", "12 % of each length", "6 %",
-                             "20 % of the weight as thrown", "9 % of the dry weight", "g/cm3"})
+                             "20 % of the wet weight", "9 % of the dry weight", "g/cm3"})
       EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 

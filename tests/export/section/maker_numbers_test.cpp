@@ -153,7 +153,7 @@ TEST(MakerNumbers, ShrinkFromThrownToFired) {
   EXPECT_NEAR(numbers.fired->capacity_ml, 0.681472 * numbers.thrown.capacity_ml, 1e-9);
   EXPECT_NEAR(numbers.fired->inside_cm2, 0.7744 * numbers.thrown.inside_cm2, 1e-9);
   EXPECT_NEAR(numbers.fired->outside_cm2, 0.7744 * numbers.thrown.outside_cm2, 1e-9);
-  // 8.8 mm of the fired pot are 10 mm as thrown.
+  // 8.8 mm of the fired pot are 10 mm wet.
   EXPECT_NEAR(numbers.thrown.to_line_ml, 1e-3 * kHalfTurn * 36.0 * 36.0 * 44.0, 1e-9);
   // The empty pot keeps its shape, so it tips at the same angle.
   const MakerNumbers thrown = maker_numbers({{shapes::cup(4.0, 6.0)}}, {});

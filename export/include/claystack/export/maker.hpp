@@ -20,7 +20,7 @@ inline constexpr double kMostWeightLoss = 0.9;
 
 /// Planning figures of a clay. Clays differ: weigh and measure a test tile.
 struct ClayFigures {
-  double density_g_cm3 = 1.9;  ///< as thrown
+  double density_g_cm3 = 1.9;  ///< wet
   /// Fraction of each length lost from thrown to fired; 0: not known, or not fired.
   double shrinkage = 0.0;
   /// Fraction of each length lost in drying; empty: half of `shrinkage`.
@@ -66,7 +66,7 @@ struct PotSize {
   double foot_diameter_mm = 0.0;  ///< of the circle on which it stands
 };
 
-/// The pot as thrown, dry or fired.
+/// The pot wet, dry or fired.
 struct PotState {
   PotSize size;
   double weight_g = 0.0;
@@ -83,7 +83,7 @@ struct Balance {
   double tipping_deg = 0.0;
 };
 
-/// All are of the section as written, which is the pot as thrown; shrinkage is even in all
+/// All are of the section as written, which is the wet pot; shrinkage is even in all
 /// directions.
 struct MakerNumbers {
   ClayFigures clay;
@@ -96,7 +96,7 @@ struct MakerNumbers {
   std::optional<Balance> full;  ///< to the brim; empty if it holds nothing
   std::string no_capacity;      ///< the reason why it holds nothing; empty: it does
 
-  /// Fired, if the shrinkage is known; else as thrown.
+  /// Fired, if the shrinkage is known; else wet.
   [[nodiscard]] const PotState& in_use() const noexcept { return fired ? *fired : thrown; }
 };
 
