@@ -146,13 +146,19 @@ class Fans {
     return mesh_.triangles[wing.triangle].at((wing.corner + 2) % 3);
   }
 
+  /// Rounding may have left triangles without area: they count as opposite to the first with area.
   void sort_around(std::span<FanWing> wings) const {
     const PairTest test(mesh_);
-    const FanWing first = wings[0];
+    const auto flat = [&](const FanWing& wing) {
+      return test.degenerate(mesh_.triangles[wing.triangle]);
+    };
+    const auto wide = std::find_if_not(wings.begin(), wings.end(), flat);
+    if (wide == wings.end()) return;
+    const FanWing first = *wide;
     const auto quarter = [&](const FanWing& from, const FanWing& to) {
-      return from.triangle == to.triangle
-                 ? 0
-                 : test.quarter(first.low, first.high, apex(from), apex(to));
+      if (from.triangle == to.triangle) return 0;
+      if (flat(from) || flat(to)) return 2;
+      return test.quarter(first.low, first.high, apex(from), apex(to));
     };
     std::sort(wings.begin(), wings.end(), [&](const FanWing& a, const FanWing& b) {
       const int at_a = quarter(first, a), at_b = quarter(first, b);
