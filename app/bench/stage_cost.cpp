@@ -53,6 +53,11 @@ std::optional<SceneSpec> with_rule(SceneSpec scene, std::string_view rule) {
     clay.lift = clay.lifted_wall_stretches = true;
   else if (rule == "pushed wall" && scene.tool.mode == ToolMode::press)
     clay.shift = clay.pushed_wall_bends = true;
+  else if (rule == "pressed lump" && scene.tool.mode == ToolMode::press)
+    clay.heave = clay.pressed_lump_stretches = true;
+  else if (rule == "thin rim" &&
+           (scene.tool.mode == ToolMode::press || scene.tool.mode == ToolMode::pinch))
+    clay.rim = clay.thin_rim_rises = true;
   else
     return std::nullopt;
   return scene;

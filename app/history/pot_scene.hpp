@@ -24,6 +24,7 @@ inline constexpr double kHeaveSlope = 0.2;
   clay.heave_slope = kHeaveSlope;
   clay.thin_wall_yields = clay.rim_sinks = true;
   clay.narrow_rim_closes = clay.lifted_wall_stretches = clay.pushed_wall_bends = true;
+  clay.sponge_follows = clay.pressed_lump_stretches = clay.thin_rim_rises = true;
   return clay;
 }
 /// The clay of a new work: the six rules and all options.

@@ -22,6 +22,9 @@ inline constexpr std::array<std::string_view, 2> kPressedRimNames = {"bends", "s
 inline constexpr std::array<std::string_view, 2> kNarrowRimNames = {"rises", "closes"};
 inline constexpr std::array<std::string_view, 2> kLiftedWallNames = {"grows", "stretches"};
 inline constexpr std::array<std::string_view, 2> kPushedWallNames = {"thins", "bends"};
+inline constexpr std::array<std::string_view, 2> kSpongeNames = {"levels", "follows"};
+inline constexpr std::array<std::string_view, 2> kPressedLumpNames = {"flares", "stretches"};
+inline constexpr std::array<std::string_view, 2> kThinRimNames = {"grows", "rises"};
 inline constexpr std::array<std::string_view, 2> kWheelTurnNames = {"clockwise",
                                                                     "counterclockwise"};
 
@@ -109,6 +112,9 @@ void describe(auto& io, Is<ClaySpec> auto& clay) {
   io.choice_unless(false, "narrow_rim", clay.narrow_rim_closes, files::kNarrowRimNames);
   io.choice_unless(false, "lifted_wall", clay.lifted_wall_stretches, files::kLiftedWallNames);
   io.choice_unless(false, "pushed_wall", clay.pushed_wall_bends, files::kPushedWallNames);
+  io.choice_unless(false, "sponge", clay.sponge_follows, files::kSpongeNames);
+  io.choice_unless(false, "pressed_lump", clay.pressed_lump_stretches, files::kPressedLumpNames);
+  io.choice_unless(false, "thin_rim", clay.thin_rim_rises, files::kThinRimNames);
 }
 
 void describe(auto& io, Is<ThrowSettings> auto& settings) {

@@ -25,4 +25,20 @@ void radii_beside(const Tool& tool, double h, double hip_y, std::size_t first, s
   std::fill(radii + count, radii + in_packs_of(count), -1.0);
 }
 
+bool rise_clear(const Tool& tool, const ClayStack& stack, double hip_y, const Contact& contact,
+                const Ring& fresh, std::size_t at) noexcept {
+  const double h = stack.ring_height_mm();
+  double t = (static_cast<double>(at) + 0.5) * h - hip_y;
+  const auto enters = [&](const Ring& ring) {
+    return t >= tool.low() && depth_of(ring, tool.radius(t), contact) > 0.0;
+  };
+  if (t <= tool.high() && enters(fresh)) return false;
+  for (const Ring& ring : stack.rings().subspan(at)) {
+    t += h;
+    if (t > tool.high()) break;
+    if (enters(ring)) return false;
+  }
+  return true;
+}
+
 }  // namespace clay

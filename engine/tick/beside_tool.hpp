@@ -1,7 +1,9 @@
 #pragma once
 // Rings that a tool stands beside, with or without touching them.
 
+#include "claystack/engine/clay.hpp"
 #include "claystack/engine/tool.hpp"
+#include "engine/tick/contact.hpp"
 
 #include <cstddef>
 
@@ -14,5 +16,10 @@ inline constexpr std::size_t kMostBeside = 64;
 /// beyond an end of the tool. Writes whole packs; those behind the last ring are below 0.
 void radii_beside(const Tool& tool, double ring_height_mm, double hip_y, std::size_t first,
                   std::size_t count, double* radii) noexcept;
+
+/// Whether no ring from `at` on goes into the tool of a contact when they all rise by one ring, nor
+/// does the new ring below them.
+[[nodiscard]] bool rise_clear(const Tool& tool, const ClayStack& stack, double hip_y,
+                              const Contact& contact, const Ring& fresh, std::size_t at) noexcept;
 
 }  // namespace clay

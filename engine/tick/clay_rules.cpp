@@ -6,6 +6,7 @@
 #include "engine/tick/heave.hpp"
 #include "engine/tick/joints.hpp"
 #include "engine/tick/kernel_flow.hpp"
+#include "engine/tick/lump.hpp"
 #include "engine/tick/relief.hpp"
 #include "engine/tick/rim_growth.hpp"
 #include "engine/tick/shell.hpp"
@@ -117,8 +118,11 @@ void yield_clay(const RulePress& press, const ClayStack& stack, std::span<ToolRe
   work.walls.begin(removals.front().contact.bottom);
   work.pressed = {};
   give_way_to<rules>(press, stack, removals, work);
-  const bool closes = plan.clay.narrow_rim_closes && !press.trim &&
-                      !place_of_stretch(plan, stack, press.tool.hip_mm.y, removals);
+  const bool may_close = plan.clay.narrow_rim_closes && !press.trim;
+  const bool lifts = (may_close || plan.clay.pressed_lump_stretches) &&
+                     place_of_stretch(plan, stack, press.tool, removals);
+  work.stretches = lifts && removals.size() == 1 && work.pressed.aside == 1.0;
+  const bool closes = may_close && !lifts;
   work.rim = closes ? rim_limit(stack, plan.tool, press.tool.hip_mm.y, removals) : RimLimit{};
   const Squeeze squeeze{plan.removal.min_wall_mm, plan.clay.floor_rings,
                         plan.mode == ToolMode::trim_foot, (rules & kShift) ? &work.shift : nullptr};
@@ -175,7 +179,7 @@ std::int64_t inside_share(const StepPlan& plan, const ClayStack& stack, const Co
 /// part that becomes height. Clay that would make a narrow rim too high goes down.
 template <unsigned rules>
 WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removals, RuleWork& work,
-                    const LooseClay& loose, ClayStack& stack, Rim* rim) noexcept {
+                    const LooseClay& loose, double yields_mm, ClayStack& stack, Rim* rim) noexcept {
   const StepPlan& plan = press.plan;
   const std::size_t at = removals[0].contact.rings.empty() ? removals.size() - 1 : 0;
   const Contact& contact = removals[at].contact;
@@ -204,8 +208,12 @@ WideQuanta displace(const RulePress& press, std::span<const ToolRemoval> removal
       return flow_by_kernel(plan, part, up, removals.front().contact, rim, stack);
     }
   };
-  const WideQuanta up = upward_part(loose.total, press.motion, press.tool);
-  const WideQuanta rest = flow(up + flow(loose.total - up + work.pressed.down, false), true);
+  const WideQuanta stretched = work.stretches ? stretched_clay(loose.total, stack, work.bands[at],
+                                                               yields_mm, press.motion.upward_mm_s)
+                                              : 0;
+  const WideQuanta heaps = loose.total - stretched;
+  const WideQuanta up = upward_part(heaps, press.motion, press.tool);
+  const WideQuanta rest = stretched + flow(up + flow(heaps - up + work.pressed.down, false), true);
   if (!(rest > 0 && loose.rim.limits())) return rest;
   const WideQuanta rises = std::min(rest, static_cast<WideQuanta>(loose.raising));
   work.walls.begin(contact.bottom);
@@ -222,19 +230,22 @@ void take_squeezed(std::span<const ToolRemoval> removals, ClayStack& stack, Rim*
       loose.raise(removed[k], stack.rings()[contact.rings.from() + k]);
 }
 
-/// Removes the clay in the cones beyond the contacts, and in the way of the finger.
-void relieve(const RulePress& press, std::span<const ToolRemoval> removals, const RuleWork& work,
-             const ClayStack& stack, StackWriter& writer, LooseClay& loose) noexcept {
+/// Removes the clay in the cones beyond the contacts, and in the way of the finger. Returns the
+/// height of the clay that yields in the cones [mm].
+double relieve(const RulePress& press, std::span<const ToolRemoval> removals, const RuleWork& work,
+               const ClayStack& stack, StackWriter& writer, LooseClay& loose) noexcept {
   const double dt_s = press.tool.dt_s * work.pressed.aside;
   const bool bends = press.plan.clay.pushed_wall_bends && removals.size() == 1;
+  std::size_t yielding = 0;
   for (std::size_t k = 0; k < removals.size(); ++k)
     if (!removals[k].contact.rings.empty())
       for (const Cone& cone : work.cones[k])
         if (cone.meets)
-          relieve_beyond(press.plan, cone, stack, dt_s, removals[k].contact, bends && cone.outside,
-                         writer, loose);
+          yielding += relieve_beyond(press.plan, cone, stack, dt_s, removals[k].contact,
+                                     bends && cone.outside, writer, loose);
   if (work.finger.stands())
     relieve_finger(press.plan, work.finger, stack, dt_s, removals[0].contact, writer, loose);
+  return static_cast<double>(yielding) * stack.ring_height_mm();
 }
 
 /// Smears the surface that each tool presses, once in a third of a period.
@@ -316,7 +327,8 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
   }
   LooseClay loose{work.rim};
   take_squeezed(removals, stack, rim, loose);
-  if constexpr (rules & kHeave) relieve(press, removals, work, stack, writer, loose);
+  double yields_mm = work.bands[0].height_mm();
+  if constexpr (rules & kHeave) yields_mm += relieve(press, removals, work, stack, writer, loose);
   Flow flow;
   if (press.trim && plan.clay.thin_wall_yields && plan.mode != ToolMode::trim_foot)
     for (const ToolRemoval& removal : removals)
@@ -329,7 +341,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
   else if ((rules & kLift) && removals.size() == 2)
     writer.put_on_crown(loose.total);
   else
-    writer.put_on_crown(displace<rules>(press, removals, work, loose, stack, rim));
+    writer.put_on_crown(displace<rules>(press, removals, work, loose, yields_mm, stack, rim));
   if constexpr (rules & kSmear)
     if (!press.trim && press.tool.slow_s > 0.0)
       smear_surfaces(press, removals, work, stack, writer);
@@ -341,7 +353,7 @@ Flow move_clay(const RulePress& press, std::span<const ToolRemoval> removals, Ru
   if (stack.crown() < 0)
     sink_rim(flow, plan.tool, press.tool.hip_mm.y, removals, stack, writer);
   else if (work.pressed.aside == 1.0)
-    grow_rim(flow, plan, press.tool.hip_mm.y, removals, stack, rim, writer);
+    grow_rim(flow, plan, press.tool, removals, stack, rim, writer);
   return flow;
 }
 
@@ -362,7 +374,8 @@ Flow smooth_clay(const RulePress& press, std::span<const ToolRemoval> removals, 
   const StepPlan& plan = press.plan;
   StackWriter writer(stack);
   smear(plan.tool, stack, press.tool.hip_mm.y, press.tool.dt_s, removals[0].contact, work.bands[0],
-        {plan.clay.surface_per_s, plan.removal.yield_depth_mm, plan.removal.min_wall_mm, true},
+        {plan.clay.surface_per_s, plan.removal.yield_depth_mm, plan.removal.min_wall_mm, true,
+         plan.clay.sponge_follows},
         writer);
   Flow flow;
   flow.lowest = work.lowest;

@@ -39,6 +39,7 @@ struct RuleWork {
   Finger finger;                             ///< of one tool
   RimPress pressed;                          ///< of one tool
   RimLimit rim;                              ///< of a narrow rim
+  bool stretches = false;                    ///< one tool makes a solid column longer
   std::array<double, 2> reach_mm{};          ///< of the clay that each tool heaves
   std::size_t lowest = 0, highest = 0;       ///< rings that the flow may change
 

@@ -171,9 +171,10 @@ std::array<Cone, 2> relieve_touched(const StepPlan& plan, const Shoulders& shoul
   return cones;
 }
 
-void relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack, double dt_s,
-                    const Contact& contact, bool bends, StackWriter& writer,
-                    LooseClay& loose) noexcept {
+std::size_t relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack,
+                           double dt_s, const Contact& contact, bool bends, StackWriter& writer,
+                           LooseClay& loose) noexcept {
+  std::size_t yielding = 0;
   const double h = stack.ring_height_mm(), reach = kReliefMm / h;
   const double foot_mm = bends ? foot_of(stack, contact) : 0.0;
   std::size_t i = cone.up ? contact.rings.to() - 1 : contact.rings.from();
@@ -181,6 +182,7 @@ void relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& sta
     const Ring& ring = stack.rings()[i];
     double out = excess(cone, ring, (static_cast<double>(i) + 0.5) * h);
     if (!(out > 0.0)) break;
+    ++yielding;
     const double bent = bends ? bent_part(cone, stack.rings(), h, foot_mm, i, out) : 0.0;
     const auto [taken, kept] = bent > 0.0
                                    ? bend_ring(plan, ring, bent, dt_s, out)
@@ -192,6 +194,7 @@ void relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& sta
       writer.take_inside(i, taken);
     loose.add(taken - kept, ring);
   }
+  return yielding;
 }
 
 }  // namespace clay

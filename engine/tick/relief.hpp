@@ -61,9 +61,10 @@ struct Cone {
 /// Removes the clay in a cone beyond the contact, never through the minimum wall, nor where there
 /// is no bore. Adds it to `loose`. With `bends`, for a cone outside, a thin wall instead moves
 /// inward as far as it is thin and keeps its clay, but for half of its hoop strain: that, and the
-/// clay by which the ring is thicker than the wall beyond it, is added to `loose`.
-void relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack, double dt_s,
-                    const Contact& contact, bool bends, StackWriter& writer,
-                    LooseClay& loose) noexcept;
+/// clay by which the ring is thicker than the wall beyond it, is added to `loose`. Returns the
+/// number of rings that yield.
+std::size_t relieve_beyond(const StepPlan& plan, const Cone& cone, const ClayStack& stack,
+                           double dt_s, const Contact& contact, bool bends, StackWriter& writer,
+                           LooseClay& loose) noexcept;
 
 }  // namespace clay

@@ -1,5 +1,7 @@
 #include "engine/tick/rim_growth.hpp"
 
+#include "engine/tick/beside_tool.hpp"
+#include "engine/tick/lump.hpp"
 #include "engine/tick/relief.hpp"
 #include "engine/tick/shell.hpp"
 
@@ -21,6 +23,8 @@ constexpr double kHighestLipMm = 12.0, kMostLiftedRings = 4096.0;
 constexpr double kWiderWall = 1.25;
 // A lip is rounded: its largest thickness at the rim and half-way down, relative to the wall below.
 constexpr double kThinRim = 0.7, kThinLip = 0.93;
+// The wall that a thin rim is compared with is so far below it.
+constexpr double kBelowThinRimMm = 6.0;
 // Steps of the search from the rim down for the wall that is twice as thick as the lip is high.
 constexpr int kLipPasses = 4;
 
@@ -122,9 +126,25 @@ std::size_t lip_of(const ClayStack& stack, const Tool& tool, double hip_y,
   return lip;
 }
 
-/// The middle of one wall with the thickness of another.
-Ring as_thick(const Ring& ring, const Ring& other) noexcept {
-  const double middle = 0.5 * (ring.outer_mm() + ring.inner_mm()), half = 0.5 * wall_mm(other);
+/// The lowest ring of a rim that is thinner than the wall below it, and than two tools leave it,
+/// and no higher than a lip. The stack's size if there is none.
+std::size_t thin_rim_of(const ClayStack& stack, double gap_mm) noexcept {
+  const auto rings = stack.rings();
+  const std::size_t none = rings.size();
+  if (rings.size() < 2 || rings.back().inner2 == 0) return none;
+  const double below_mm = std::min(wall_mm(below_rim(stack, kBelowThinRimMm)), gap_mm);
+  if (!(wall_mm(rings.back()) < kThinRim * below_mm)) return none;
+  const double highest = kHighestLipMm / stack.ring_height_mm();
+  std::size_t first = none - 1;
+  while (first > 0 && static_cast<double>(none - first) < highest && rings[first - 1].inner2 > 0 &&
+         wall_mm(rings[first - 1]) < kThinLip * below_mm)
+    --first;
+  return first > 0 && rings[first - 1].inner2 > 0 ? first : none;
+}
+
+/// The middle of a wall with another thickness.
+Ring as_thick(const Ring& ring, double thickness_mm) noexcept {
+  const double middle = 0.5 * (ring.outer_mm() + ring.inner_mm()), half = 0.5 * thickness_mm;
   if (ring.inner2 == 0 || !(half < middle)) return ring;
   const Ring reshaped{quanta_from_radius(middle + half), quanta_from_radius(middle - half)};
   return reshaped.inner2 > 0 && reshaped.volume() > 0 ? reshaped : ring;
@@ -165,6 +185,21 @@ Ring beside_tools(const Ring& next, const ClayStack& stack, const StepPlan& plan
   return leans ? leaning_ring(next, ring.outer2, stack.ring_height_mm()) : Ring{};
 }
 
+/// A ring of the wall below a thin rim, no thicker than two tools leave it. No wall while the rim
+/// would rise into a tool. Empty: the rim is not thin.
+std::optional<Growth> below_thin_rim(const StepPlan& plan, const ClayStack& stack,
+                                     const ToolState& tool,
+                                     std::span<const ToolRemoval> removals) noexcept {
+  const std::size_t at = thin_rim_of(stack, tool.gap_mm);
+  if (at == stack.size()) return std::nullopt;
+  const Ring& below = stack.rings()[at - 1];
+  const Ring ring = wall_mm(below) > tool.gap_mm ? as_thick(below, tool.gap_mm) : below;
+  for (const auto& [contact, removed] : removals)
+    if (!rise_clear(plan.tool, stack, tool.hip_mm.y, contact, ring, at))
+      return Growth{Ring{}, stack.size()};
+  return Growth{ring, at};
+}
+
 /// The mean of two rings that touch, so that a wall that leans stretches.
 Ring ring_between(const Ring& below, const Ring& above) noexcept {
   return {below.outer2 + (above.outer2 - below.outer2) / 2,
@@ -174,8 +209,10 @@ Ring ring_between(const Ring& below, const Ring& above) noexcept {
 }  // namespace
 
 std::optional<std::size_t> place_of_stretch(const StepPlan& plan, const ClayStack& stack,
-                                            double hip_y,
+                                            const ToolState& tool,
                                             std::span<const ToolRemoval> removals) noexcept {
+  if (removals.size() == 1) return place_in_lump(plan, stack, tool, removals);
+  const double hip_y = tool.hip_mm.y;
   const bool pinched = removals.size() == 2 && !removals[0].contact.rings.empty() &&
                        !removals[1].contact.rings.empty();
   if (!plan.clay.lifted_wall_stretches || !pinched) return std::nullopt;
@@ -201,18 +238,23 @@ void grow_rings(Flow& flow, ClayStack& stack, Ledger& ledger, Rim* rim,
   });
 }
 
-void grow_rim(Flow& flow, const StepPlan& plan, double hip_y, std::span<const ToolRemoval> removals,
-              ClayStack& stack, Rim* rim, StackWriter& writer) noexcept {
+void grow_rim(Flow& flow, const StepPlan& plan, const ToolState& tool,
+              std::span<const ToolRemoval> removals, ClayStack& stack, Rim* rim,
+              StackWriter& writer) noexcept {
   Ledger none;
+  const double hip_y = tool.hip_mm.y;
   grow<Model::conserving>(flow, stack, none, writer, rim, [&] {
     const auto rings = stack.rings();
-    if (const auto place = place_of_stretch(plan, stack, hip_y, removals))
+    const auto place = place_of_stretch(plan, stack, tool, removals);
+    if (place && *place < rings.size())
       return Growth{ring_between(rings[*place - 1], rings[*place]), *place};
     // The wall below a lip holds more than the top ring. The lip rises into a new ring's place.
     if (rim == nullptr && stack.crown() >= rings.back().volume() &&
         beside_tools(rings.back(), stack, plan, hip_y, removals) == rings.back())
       if (const std::size_t lip = lip_of(stack, plan.tool, hip_y, removals); lip < rings.size())
         return Growth{rings[lip - 1], lip};
+    if (rim == nullptr && plan.clay.thin_rim_rises && removals.size() == 2)
+      if (const auto growth = below_thin_rim(plan, stack, tool, removals)) return *growth;
     const Ring top = rim != nullptr ? next_ring(rings.back(), rim) : copied_rim(stack);
     return Growth{beside_tools(top, stack, plan, hip_y, removals), rings.size()};
   });
@@ -232,7 +274,8 @@ void sink_rim(Flow& flow, const Tool& tool, double hip_y, std::span<const ToolRe
     const std::size_t top = rings.size() - 1, lip = lip_of(stack, tool, hip_y, removals);
     // On a wall that leans the lip follows the wall.
     const std::size_t first = lip > top ? top : lip - 1;
-    for (std::size_t i = first; i < top; ++i) writer.reshape(i, as_thick(rings[i], rings[i + 1]));
+    for (std::size_t i = first; i < top; ++i)
+      writer.reshape(i, as_thick(rings[i], wall_mm(rings[i + 1])));
     flow.lip = std::min(flow.lip, first);
     ++flow.sunk;
     writer.sink();

@@ -15,6 +15,30 @@ constexpr double kSpongeFilmMm = 0.05;  // wetter than a finger
 constexpr double kMostOfStep = 0.25;    // of a difference, for a diffusion that does not oscillate
 constexpr std::size_t kRows = 32;
 
+/// The slope of a surface from which a sponge takes nothing: the difference in radius of the k-th
+/// pair of places is `middle` + `bend` (k - `at`) [mm].
+struct Slope {
+  double middle = 0.0, bend = 0.0, at = 0.0;
+};
+
+/// Of the parabola through both ends of the pairs' surface, with the same area below it. Because
+/// the ends stay in place and clay moves only between them, the sponge comes to rest on this
+/// parabola, and the surface goes on at the ends without a ledge.
+Slope slope_of(std::span<const Ring> rings, bool outside, std::size_t count,
+               std::size_t stride) noexcept {
+  const auto n = static_cast<double>(count), middle = 0.5 * (n - 1.0);
+  double sum = 0.0, moment = 0.0;
+  for (std::size_t k = 0; k < count + stride; ++k) {
+    const Ring& ring = rings[k];
+    const double radius = outside ? ring.outer_mm() : ring.inner_mm();
+    const double x = static_cast<double>(k) - middle, apart = static_cast<double>(stride);
+    if (k >= stride) sum += radius, moment += (x - apart) * radius;
+    if (k < count) sum -= radius, moment -= x * radius;
+  }
+  const double spread = n * (n * n - 1.0) / 12.0;  // of the numbers of the pairs
+  return {sum / n, count > 1 ? moment / spread : 0.0, middle};
+}
+
 /// Pairs of places on a surface, `stride` rings apart.
 class Smear {
  public:
@@ -41,7 +65,15 @@ class Smear {
   /// Pairs whose lower place is of rings first..end-1; `k` of the difference in the window's
   /// middle.
   void run(std::size_t first, std::size_t end, std::size_t stride, double k) noexcept {
-    for (; first < end; first += kRows) pairs(first, std::min(kRows, end - first), stride, k);
+    for (; first < end; first += kRows)
+      pairs<false>(first, std::min(kRows, end - first), stride, k);
+  }
+
+  /// As run(), but only what is not the slope of the surface. The window ends more smoothly.
+  void follow(std::size_t first, std::size_t end, std::size_t stride, double k) noexcept {
+    slope_ = slope_of(stack_.rings().subspan(first), outside_, end - first, stride);
+    for (; first < end; first += kRows, slope_.at -= static_cast<double>(kRows))
+      pairs<true>(first, std::min(kRows, end - first), stride, k);
   }
 
  private:
@@ -107,6 +139,7 @@ class Smear {
     std::copy_n(rooms, end - from, get + (from - first));
   }
 
+  template <bool follows>
   void pairs(std::size_t first, std::size_t count, std::size_t stride, double k0) noexcept {
     Places places;
     const std::size_t apart = std::min(stride, kRows);
@@ -116,6 +149,7 @@ class Smear {
     const double start = (static_cast<double>(2 * first + stride + 1) * 0.5 * h - middle_) * per_c_;
     alignas(kPackBytes) double amounts[kRows];
     alignas(kPackBytes) Quanta whole[kRows];
+    const Slope slope = slope_;
     in_packs([=, p = &places, to = amounts, rounded = whole, per_c = per_c_,
               sign = outside_ ? 1.0 : -1.0](auto n) CLAYSTACK_INLINE {
       using D = Doubles<n>;
@@ -124,7 +158,12 @@ class Smear {
         const D window = 1.0 - z * z, share = window > 0.0 ? k0 * window : D{};
         const D low = load_doubles<n>(p->surface + k),
                 high = load_doubles<n>(p->surface + k + apart);
-        const D up = sign * share * (low - high);
+        D up = sign * share * (low - high);
+        if constexpr (follows) {
+          const D leans = slope.middle + slope.bend * (load_doubles<n>(&kLevels[k]) - slope.at);
+          const D radii = root(low * kMm2PerQuantum) + root(high * kMm2PerQuantum);
+          up = greater(window, 0.0) * (up + sign * share * leans * radii * kQuantaPerMm2);
+        }
         const D most_up = lesser(load_doubles<n>(p->give + k), load_doubles<n>(p->get + k + apart));
         const D most_down =
             lesser(load_doubles<n>(p->give + k + apart), load_doubles<n>(p->get + k));
@@ -162,10 +201,25 @@ class Smear {
   StackWriter& writer_;
   double hip_y_, min_wall_;
   bool sponge_;
+  Slope slope_;  ///< for follow()
   double middle_, per_c_;
   std::size_t beside_from_, beside_to_;  ///< rings that the tool touches or could stand beside
   bool outside_;
 };
+
+/// A sponge in its window, of pairs from..to-1. Two strides: the larger one alone would not couple
+/// all rings, and leave a zigzag.
+void sponge(Smear& pairs, std::span<const Ring> rings, bool outside, std::size_t at,
+            std::size_t from, std::size_t to, std::size_t stride, double k) noexcept {
+  const auto open = [&](std::size_t i) { return outside || rings[i].inner2 > 0; };
+  // The part of the window that is beside one bore.
+  std::size_t first = at, last = at;
+  while (first > from && open(first - 1)) --first;
+  while (last < to + stride - 1 && open(last + 1)) ++last;
+  if (!open(at)) return;
+  if (last >= first + stride) pairs.follow(first, last + 1 - stride, stride, k);
+  if (stride > 1 && last > first) pairs.follow(first, last, 1, kMostOfStep);
+}
 
 }  // namespace
 
@@ -195,6 +249,9 @@ void smear(const Tool& tool, const ClayStack& stack, double hip_y, double dt_s,
       std::clamp(contact.rings.to() - std::min(stride, contact.rings.to()), touched, to);
   const double k = spread / (apart * apart * h * h);
   Smear pairs(tool, stack, hip_y, contact, band, how, writer);
+  if (how.follows)
+    return sponge(pairs, rings, contact.side == Side::compressive, std::clamp(band.ring, from, to),
+                  from, to, stride, k);
   if (how.sponge) return pairs.run(from, to, stride, k);
   pairs.run(from, touched, stride, k);
   pairs.run(free, to, stride, k);

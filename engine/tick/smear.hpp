@@ -13,6 +13,8 @@ struct Smearing {
   double min_wall_mm = 0.0;
   /// A sponge also evens out the surface it touches: from deeper places to less deep ones.
   bool sponge = false;
+  /// A sponge follows the slope of the surface.
+  bool follows = false;
 };
 
 /// Diffusion of R^2 (of r^2 inside) along the pressed surface, which keeps the clay to the quantum:

@@ -111,6 +111,18 @@ bool stretches_wall(const SceneSpec& s) {
          (s.tool.mode == ToolMode::press || s.tool.mode == ToolMode::pinch);
 }
 
+bool sponge_follows(const SceneSpec& s) {
+  return s.clay && s.clay->sponge_follows && s.tool.mode == ToolMode::smooth;
+}
+bool stretches_lump(const SceneSpec& s) {
+  return s.clay && s.clay->pressed_lump_stretches && s.clay->heave &&
+         s.tool.mode == ToolMode::press;
+}
+bool thin_rim_rises(const SceneSpec& s) {
+  return s.clay && s.clay->thin_rim_rises && s.clay->rim && s.tool.gap_mm &&
+         (s.tool.mode == ToolMode::press || s.tool.mode == ToolMode::pinch);
+}
+
 RulesPlan rules_plan(const SceneSpec& s) {
   if (!s.clay) return {};
   // Rings whose middle is below the floor's height. A foot may be trimmed until the floor is as
@@ -129,6 +141,9 @@ RulesPlan rules_plan(const SceneSpec& s) {
           closes_rim(s),
           stretches_wall(s),
           bends_wall(s),
+          sponge_follows(s),
+          stretches_lump(s),
+          thin_rim_rises(s),
           s.clay->heave_slope.value_or(kDefaultHeaveSlope)};
 }
 
@@ -191,6 +206,13 @@ void describe_options(const SceneSpec& s, bool any, const std::string& none,
        any && s.clay->pushed_wall_bends
            ? "shift is off, or the tool does not press"
            : "clay.pushed_wall is not set: a wall behind a moving tool is squeezed thinner");
+  line("pressed lump", any && stretches_lump(s), "solid clay that one tool presses grows longer",
+       any && s.clay->pressed_lump_stretches
+           ? "heave is off, or the tool does not press"
+           : "clay.pressed_lump is not set: solid clay that one tool presses rises beside it");
+  line("thin rim", any && thin_rim_rises(s), "a thin rim rises as two tools lift the wall",
+       any && s.clay->thin_rim_rises ? "the rule rim is off, or there is one tool"
+                                     : "clay.thin_rim is not set: a thin rim grows by copies");
 }
 
 void describe_rules(const SceneSpec& s, std::vector<PlanLine>& lines) {
@@ -241,7 +263,10 @@ std::vector<PlanLine> describe_sponge(const SceneSpec& s, unsigned stages) {
       {"contact", true, "equations (1), (2), then the rings touched"},
       {"removal", false, "a sponge removes no clay"},
       {"growth", false, "a sponge moves no clay to the rim"},
-      {"smear", smears, smears ? "a sponge evens out the surface" : "the wheel stands still"}};
+      {"smear", smears,
+       !smears             ? "the wheel stands still"
+       : sponge_follows(s) ? "a sponge evens out the surface and follows its slope"
+                           : "a sponge evens out the surface"}};
   describe_force(s, stages, lines);
   return lines;
 }

@@ -164,7 +164,7 @@ std::uint32_t raise_crown(WheelState& s, const ToolState& tool,
   Rim* const rim = (s.plan.clay.rules & kRim) ? nullptr : &s.rim;
   {
     StackWriter writer(s.stack);
-    grow_rim(flow, s.plan, tool.hip_mm.y, removals, s.stack, rim, writer);
+    grow_rim(flow, s.plan, tool, removals, s.stack, rim, writer);
   }
   return settle_flow<stages>(s, flow, tool);
 }

@@ -53,7 +53,9 @@ TEST(Plan, KeepsAllNeededStages) {
                    {"pressed_rim", "sinks"},
                    {"narrow_rim", "closes"},
                    {"lifted_wall", "stretches"},
-                   {"pushed_wall", "bends"}};
+                   {"pushed_wall", "bends"},
+                   {"pressed_lump", "stretches"},
+                   {"thin_rim", "rises"}};
   write_text(folder.file("s.scene.json"), scene.dump());
   EXPECT_TRUE(
       claystack("plan --json " + folder.file("s.scene.json")).json().at("left_out").empty());

@@ -104,6 +104,9 @@ inline SceneSpec arbitrary_scene() {
                     on(),
                     on(),
                     on(),
+                    on(),
+                    on(),
+                    on(),
                     on()};
   });
   return scene;

@@ -14,8 +14,8 @@ inline SceneSpec full_scene() {
   scene.flow = {3, 12, 0.5};
   scene.force = ForceSpec{0.1, 4, 0.3, false, 0.75};
   scene.stability = StabilitySpec{8};
-  scene.clay = ClaySpec{false, false, false, false, false, false, 90,   7,
-                        80,    0.75,  0.3,   true,  true,  true,  true, true};
+  scene.clay = ClaySpec{false, false, false, false, false, false, 90,   7,    80,  0.75,
+                        0.3,   true,  true,  true,  true,  true,  true, true, true};
   return scene;
 }
 

@@ -63,7 +63,10 @@ constexpr std::string_view kText = R"({
     "pressed_rim": "sinks",
     "narrow_rim": "closes",
     "lifted_wall": "stretches",
-    "pushed_wall": "bends"
+    "pushed_wall": "bends",
+    "sponge": "follows",
+    "pressed_lump": "stretches",
+    "thin_rim": "rises"
   }
 }
 )";

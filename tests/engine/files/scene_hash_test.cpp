@@ -37,9 +37,15 @@ TEST(SceneHash, OmitsAWallAndARimThatStay) {
   EXPECT_EQ(write_scene(scene).find("lifted_wall"), std::string::npos);
   EXPECT_EQ(write_scene(scene).find("pushed_wall"), std::string::npos);
   EXPECT_EQ(write_scene(scene).find("heave_slope"), std::string::npos);
+  for (const char* name : {"sponge", "pressed_lump", "thin_rim"})
+    EXPECT_EQ(write_scene(scene).find(name), std::string::npos) << name;
   scene.clay->thin_wall_yields = scene.clay->rim_sinks = true;
   scene.clay->narrow_rim_closes = scene.clay->lifted_wall_stretches = true;
   scene.clay->pushed_wall_bends = true;
+  scene.clay->sponge_follows = scene.clay->pressed_lump_stretches = true;
+  scene.clay->thin_rim_rises = true;
+  for (const char* name : {"sponge", "pressed_lump", "thin_rim"})
+    EXPECT_NE(write_scene(scene).find(name), std::string::npos) << name;
   EXPECT_NE(write_scene(scene).find("thin_wall"), std::string::npos);
   EXPECT_NE(write_scene(scene).find("pressed_rim"), std::string::npos);
   EXPECT_NE(write_scene(scene).find("narrow_rim"), std::string::npos);

@@ -133,6 +133,8 @@ TEST(LanesOfRules, GiveTheSameBitsForAnyMotion) {
       scene.clay->finger_behind = 0.5;
       scene.clay->heave_slope = 0.2;
       scene.clay->pushed_wall_bends = true;
+      scene.clay->sponge_follows = scene.clay->pressed_lump_stretches = true;
+      scene.clay->thin_rim_rises = true;
       scene.clay->thin_wall_yields = scene.clay->rim_sinks = true;
       scene.clay->narrow_rim_closes = scene.clay->lifted_wall_stretches = true;
       if (sponge) scene.tool.mode = ToolMode::smooth;

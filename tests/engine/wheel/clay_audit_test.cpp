@@ -57,6 +57,9 @@ TEST(ClayAudit, AccountsForEveryQuantumAfterEveryTick) {
     scene.clay->rim_sinks = set % 3 == 1;
     scene.clay->narrow_rim_closes = set % 2 == 0;
     scene.clay->pushed_wall_bends = set % 5 != 1;
+    scene.clay->pressed_lump_stretches = set % 3 != 2;
+    if (set % 5 == 3) scene.lump.inner_radius_mm = 0.0;
+    scene.clay->thin_rim_rises = set % 4 != 3;
     Wheel wheel = Wheel::build(scene).value();
     for (const Pose& pose : random_poses(rules + 1, ticks())) {
       if (wheel.collapsed()) wheel = Wheel::build(scene).value();
@@ -122,17 +125,44 @@ TEST(ClayAudit, KeepsARingOfOneQuantumValid) {
 
 /// A neck of 1 mm, where the minimum wall is 3 mm, between wider bores.
 TEST(ClayAudit, SpongeKeepsANeckThatIsNarrowerThanTheMinimumWall) {
+  for (const bool follows : {false, true}) {
+    SceneSpec scene = small_scene();
+    scene.stability.reset();
+    scene.clay = ClaySpec{.sponge_follows = follows};
+    scene.tool.mode = ToolMode::smooth;
+    const auto in_neck = [](double up) { return std::abs(up - 40.0) < 0.3; };
+    Wheel wheel = wheel_with(
+        scene, 75.0, [&](double up) { return in_neck(up) ? 1.0 : 20.0; },
+        [&](double up) { return in_neck(up) ? 0.9 : 3.0; }, 0.5);
+    for (int k = 1; k <= 500; ++k) wheel.step({1000 * k, {0.0, 40.0, 0.0}, false, 0.0});
+    EXPECT_TRUE(is_valid(wheel.stack())) << follows;
+    expect_balanced(wheel);
+  }
+}
+
+/// A sponge on random ways over a pot, also along its solid bottom, past its rim, and in its bore.
+TEST(ClayAudit, SpongeKeepsEveryQuantum) {
   SceneSpec scene = small_scene();
-  scene.stability.reset();
-  scene.clay = ClaySpec{};
+  scene.clay = ClaySpec{.sponge_follows = true};
+  const Pot start = [&] {
+    Wheel wheel = Wheel::build(scene).value();
+    for (const Pose& pose : random_poses(5, 20'000)) {
+      if (wheel.collapsed()) break;
+      wheel.step(pose);
+    }
+    return wheel.pot();
+  }();
+  if (start.collapse) GTEST_SKIP() << "the pot fell";
   scene.tool.mode = ToolMode::smooth;
-  const auto in_neck = [](double up) { return std::abs(up - 40.0) < 0.3; };
-  Wheel wheel = wheel_with(
-      scene, 75.0, [&](double up) { return in_neck(up) ? 1.0 : 20.0; },
-      [&](double up) { return in_neck(up) ? 0.9 : 3.0; }, 0.5);
-  for (int k = 1; k <= 500; ++k) wheel.step({1000 * k, {0.0, 40.0, 0.0}, false, 0.0});
+  Wheel wheel = Wheel::build(scene, start).value();
+  const WideQuanta clay = wheel.stack().volume();
+  for (Pose pose : random_poses(9, ticks())) {
+    pose.gap_mm = 0.0;
+    wheel.step(pose);
+    ASSERT_EQ(wheel.stack().recount(), clay);
+    if (wheel.collapsed()) break;
+  }
   EXPECT_TRUE(is_valid(wheel.stack()));
-  expect_balanced(wheel);
 }
 
 /// Depth of a tool at this height in a ring [mm]; negative without contact.
@@ -215,6 +245,12 @@ TEST(ClayAudit, ClayNeverMovesIntoTheTool) {
   scene.clay->heave_slope = 0.2;
   expect_no_gain_of_energy(scene);
   scene.clay->pushed_wall_bends = true;
+  expect_no_gain_of_energy(scene);
+  scene.clay->pressed_lump_stretches = true;
+  expect_no_gain_of_energy(scene);
+  scene.clay->thin_rim_rises = true;
+  expect_no_gain_of_energy(scene);
+  scene.lump.inner_radius_mm = 0.0;
   expect_no_gain_of_energy(scene);
 }
 

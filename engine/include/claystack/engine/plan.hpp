@@ -63,15 +63,18 @@ struct RulesPlan {
   unsigned rules = 0;  ///< Rule bits
   /// The solid rings that no tool opens: the lowest, or below the bore if the tool trims the foot.
   std::size_t floor_rings = 0;
-  double surface_per_s = 0.0;          ///< speed of a surface of radius 1 under a tool
-  double finger_mm = 0.0;              ///< above a tool in a bore; 0: none
-  double finger_behind = 0.0;          ///< as ClaySpec's [radii of the tool]
-  bool thin_wall_yields = false;       ///< as ClaySpec's
-  bool rim_sinks = false;              ///< as ClaySpec's, for a tool that presses or trims
-  bool narrow_rim_closes = false;      ///< as ClaySpec's, for a tool that moves clay
-  bool lifted_wall_stretches = false;  ///< as ClaySpec's, for two tools that lift
-  bool pushed_wall_bends = false;      ///< as ClaySpec's, with shift
-  double heave_slope = 0.0;            ///< as ClaySpec's
+  double surface_per_s = 0.0;           ///< speed of a surface of radius 1 under a tool
+  double finger_mm = 0.0;               ///< above a tool in a bore; 0: none
+  double finger_behind = 0.0;           ///< as ClaySpec's [radii of the tool]
+  bool thin_wall_yields = false;        ///< as ClaySpec's
+  bool rim_sinks = false;               ///< as ClaySpec's, for a tool that presses or trims
+  bool narrow_rim_closes = false;       ///< as ClaySpec's, for a tool that moves clay
+  bool lifted_wall_stretches = false;   ///< as ClaySpec's, for two tools that lift
+  bool pushed_wall_bends = false;       ///< as ClaySpec's, with shift
+  bool sponge_follows = false;          ///< as ClaySpec's, for a sponge
+  bool pressed_lump_stretches = false;  ///< as ClaySpec's, for a tool that moves clay
+  bool thin_rim_rises = false;          ///< as ClaySpec's, for a tool that moves clay
+  double heave_slope = 0.0;             ///< as ClaySpec's
 };
 
 /// One line of `claystack plan`.

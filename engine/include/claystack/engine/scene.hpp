@@ -151,6 +151,16 @@ struct ClaySpec {
   /// place of the contact, and is squeezed thinner behind it and in the undercut beyond a contact
   /// from outside. True: it moves there too, and keeps its thickness.
   bool pushed_wall_bends = false;
+  /// The surface that a sponge leaves (tool mode `smooth`). False: one radius in its window, so
+  /// that the window ends in ledges on a wall that slopes. True: the smoothest surface that goes on
+  /// at the ends of the window.
+  bool sponge_follows = false;
+  /// Solid clay that one tool presses from the side (needs `heave`). False: all of the clay rises
+  /// beside the contact, as a brim. True: a part of it stretches the column at the contact.
+  bool pressed_lump_stretches = false;
+  /// A rim that is thinner than the wall below it (needs `rim`). False: it grows by copies of the
+  /// thin rim, unless it is a rounded lip. True: it rises as it is, and the wall below it grows.
+  bool thin_rim_rises = false;
   friend bool operator==(const ClaySpec&, const ClaySpec&) = default;
 };
 
