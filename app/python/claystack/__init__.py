@@ -15,8 +15,8 @@ from typing import Optional, Sequence, Union
 import numpy as np
 
 from . import _native
-
-_Path = Union[str, bytes, os.PathLike]
+from ._arguments import KINDS as _KINDS, Path as _Path, checked as _checked
+from ._arguments import instance_of as _instance_of
 
 __version__: str = _native.version
 __all__ = [
@@ -54,11 +54,6 @@ def _call(function, *arguments):
         raise Error(*failure.args) from None
 
 
-def _paths(files: Union[_Path, Sequence[_Path]]) -> list[bytes]:
-    return [os.fsencode(path)
-            for path in ([files] if isinstance(files, (str, bytes, os.PathLike)) else files)]
-
-
 @dataclass(frozen=True, eq=False)
 class Pot:
     """A stack of rings of one height, the lowest first. Equal pots give equal files."""
@@ -92,9 +87,10 @@ class Pot:
         """Of the wet clay."""
         return 1e-3 * self.volume_mm3 * self.density_g_cm3
 
+    @_checked
     def write(self, path: _Path) -> None:
         """Writes a .pot.json or .pot.cbor."""
-        _call(_native.write_pot, self._native, os.fsencode(path))
+        _call(_native.write_pot, self._native, path)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +110,11 @@ class Mesh:
 
     def __hash__(self) -> int:
         return hash((self.points.shape, self.triangles.shape))
+
+
+_KINDS[Pot] = ("a Pot", _instance_of(Pot))
+_KINDS[Union[Mesh, _Path]] = (
+    "a Mesh or a path", lambda what: what if isinstance(what, Mesh) else os.fsencode(what))
 
 
 @dataclass(frozen=True)
@@ -174,9 +175,9 @@ def _pot(native) -> Pot:
 
 def _warn(messages) -> None:
     """As the command line does. A warning names the line that called the public function, which
-    calls the caller of this one."""
+    calls, through `_checked`, the caller of this one."""
     for message in messages:
-        warnings.warn(message, stacklevel=4)
+        warnings.warn(message, stacklevel=5)
 
 
 def _made(native, messages) -> Pot:
@@ -189,7 +190,7 @@ def _mesh(native) -> Mesh:
 
 
 def _read(path: _Path) -> Mesh:
-    native, messages = _call(_native.read_mesh, os.fsencode(path))
+    native, messages = _call(_native.read_mesh, path)
     _warn(messages)
     return _mesh(native)
 
@@ -197,39 +198,41 @@ def _read(path: _Path) -> Mesh:
 def _settings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm=None, process=None,
               shrinkage=0.0, certificates=False):
     return _native.ExportSettings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm,
-                                  None if process is None else os.fsencode(process), shrinkage,
-                                  certificates)
+                                  process, shrinkage, certificates)
 
 
+@_checked
 def throw(scene: _Path, session: Optional[_Path] = None) -> Pot:
     """Plays a session on a scene; by default the session beside it, as the command line does. What
     the command line warns of is a Python warning."""
-    path = os.fsencode(scene)
     if session is None:
         ending = b".scene.json"
-        named = path[-len(ending):].lower() == ending
-        session = (path[: -len(ending)] if named else path) + b".session"
-    return _made(*_call(_native.throw_pot, path, os.fsencode(session)))
+        named = scene[-len(ending):].lower() == ending
+        session = (scene[: -len(ending)] if named else scene) + b".session"
+    return _made(*_call(_native.throw_pot, scene, session))
 
 
+@_checked
 def stack(ring_height_mm: float, outer_mm: Sequence[float], inner_mm: Sequence[float],
           density_g_cm3: float = 1.9) -> Pot:
     """A pot of given rings, the lowest first; an inner radius of 0 is solid."""
-    return _pot(_call(_native.stacked, ring_height_mm, list(map(float, outer_mm)),
-                      list(map(float, inner_mm)), density_g_cm3))
+    return _pot(_call(_native.stacked, ring_height_mm, outer_mm, inner_mm, density_g_cm3))
 
 
+@_checked
 def read_pot(path: _Path) -> Pot:
     """Reads a .pot.json, a .pot.cbor, or the pot inside a .3mf by Claystack."""
-    return _pot(_call(_native.read_pot, os.fsencode(path)))
+    return _pot(_call(_native.read_pot, path))
 
 
+@_checked
 def import_pot(path: _Path) -> Pot:
     """Makes a pot of a drawing (SVG, DXF, CSV) or of a mesh of revolution. Warns of doubts, such as
     about the axis, and of parts that were left out."""
-    return _made(*_call(_native.import_pot, os.fsencode(path)))
+    return _made(*_call(_native.import_pot, path))
 
 
+@_checked
 def export(pot: Pot, files: Union[_Path, Sequence[_Path]], *, tolerance_mm: float = 0.02,
            smoothing: str = "fair", smooth_length_mm: Optional[float] = None,
            min_wall_mm: Optional[float] = None, process: Optional[_Path] = None,
@@ -241,12 +244,13 @@ def export(pot: Pot, files: Union[_Path, Sequence[_Path]], *, tolerance_mm: floa
     height if that is less; 0 for a pot thrown without clay rules, and for a tolerance above 0.1 mm."""
     settings = _settings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm, process, shrinkage,
                          certificates)
-    report = _call(_native.export_pot, pot._native, _paths(files), settings)
+    report = _call(_native.export_pot, pot._native, files, settings)
     report["files"] = tuple(File(**one) for one in report["files"])
     report["problems"] = tuple(Problem(**one) for one in report["problems"])
     return Export(**report)
 
 
+@_checked
 def mesh(pot: Pot, *, tolerance_mm: float = 0.02, smoothing: str = "fair",
          smooth_length_mm: Optional[float] = None) -> Mesh:
     """The solid of a pot, as a binary STL holds it. `smooth_length_mm` as for `export`."""
@@ -254,12 +258,14 @@ def mesh(pot: Pot, *, tolerance_mm: float = 0.02, smoothing: str = "fair",
                        _settings(tolerance_mm, smoothing, smooth_length_mm)))
 
 
+@_checked
 def read_mesh(path: _Path) -> Mesh:
     """Reads STL, OBJ, DRC, PLY, OFF, 3MF or GLB. Warns of a size that suggests another unit than
     mm."""
     return _read(path)
 
 
+@_checked
 def check(what: Union[Mesh, _Path]) -> Check:
     """Checks whether a mesh, or the mesh in a file, is a printable solid. Warns as `read_mesh`."""
     found = what if isinstance(what, Mesh) else _read(what)

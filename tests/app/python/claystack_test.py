@@ -115,9 +115,43 @@ class Package(unittest.TestCase):
                 refused()
             self.assertIn(message, error.exception.message)
             self.assertEqual(error.exception.code, 2)
-        with self.assertRaises(TypeError) as wrong:
-            claystack.export(pot, self.file("cup.stl"), min_wall_mm="3")
-        self.assertIn("min_wall_mm: ", str(wrong.exception))
+
+    def test_names_an_argument_of_a_wrong_type(self):
+        pot, path = claystack.stack(1.0, [40.0], [0.0]), self.file("cup.stl")
+        number = {"tolerance_mm": "a number", "smooth_length_mm": "a number",
+                  "min_wall_mm": "a number", "shrinkage": "a number"}
+        for keyword, expected in {**number, "smoothing": "a string", "process": "a path",
+                                  "certificates": "True or False"}.items():
+            found = "3" if expected == "a number" else 3
+            with self.assertRaises(TypeError) as wrong:
+                claystack.export(pot, path, **{keyword: found})
+            self.assertEqual(str(wrong.exception), f"{keyword}: expected {expected}, found {found!r}")
+        for call, message in [
+                (lambda: claystack.throw(3), "scene: expected a path, found 3"),
+                (lambda: claystack.stack("1", [40.0], [0.0]),
+                 "ring_height_mm: expected a number, found '1'"),
+                (lambda: claystack.stack(1.0, ["40"], [0.0]),
+                 "outer_mm: expected numbers, found ['40']"),
+                (lambda: claystack.read_pot(None), "path: expected a path, found None"),
+                (lambda: claystack.import_pot(3), "path: expected a path, found 3"),
+                (lambda: claystack.export(path, path), "pot: expected a Pot, found '"),
+                (lambda: claystack.export(pot, [3]), "files: expected a path or several, found [3]"),
+                (lambda: claystack.mesh(pot, tolerance_mm=True),
+                 "tolerance_mm: expected a number, found True"),
+                (lambda: claystack.read_mesh(3), "path: expected a path, found 3"),
+                (lambda: claystack.check(3), "what: expected a Mesh or a path, found 3"),
+                (lambda: pot.write(3), "path: expected a path, found 3"),
+                (lambda: claystack.throw(), "throw(): missing a required argument: 'scene'")]:
+            with self.assertRaises(TypeError) as wrong:
+                call()
+            self.assertTrue(str(wrong.exception).startswith(message), str(wrong.exception))
+        self.assertFalse(os.path.exists(path))
+
+    def test_takes_numbers_of_numpy(self):
+        pot = claystack.stack(np.float32(1.0), np.array([40.0, 41.0]), np.zeros(2, dtype=int))
+        self.assertEqual(pot, claystack.stack(1.0, [40.0, 41.0], [0.0, 0.0]))
+        self.assertEqual(claystack.mesh(pot, tolerance_mm=np.float64(0.5)),
+                         claystack.mesh(pot, tolerance_mm=0.5))
 
     def test_refuses_an_impossible_density(self):
         for density in [float("nan"), -1.0, 0.0, 26.0]:
