@@ -1,5 +1,6 @@
 #include "app/cli/export_options.hpp"
 
+#include "app/cli/export_words.hpp"
 #include "app/cli/finish_options.hpp"
 #include "app/cli/pot_input.hpp"
 #include "app/cli/quantity.hpp"
@@ -145,7 +146,7 @@ void add_smoothing_options(CLI::App& sub, ExportCommand& command) {
   sub.add_option("--smooth", command.smooth,
                  "fair: smooth walls; exact: smooth walls, every ring keeps its volume; none: the "
                  "steps of the rings remain")
-      ->check(one_of({"fair", "exact", "none"}))
+      ->check(one_of(names_in(kSmoothings)))
       ->capture_default_str();
   sub.add_option_function<std::string>(
          "--smooth-length",
@@ -213,12 +214,12 @@ void add_format_options(CLI::App& sub, ExportCommand& command) {
   sub.add_option("--step", command.step,
                  "Walls in a .step: spline: one smooth surface for each wall, within the "
                  "tolerance; lines: cones, exactly (default: spline)")
-      ->check(one_of({"spline", "lines"}));
+      ->check(one_of(names_in(kStepWalls)));
   sub.add_option(
          "--glb", command.glb,
          "Mesh in a .glb: draco: compressed, within the tolerance; meshopt: compressed, larger, "
          "unpacked faster; core: plain, for readers without either (default: draco)")
-      ->check(one_of({"draco", "meshopt", "core"}));
+      ->check(one_of(names_in(kGlbMeshes)));
   sub.add_option("--material", command.material,
                  "Clay or glaze of a .glb, as for render (default: terracotta)")
       ->check(one_of(material_ids()));

@@ -1,5 +1,7 @@
 #include "app/cli/export_request.hpp"
 
+#include "app/cli/export_words.hpp"
+#include "app/cli/file_options.hpp"
 #include "app/cli/memory_room.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/cli/pot_copy.hpp"
@@ -27,22 +29,6 @@ using solid::FileKind;
 using solid::FileRequest;
 using solid::MeshFormat;
 
-solid::Smoothing smoothing_of(std::string_view name) {
-  for (const auto mode : {solid::Smoothing::fair, solid::Smoothing::exact})
-    if (solid::name_of(mode) == name) return mode;
-  return solid::Smoothing::none;
-}
-
-constexpr std::array kGlbMeshes{std::pair{"draco", solid::GlbMesh::draco},
-                                std::pair{"meshopt", solid::GlbMesh::meshopt},
-                                std::pair{"core", solid::GlbMesh::core}};
-
-solid::GlbMesh glb_mesh_of(std::string_view name) {
-  return std::ranges::find(kGlbMeshes, name,
-                           [](const auto& mesh) { return std::string_view(mesh.first); })
-      ->second;
-}
-
 Result<void> check_names(const ExportCommand& command, const Console& console) {
   std::vector<OutputFile> outputs;
   for (const std::string& path : command.outputs) outputs.push_back({path});
@@ -51,23 +37,6 @@ Result<void> check_names(const ExportCommand& command, const Console& console) {
     for (const std::string& path : command.outputs) outputs.push_back({path + ".certificate.json"});
   return check_outputs(outputs, {command.pot, command.walls.process()}, console);
 }
-
-bool is_pot(const FileRequest& file) { return file.kind == FileKind::given; }
-bool is_step(const FileRequest& file) { return file.kind == FileKind::step; }
-bool is_mesh(const FileRequest& file) { return file.kind == FileKind::mesh; }
-bool is_solid(const FileRequest& file) { return is_mesh(file) || is_step(file); }
-bool is_made(const FileRequest& file) { return !is_pot(file); }
-template <MeshFormat... Formats>
-bool is_format(const FileRequest& file) {
-  return is_mesh(file) && ((file.format == Formats) || ...);
-}
-
-/// An option and the files on which it has an effect.
-struct FileOption {
-  bool given;
-  std::string_view name, kind;
-  bool (*fits)(const FileRequest&);
-};
 
 /// Options of the facets of a mesh.
 constexpr std::array kFacetOptions{"--segments", "--max-triangles", "--verify"};
@@ -83,8 +52,7 @@ constexpr std::array kFiringOptions{"--drying-shrinkage", "--water", "--ignition
 /// The options of the solid and the section that need a file other than a copy of the pot.
 std::vector<FileOption> made_options(const ExportCommand& command) {
   std::vector<FileOption> options;
-  for (const char* name : kFacetOptions)
-    options.push_back({command.given(name), name, "a mesh", is_mesh});
+  for (const char* name : kFacetOptions) options.push_back(facet_option(command.given(name), name));
   const auto add = [&](const char* name) {
     options.push_back({command.given(name), name, "a mesh or its section", is_made});
   };
@@ -125,19 +93,14 @@ Result<void> check_options(const ExportCommand& command) {
                  is_made},
       FileOption{unscaled && options.finish.asked(), kFinish, "a mesh or its section", is_made},
       FileOption{command.walls.asked(), "--min-wall and --process", "a solid", is_solid},
-      FileOption{command.step.has_value(), "--step", "a .step", is_step},
-      FileOption{command.glb.has_value(), "--glb", "a .glb", is_format<MeshFormat::glb>},
-      FileOption{options.wall_map, "--wall-map", "a .glb or a .3mf",
-                 is_format<MeshFormat::glb, MeshFormat::three_mf>},
-      FileOption{command.material.has_value(), "--material", "a .glb", is_format<MeshFormat::glb>},
+      step_option(command.step.has_value(), "--step"),
+      glb_option(command.glb.has_value(), "--glb"),
+      colour_option(options.wall_map, "--wall-map"),
+      glb_option(command.material.has_value(), "--material"),
       FileOption{command.ascii, "--ascii", "an .stl", is_format<MeshFormat::stl_ascii>},
       FileOption{options.normals, "--normals", "an .obj", is_format<MeshFormat::obj>}};
   std::ranges::copy(made_options(command), std::back_inserter(known));
-  for (const FileOption& option : known)
-    if (option.given && std::ranges::none_of(command.request.files, option.fits))
-      return failure(ErrorKind::bad_input,
-                     fmt::format("{}: expected {} among the files to write, found none",
-                                 option.name, option.kind));
+  if (auto fit = check_file_options(known, command.request.files); !fit) return fit;
   for (const char* name : kFiringOptions)
     if (command.given(name) && options.shrinkage == 0.0)
       return tl::make_unexpected(no_effect_without(name, "--shrinkage"));
@@ -190,9 +153,10 @@ Result<void> complete_request(ExportCommand& command, const Console& console) {
   }
   if (auto names = check_names(command, console); !names) return names;
   solid::ExportOptions& options = command.request.options;
-  options.smoothing = smoothing_of(command.smooth);
-  if (command.step == "lines") options.step_walls = solid::StepWalls::lines;
-  if (command.glb) options.glb = glb_mesh_of(*command.glb);
+  options.smoothing = value_of(command.smooth, kSmoothings).value_or(options.smoothing);
+  if (command.step)
+    options.step_walls = value_of(*command.step, kStepWalls).value_or(options.step_walls);
+  if (command.glb) options.glb = value_of(*command.glb, kGlbMeshes).value_or(options.glb);
   options.material = command.material.value_or(options.material);
   options.full_verification = command.verify == "full";
   options.finish.glaze_mm = command.glaze_mm * solid::enlargement(options.shrinkage);

@@ -1,5 +1,7 @@
 #include "app/cli/usage.hpp"
 
+#include "app/cli/choice_text.hpp"
+
 #include "core/nearest_word.hpp"
 #include "core/number_parsing.hpp"
 
@@ -83,14 +85,6 @@ std::string missing(const CLI::App& command, const std::string& name) {
 std::string not_a_number(std::string_view text) {
   const std::string_view rest = after(text, ": ");
   return fmt::format("{}: expected a number, found {}", before(rest, " = "), after(rest, " = "));
-}
-
-/// "fair, exact or none".
-std::string choice_of(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text.append(i == 0 ? "" : i + 1 == words.size() ? " or " : ", ").append(words[i]);
-  return text;
 }
 
 std::string message_of(const CLI::App& app, const CLI::ParseError& error) {

@@ -3,10 +3,12 @@
 
 #include "app/cli/mesh_unit.hpp"
 #include "app/cli/pot_input.hpp"
+#include "app/python/checks.hpp"
+#include "app/python/exports.hpp"
 #include "app/python/made_pot.hpp"
+#include "app/python/values.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/export/formats.hpp"
-#include "claystack/export/job.hpp"
 #include "claystack/export/proof.hpp"
 #include "claystack/export/solid.hpp"
 #include "claystack/version.hpp"
@@ -25,21 +27,8 @@
 #include <utility>
 #include <vector>
 
-namespace py = pybind11;
-
 namespace clay::python {
 namespace {
-
-/// Becomes claystack.Error, with its kind.
-struct Failed {
-  Error error;
-};
-
-template <class T>
-T value_of(Result<T> result) {
-  if (!result) throw Failed{std::move(result.error())};
-  if constexpr (!std::is_void_v<T>) return std::move(*result);
-}
 
 const char* name_of(ErrorKind kind) {
   switch (kind) {
@@ -53,14 +42,6 @@ const char* name_of(ErrorKind kind) {
       return "device";
   }
   return "bad_input";
-}
-
-/// Text with names of files in it, as Python has them: bytes that are not UTF-8 become surrogates.
-py::str text_of(std::string_view text) {
-  PyObject* const made =
-      PyUnicode_DecodeFSDefaultAndSize(text.data(), static_cast<py::ssize_t>(text.size()));
-  if (made == nullptr) throw py::error_already_set();
-  return py::reinterpret_steal<py::str>(made);
 }
 
 /// An array that shows `data` without a copy and keeps `owner` alive; it cannot be written to.
@@ -93,98 +74,6 @@ std::shared_ptr<Pot> shared(Result<Pot> pot) {
   return std::make_shared<Pot>(value_of(std::move(pot)));
 }
 
-struct ExportSettings {
-  double tolerance_mm;
-  std::string smoothing;
-  std::optional<double> smooth_length_mm;
-  std::optional<double> min_wall_mm;
-  std::optional<std::string> process;
-  double shrinkage;
-  bool certificates;
-};
-
-solid::ExportOptions options_of(const ExportSettings& settings) {
-  solid::ExportOptions options;
-  options.tolerance_mm = settings.tolerance_mm;
-  options.smoothing = solid::Smoothing::none;
-  bool known = settings.smoothing == "none";
-  for (const auto mode : {solid::Smoothing::fair, solid::Smoothing::exact})
-    if (solid::name_of(mode) == settings.smoothing) options.smoothing = mode, known = true;
-  if (!known)
-    throw Failed{{ErrorKind::bad_input,
-                  "smoothing: expected fair, exact or none, found " + settings.smoothing}};
-  options.smooth_length_mm = settings.smooth_length_mm;
-  options.walls.min_wall_mm = settings.min_wall_mm;
-  if (settings.process) options.walls.process = value_of(solid::read_process(*settings.process));
-  options.shrinkage = settings.shrinkage;
-  return options;
-}
-
-py::dict report_of(const solid::ExportReport& report) {
-  py::list files, problems;
-  for (const solid::FileReport& file : report.files) {
-    py::dict one;
-    one["path"] = text_of(file.path);
-    one["bytes"] = file.bytes;
-    one["content_hash"] = file.content_hash;
-    one["max_error_mm"] = file.max_error_mm;
-    files.append(one);
-  }
-  for (const solid::Problem& problem : solid::problems_of(report)) {
-    py::dict one;
-    one["what"] = solid::check_name(problem.kind);
-    one["where"] = text_of(problem.text);
-    one["fails"] = problem.fails;
-    problems.append(one);
-  }
-  py::dict dict;
-  dict["triangles"] = report.size.triangles;
-  dict["segments"] = report.size.segments;
-  dict["diameter_mm"] = report.size.diameter_mm;
-  dict["height_mm"] = report.size.height_mm;
-  dict["volume_mm3"] = report.volume.solid_mm3;
-  dict["min_wall_mm"] = report.thinnest_mm();
-  dict["files"] = files;
-  dict["problems"] = problems;
-  return dict;
-}
-
-py::dict export_pot(const Pot& pot, const std::vector<std::string>& paths,
-                    const ExportSettings& settings) {
-  if (paths.empty())
-    throw Failed{{ErrorKind::bad_input, "files: expected one file or more, found none"}};
-  solid::ExportRequest request;
-  request.options = options_of(settings);
-  request.certificates = settings.certificates;
-  for (const std::string& path : paths)
-    request.files.push_back(value_of(solid::file_request(path)));
-  request.options.name = name_of_file(paths.front());
-  solid::ExportReport report;
-  {
-    py::gil_scoped_release others_run;
-    report = value_of(solid::export_files(pot, request));
-  }
-  return report_of(report);
-}
-
-/// The mesh as a binary STL holds it.
-std::shared_ptr<solid::TriangleMesh> mesh_of(const Pot& pot, const ExportSettings& settings) {
-  const solid::ExportOptions options = options_of(settings);
-  py::gil_scoped_release others_run;
-  solid::MemoryStore store;
-  value_of(solid::run_export(pot, {{solid::MeshFormat::stl_binary, &store}}, options));
-  return std::make_shared<solid::TriangleMesh>(
-      value_of(solid::decode_mesh(store.bytes(), solid::MeshFormat::stl_binary, "mesh")));
-}
-
-/// `value`, and the warnings about it.
-template <class T>
-py::tuple with_warnings(std::shared_ptr<T> value, const std::vector<std::string>& warnings) {
-  py::list list;
-  for (const std::string& warning : warnings) list.append(text_of(warning));
-  return py::make_tuple(std::move(value), std::move(list));
-}
-
 py::tuple read_mesh(const std::string& path) {
   std::shared_ptr<solid::TriangleMesh> mesh;
   std::vector<std::string> warnings;
@@ -197,36 +86,6 @@ py::tuple read_mesh(const std::string& path) {
       warnings.push_back(path + ": " + *doubt);
   }
   return with_warnings(std::move(mesh), warnings);
-}
-
-py::dict check_mesh(const solid::TriangleMesh& mesh) {
-  solid::MeshReport report;
-  {
-    py::gil_scoped_release others_run;
-    report = value_of(solid::check_mesh(mesh));
-  }
-  py::list problems;
-  for (const solid::MeshProblem& problem : report.problems) {
-    py::dict one;
-    one["what"] = problem.what;
-    one["where"] = problem.where;
-    one["fails"] = true;
-    problems.append(one);
-  }
-  py::dict dict;
-  dict["sound"] = report.sound();
-  dict["closed"] = report.closed;
-  dict["manifold"] = report.manifold;
-  dict["oriented"] = report.oriented;
-  dict["components"] = report.components;
-  dict["cavities"] = report.cavities;
-  dict["self_intersections"] = report.self_intersections;
-  dict["triangles"] = report.triangles;
-  dict["volume_mm3"] = report.has_volume ? py::object(py::float_(report.volume_mm3)) : py::none();
-  dict["area_mm2"] = report.area_mm2;
-  dict["size_mm"] = py::make_tuple(report.size_mm.x, report.size_mm.y, report.size_mm.z);
-  dict["problems"] = problems;
-  return dict;
 }
 
 /// Calls `make`, while other threads of Python run.
@@ -254,11 +113,20 @@ void add_types(py::module_& module) {
       .def_property_readonly("density_g_cm3", [](const Pot& pot) { return pot.density_g_cm3; })
       .def_property_readonly("collapsed", [](const Pot& pot) { return pot.collapse.has_value(); });
   py::class_<ExportSettings>(module, "ExportSettings")
-      .def(py::init<double, std::string, std::optional<double>, std::optional<double>,
-                    std::optional<std::string>, double, bool>(),
-           py::arg("tolerance_mm"), py::arg("smoothing"), py::arg("smooth_length_mm"),
-           py::arg("min_wall_mm"), py::arg("process"), py::arg("shrinkage"),
-           py::arg("certificates"));
+      .def(py::init<>())
+      .def_readwrite("tolerance_mm", &ExportSettings::tolerance_mm)
+      .def_readwrite("smoothing", &ExportSettings::smoothing)
+      .def_readwrite("smooth_length_mm", &ExportSettings::smooth_length_mm)
+      .def_readwrite("segments", &ExportSettings::segments)
+      .def_readwrite("max_triangles", &ExportSettings::max_triangles)
+      .def_readwrite("min_wall_mm", &ExportSettings::min_wall_mm)
+      .def_readwrite("process", &ExportSettings::process)
+      .def_readwrite("shrinkage", &ExportSettings::shrinkage)
+      .def_readwrite("step", &ExportSettings::step)
+      .def_readwrite("glb", &ExportSettings::glb)
+      .def_readwrite("material", &ExportSettings::material)
+      .def_readwrite("wall_map", &ExportSettings::wall_map)
+      .def_readwrite("certificates", &ExportSettings::certificates);
 }
 
 void add_functions(py::module_& module) {

@@ -195,10 +195,11 @@ def _read(path: _Path) -> Mesh:
     return _mesh(native)
 
 
-def _settings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm=None, process=None,
-              shrinkage=0.0, certificates=False):
-    return _native.ExportSettings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm,
-                                  process, shrinkage, certificates)
+def _settings(**values):
+    settings = _native.ExportSettings()
+    for name, value in values.items():
+        setattr(settings, name, value)
+    return settings
 
 
 @_checked
@@ -235,15 +236,21 @@ def import_pot(path: _Path) -> Pot:
 @_checked
 def export(pot: Pot, files: Union[_Path, Sequence[_Path]], *, tolerance_mm: float = 0.02,
            smoothing: str = "fair", smooth_length_mm: Optional[float] = None,
+           segments: Optional[int] = None, max_triangles: Optional[int] = None,
            min_wall_mm: Optional[float] = None, process: Optional[_Path] = None,
-           shrinkage: float = 0.0, certificates: bool = False) -> Export:
+           shrinkage: float = 0.0, step: Optional[str] = None, glb: Optional[str] = None,
+           material: Optional[str] = None, wall_map: bool = False,
+           certificates: bool = False) -> Export:
     """Proves the pot and writes the file, or all files or none. The solids are those of `claystack export`.
 
     `smooth_length_mm`, for smoothing "fair": walls of continuous curvature; marks shorter than this
     are smoothed away. None: as the command line chooses it: the radius of the pot's tool, or half its
     height if that is less; 0 for a pot thrown without clay rules, and for a tolerance above 0.1 mm."""
-    settings = _settings(tolerance_mm, smoothing, smooth_length_mm, min_wall_mm, process, shrinkage,
-                         certificates)
+    settings = _settings(
+        tolerance_mm=tolerance_mm, smoothing=smoothing, smooth_length_mm=smooth_length_mm,
+        segments=segments, max_triangles=max_triangles, min_wall_mm=min_wall_mm, process=process,
+        shrinkage=shrinkage, step=step, glb=glb, material=material, wall_map=wall_map,
+        certificates=certificates)
     report = _call(_native.export_pot, pot._native, files, settings)
     report["files"] = tuple(File(**one) for one in report["files"])
     report["problems"] = tuple(Problem(**one) for one in report["problems"])
@@ -255,7 +262,8 @@ def mesh(pot: Pot, *, tolerance_mm: float = 0.02, smoothing: str = "fair",
          smooth_length_mm: Optional[float] = None) -> Mesh:
     """The solid of a pot, as a binary STL holds it. `smooth_length_mm` as for `export`."""
     return _mesh(_call(_native.mesh_of, pot._native,
-                       _settings(tolerance_mm, smoothing, smooth_length_mm)))
+                       _settings(tolerance_mm=tolerance_mm, smoothing=smoothing,
+                                 smooth_length_mm=smooth_length_mm)))
 
 
 @_checked

@@ -29,16 +29,19 @@ class Mesh:
     def triangles(self) -> npt.NDArray[np.uint32]: ...
 
 class ExportSettings:
-    def __init__(
-        self,
-        tolerance_mm: float,
-        smoothing: str,
-        smooth_length_mm: Optional[float],
-        min_wall_mm: Optional[float],
-        process: Optional[bytes],
-        shrinkage: float,
-        certificates: bool,
-    ) -> None: ...
+    tolerance_mm: float
+    smoothing: str
+    smooth_length_mm: Optional[float]
+    segments: Optional[float]
+    max_triangles: Optional[float]
+    min_wall_mm: Optional[float]
+    process: Optional[bytes]
+    shrinkage: float
+    step: Optional[str]
+    glb: Optional[str]
+    material: Optional[str]
+    wall_map: bool
+    certificates: bool
 
 def read_pot(path: bytes) -> Pot: ...
 def write_pot(pot: Pot, path: bytes) -> None: ...

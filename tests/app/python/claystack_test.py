@@ -62,6 +62,48 @@ class Package(unittest.TestCase):
             self.run_program("export", self.file("vase.pot.json"), self.file("vase" + end))
             self.assertEqual(self.bytes_of("py/vase" + end), self.bytes_of("vase" + end), end)
 
+    def test_takes_the_format_options_of_the_command_line(self):
+        claystack.throw(sample("vase.scene.json")).write(self.file("vase.pot.json"))
+        pot = claystack.read_pot(self.file("vase.pot.json"))
+        os.mkdir(self.file("py"))
+        usual = {}
+        for end in [".glb", ".step", ".stl"]:
+            claystack.export(pot, self.file("py/vase" + end))
+            usual[end] = self.bytes_of("py/vase" + end)
+        for end, keywords, options in [
+                (".glb", {"glb": "core"}, ["--glb", "core"]),
+                (".glb", {"glb": "meshopt"}, ["--glb", "meshopt"]),
+                (".glb", {"material": "celadon"}, ["--material", "celadon"]),
+                (".glb", {"wall_map": True}, ["--wall-map"]),
+                (".step", {"step": "lines"}, ["--step", "lines"]),
+                (".stl", {"segments": 48}, ["--segments", "48"]),
+                (".stl", {"max_triangles": 5000}, ["--max-triangles", "5000"])]:
+            claystack.export(pot, self.file("py/vase" + end), **keywords)
+            self.run_program("export", self.file("vase.pot.json"), self.file("vase" + end), *options)
+            self.assertEqual(self.bytes_of("py/vase" + end), self.bytes_of("vase" + end), options)
+            self.assertNotEqual(self.bytes_of("py/vase" + end), usual[end], options)
+
+    def test_refuses_format_options_as_the_command_line_does(self):
+        pot = claystack.stack(2.0, [40.0] * 10, [0.0] * 3 + [30.0] * 7)
+        for name, keywords, message in [
+                ("cup.stl", {"glb": "core"}, "glb: expected a .glb among the files to write"),
+                ("cup.stl", {"material": "wet"}, "material: expected a .glb among the files"),
+                ("cup.stl", {"wall_map": True}, "wall_map: expected a .glb or a .3mf among"),
+                ("cup.stl", {"step": "lines"}, "step: expected a .step among the files"),
+                ("cup.svg", {"segments": 48}, "segments: expected a mesh among the files"),
+                ("cup.svg", {"max_triangles": 500}, "max_triangles: expected a mesh among"),
+                ("cup.glb", {"glb": "zip"}, "glb: expected draco, meshopt or core, found zip"),
+                ("cup.glb", {"material": "mud"}, "material: expected wet, leather-hard, "),
+                ("cup.step", {"step": "x"}, "step: expected spline or lines, found x"),
+                ("cup.stl", {"smoothing": "x"}, "smoothing: expected fair, exact or none, found x"),
+                ("cup.stl", {"segments": 2}, "segments: expected 3 to "),
+                ("cup.stl", {"max_triangles": -5}, "max triangles: expected 8 to ")]:
+            with self.assertRaises(claystack.Error) as refused:
+                claystack.export(pot, self.file(name), **keywords)
+            self.assertTrue(refused.exception.message.startswith(message), refused.exception.message)
+            self.assertEqual(refused.exception.code, 2)
+            self.assertFalse(os.path.exists(self.file(name)))
+
     def test_warns_where_the_command_line_does(self):
         with open(sample("vase.session"), "rb") as whole:
             lines = whole.read()
@@ -120,9 +162,12 @@ class Package(unittest.TestCase):
         pot, path = claystack.stack(1.0, [40.0], [0.0]), self.file("cup.stl")
         number = {"tolerance_mm": "a number", "smooth_length_mm": "a number",
                   "min_wall_mm": "a number", "shrinkage": "a number"}
-        for keyword, expected in {**number, "smoothing": "a string", "process": "a path",
+        for keyword, expected in {**number, "segments": "a whole number",
+                                  "max_triangles": "a whole number", "smoothing": "a string",
+                                  "step": "a string", "glb": "a string", "material": "a string",
+                                  "process": "a path", "wall_map": "True or False",
                                   "certificates": "True or False"}.items():
-            found = "3" if expected == "a number" else 3
+            found = "3" if "number" in expected else 3
             with self.assertRaises(TypeError) as wrong:
                 claystack.export(pot, path, **{keyword: found})
             self.assertEqual(str(wrong.exception), f"{keyword}: expected {expected}, found {found!r}")
