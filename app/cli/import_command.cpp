@@ -4,7 +4,9 @@
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/quantity.hpp"
 #include "app/cli/usage.hpp"
+#include "app/import/drawing_warnings.hpp"
 #include "app/import/drawn_pot.hpp"
+#include "app/import/pot_ranges.hpp"
 #ifdef CLAYSTACK_EXPORT
 #include "app/cli/import_mesh.hpp"
 #include "claystack/export/formats.hpp"
@@ -18,10 +20,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -57,41 +57,6 @@ Result<void> set_axis(ImportOptions& options) {
   section.axis_mm = *place;
   section.axis = AxisRule::at;
   return {};
-}
-
-/// Slope of the outside at the rim, from the vertical [degrees], if the corner there is so narrow
-/// that the check measures a thinner wall.
-std::optional<double> sharp_rim(const HalfSection& section) {
-  constexpr double kMostDeg = 50.0;  // at 45 the check finds the whole wall, at 55 a tenth of a mm
-  const Slab& top = section.slabs.back();
-  const double lean_deg = std::atan2(top.outer_to_mm - top.outer_from_mm, top.to_mm - top.from_mm) *
-                          180.0 / std::numbers::pi;
-  return lean_deg > kMostDeg ? std::optional(lean_deg) : std::nullopt;
-}
-
-/// Each with the file or option that it is about; the notes of the section first.
-std::vector<std::string> warnings_about(const ImportOptions& options, const HalfSection& section,
-                                        const DrawnPot& drawn) {
-  constexpr double kLowestMm = 5.0, kHighestMm = 1000.0;
-  std::vector<std::string> warnings = section.notes;
-  if (section.height_mm < kLowestMm || section.height_mm > kHighestMm)
-    warnings.push_back(
-        fmt::format("{}: the pot is {:.3g} mm high; if the drawing has another unit, --height MM "
-                    "sets the height",
-                    options.drawing, section.height_mm));
-  if (!options.pot_settings.ring_height_mm && drawn.deviation.mm > kDrawnDeviationMm)
-    warnings.push_back(fmt::format(
-        "{}: expected rings within {:g} mm of the drawing, found {:.3f} mm; rings lower than {:g} "
-        "mm are not closer, because details of the drawing are lower still",
-        options.drawing, kDrawnDeviationMm, drawn.deviation.mm, drawn.pot.stack.ring_height_mm()));
-  if (const auto lean_deg = sharp_rim(section); lean_deg && options.pot_settings.wall_mm)
-    warnings.push_back(fmt::format(
-        "{}: the wall leans outward by {:.0f} degrees at the rim, which is cut level, so its edge "
-        "is sharp; draw the rim steeper, or draw the inside too",
-        options.drawing, *lean_deg));
-  if (const auto gap = gap_warning(drawn.pot.stack))
-    warnings.push_back(options.drawing + ": " + *gap + " (--ring-height)");
-  return warnings;
 }
 
 Json summary(const ImportOptions& options, const HalfSection& section, const DrawnPot& drawn,
@@ -181,8 +146,12 @@ Result<void> import_drawing(const ImportOptions& options, const Console& console
   if (auto room = expect_room_to_write(pot->pot.stack.size(), encoding, options.pot); !room)
     return room;
   if (auto done = publish(options.pot, write_pot(pot->pot, encoding)); !done) return done;
-  const auto warnings = warnings_about(options, *section, *pot);
-  for (std::size_t i = section->notes.size(); i < warnings.size(); ++i) console.warn(warnings[i]);
+  std::vector<std::string> warnings = section->notes;
+  for (std::string& warning :
+       drawing_warnings(*section, *pot, options.pot_settings, options.drawing)) {
+    console.warn(warning);
+    warnings.push_back(std::move(warning));
+  }
   const Json json = summary(options, *section, *pot, warnings);
   if (console.json) print_json(json);
   print_summary(console, options, *section, *pot, json);
@@ -217,7 +186,8 @@ void add_drawing_options(CLI::App* command, ImportOptions& options) {
                    "that are shown)")
       ->type_name("NAME");
   add_length(*command, "--height", options.section.height_mm,
-             "Height of the pot: scales the drawing or mesh [mm] (default: as it is)", 0.01, 1e5);
+             "Height of the pot: scales the drawing or mesh [mm] (default: as it is)",
+             kPotHeightRange.low, kPotHeightRange.high);
 }
 
 void add_pot_options(CLI::App* command, DrawnPotSettings& settings) {
@@ -225,7 +195,7 @@ void add_pot_options(CLI::App* command, DrawnPotSettings& settings) {
       *command, "--wall", settings.wall_mm,
       "Thickness of the wall, measured across it, and of the floor, for a drawing that shows "
       "only the outside [mm] (default: solid)",
-      0.01, 1000.0);
+      kDrawnWallRange.low, kDrawnWallRange.high);
   add_length(*command, "--ring-height", settings.ring_height_mm,
              "Maximum ring height [mm] (default: 0.75, or less where the rings would deviate "
              "by more than 0.02 mm from the drawing)",

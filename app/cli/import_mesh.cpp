@@ -112,10 +112,8 @@ std::vector<std::string> all_warnings(const std::string& path, const MeshPotSett
                                       const std::optional<std::string>& doubt) {
   std::vector<std::string> warnings = mesh_warnings(made, enclosure, settings.rings);
   for (std::string& warning : warnings) warning = path + ": " + warning;
-  constexpr double kUsualPotMm = 10.0;
-  if (settings.height_mm && *settings.height_mm < kUsualPotMm)
-    warnings.push_back(
-        fmt::format("--height: the pot is only {:.3g} mm high", *settings.height_mm));
+  if (const auto low = low_pot_warning(settings))
+    warnings.push_back("--height: " + *low);
   else if (doubt && !settings.height_mm)
     warnings.push_back(path + ": " + *doubt + kScaleHint);
   return warnings;

@@ -58,4 +58,10 @@ std::vector<std::string> mesh_warnings(const MeshPot& made, const solid::MeshEnc
   return warnings;
 }
 
+std::optional<std::string> low_pot_warning(const MeshPotSettings& settings) {
+  constexpr double kUsualPotMm = 10.0;
+  if (!settings.height_mm || *settings.height_mm >= kUsualPotMm) return std::nullopt;
+  return fmt::format("the pot is only {:.3g} mm high", *settings.height_mm);
+}
+
 }  // namespace clay::importing

@@ -5,6 +5,7 @@
 
 #include "claystack/export/proof.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,5 +16,8 @@ namespace clay::importing {
 /// the text. `rings`: the settings with which the pot was made.
 std::vector<std::string> mesh_warnings(const MeshPot& made, const solid::MeshEnclosure& enclosure,
                                        const DrawnPotSettings& rings);
+
+/// "the pot is only 3 mm high": of the requested height.
+[[nodiscard]] std::optional<std::string> low_pot_warning(const MeshPotSettings& settings);
 
 }  // namespace clay::importing

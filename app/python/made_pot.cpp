@@ -3,8 +3,10 @@
 #include "app/cli/mesh_unit.hpp"
 #include "app/cli/pot_copy.hpp"
 #include "app/cli/session_check.hpp"
+#include "app/import/drawing_warnings.hpp"
 #include "app/import/drawn_pot.hpp"
 #include "app/import/mesh_warnings.hpp"
+#include "app/import/pot_ranges.hpp"
 #include "claystack/core/atomic_file.hpp"
 #include "claystack/engine/files.hpp"
 #include "claystack/engine/wheel.hpp"
@@ -43,30 +45,47 @@ std::string problem_with(double outer_mm, double inner_mm) {
 }
 
 Result<MadePot> pot_of_mesh(const std::string& path, const std::string& bytes,
-                            solid::MeshFormat format) {
+                            solid::MeshFormat format, const ImportSettings& asked) {
+  if (asked.wall_mm)
+    return failure(ErrorKind::bad_input, "wall_mm: expected a drawing, found the mesh " + path);
   auto mesh = solid::decode_mesh(bytes, format, path);
   if (!mesh) return tl::make_unexpected(mesh.error());
   const solid::MeshEnclosure enclosure = solid::enclosure_of(*mesh);
-  const importing::MeshPotSettings settings;
+  const importing::MeshPotSettings settings{asked.height_mm, {}};
   const auto doubt = cli::doubted_unit(solid::extent_of(*mesh).size(), format);
   auto made = importing::mesh_pot(std::move(*mesh), settings, path);
   if (!made) return failure(made.error().kind, made.error().message + (doubt ? "; " + *doubt : ""));
   std::vector<std::string> warnings = importing::mesh_warnings(*made, enclosure, settings.rings);
   if (!made->parts.empty())
     warnings.push_back("not of revolution, left out: " + counted(made->parts.size(), "part"));
-  if (doubt) warnings.push_back(*doubt);
+  if (doubt && !settings.height_mm) warnings.push_back(*doubt);
   for (std::string& warning : warnings) warning = path + ": " + warning;
+  if (const auto low = importing::low_pot_warning(settings))
+    warnings.push_back("height_mm: " + *low);
   return MadePot{std::move(made->pot), std::move(warnings)};
 }
 
-Result<MadePot> pot_of_drawing(const std::string& path, const std::string& bytes) {
-  auto section = importing::read_half_section(bytes, path, {}, {});
+Result<MadePot> pot_of_drawing(const std::string& path, const std::string& bytes,
+                               const ImportSettings& asked) {
+  importing::DrawnPotSettings settings;
+  settings.wall_mm = asked.wall_mm;
+  importing::HalfSectionSettings section_settings;
+  section_settings.height_mm = asked.height_mm;
+  auto section = importing::read_half_section(bytes, path, {}, section_settings);
   if (!section) return tl::make_unexpected(section.error());
-  auto drawn = importing::drawn_pot(*section, {}, path);
+  auto drawn = importing::drawn_pot(*section, settings, path);
   if (!drawn) return tl::make_unexpected(drawn.error());
-  if (const auto gap = importing::gap_warning(drawn->pot.stack))
-    section->notes.push_back(path + ": " + *gap);
-  return MadePot{std::move(drawn->pot), std::move(section->notes)};
+  std::vector<std::string> warnings = std::move(section->notes);
+  for (std::string& warning : importing::drawing_warnings(*section, *drawn, settings, path))
+    warnings.push_back(std::move(warning));
+  return MadePot{std::move(drawn->pot), std::move(warnings)};
+}
+
+Result<void> expect_within(const char* keyword, const std::optional<double>& mm,
+                           const Range& range) {
+  if (!mm || range.holds(*mm)) return {};
+  return failure(ErrorKind::bad_input, std::string(keyword) + ": expected " + range.text() +
+                                           " mm, found " + number_text(*mm) + " mm");
 }
 
 }  // namespace
@@ -91,11 +110,17 @@ Result<MadePot> throw_pot(const std::string& scene_path, const std::string& sess
   return MadePot{wheel->pot(), std::move(warnings)};
 }
 
-Result<MadePot> import_pot(const std::string& path) {
+Result<MadePot> import_pot(const std::string& path, const ImportSettings& settings) {
+  if (auto within = expect_within("height_mm", settings.height_mm, importing::kPotHeightRange);
+      !within)
+    return tl::make_unexpected(within.error());
+  if (auto within = expect_within("wall_mm", settings.wall_mm, importing::kDrawnWallRange); !within)
+    return tl::make_unexpected(within.error());
   const auto format = solid::mesh_format_of(path);
   const auto bytes = read_file(path);
   if (!bytes) return tl::make_unexpected(bytes.error());
-  return format ? pot_of_mesh(path, *bytes, *format) : pot_of_drawing(path, *bytes);
+  return format ? pot_of_mesh(path, *bytes, *format, settings)
+                : pot_of_drawing(path, *bytes, settings);
 }
 
 Result<Pot> stacked(double ring_height_mm, const std::vector<double>& outer_mm,

@@ -4,6 +4,7 @@
 #include "claystack/core/result.hpp"
 #include "claystack/engine/clay.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,14 @@ struct MadePot {
 /// Plays a session on a scene.
 Result<MadePot> throw_pot(const std::string& scene_path, const std::string& session_path);
 
+/// The keywords of claystack.import_pot.
+struct ImportSettings {
+  std::optional<double> height_mm;
+  std::optional<double> wall_mm;  ///< of a drawing
+};
+
 /// A drawing, or a mesh that is nearly of revolution; the name of the file decides.
-Result<MadePot> import_pot(const std::string& path);
+Result<MadePot> import_pot(const std::string& path, const ImportSettings& settings);
 
 /// A pot of given rings, the lowest first; an inner radius of 0 is solid. Refuses rings by their
 /// place in the stack, and numbers that no file of a pot may contain.

@@ -152,8 +152,10 @@ void add_functions(py::module_& module) {
   module.def("mesh_of", &mesh_of);
   module.def("read_mesh", &read_mesh);
   module.def("check_mesh", &check_mesh);
-  module.def("import_pot",
-             [](const std::string& path) { return made_pot([&] { return import_pot(path); }); });
+  module.def("import_pot", [](const std::string& path, std::optional<double> height_mm,
+                              std::optional<double> wall_mm) {
+    return made_pot([&] { return import_pot(path, {height_mm, wall_mm}); });
+  });
   module.attr("version") = CLAYSTACK_VERSION;
 }
 

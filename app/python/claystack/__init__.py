@@ -227,10 +227,14 @@ def read_pot(path: _Path) -> Pot:
 
 
 @_checked
-def import_pot(path: _Path) -> Pot:
+def import_pot(path: _Path, *, height_mm: Optional[float] = None,
+               wall_mm: Optional[float] = None) -> Pot:
     """Makes a pot of a drawing (SVG, DXF, CSV) or of a mesh of revolution. Warns of doubts, such as
-    about the axis, and of parts that were left out."""
-    return _made(*_call(_native.import_pot, path))
+    about the axis, and of parts that were left out.
+
+    `height_mm` scales it to this height. `wall_mm` is the thickness of wall and floor, for a drawing
+    that shows only the outside."""
+    return _made(*_call(_native.import_pot, path, height_mm, wall_mm))
 
 
 @_checked

@@ -266,6 +266,54 @@ class Package(unittest.TestCase):
         back = claystack.import_pot(self.file("jug.stl"))
         self.assertAlmostEqual(back.volume_mm3 / jug.volume_mm3, 1.0, places=2)
 
+    def test_scales_and_hollows_an_import_as_the_command_line_does(self):
+        jug = claystack.import_pot(sample("drawings/jug.svg"))
+        claystack.export(jug, self.file("jug.stl"))
+        for drawing, keywords, options in [
+                (sample("drawings/jug.svg"), {"height_mm": 120.0}, ["--height", "120"]),
+                (sample("drawings/tumbler.csv"), {"wall_mm": 6.0}, ["--wall", "6"]),
+                (sample("drawings/tumbler.csv"), {"height_mm": 90, "wall_mm": 4},
+                 ["--height", "90", "--wall", "4"]),
+                (self.file("jug.stl"), {"height_mm": 120.0}, ["--height", "120"])]:
+            pot = claystack.import_pot(drawing, **keywords)
+            pot.write(self.file("py.pot.json"))
+            self.run_program("import", drawing, "-o", self.file("cli.pot.json"), *options)
+            self.assertEqual(self.bytes_of("py.pot.json"), self.bytes_of("cli.pot.json"), options)
+            if "height_mm" in keywords:
+                self.assertAlmostEqual(pot.height_mm, keywords["height_mm"], places=1)
+            else:
+                self.assertGreater(np.count_nonzero(pot.inner_mm), 0)
+
+    def test_refuses_the_size_of_an_import(self):
+        claystack.export(claystack.stack(2.0, [40.0] * 10, [0.0] * 10), self.file("lump.stl"))
+        for path, keywords, message in [
+                (sample("drawings/jug.svg"), {"height_mm": float("nan")},
+                 "height_mm: expected from 0.01 to 100000 mm, found nan mm"),
+                (sample("drawings/tumbler.csv"), {"wall_mm": 0.0},
+                 "wall_mm: expected from 0.01 to 1000 mm, found 0 mm"),
+                (self.file("lump.stl"), {"wall_mm": 5.0},
+                 "wall_mm: expected a drawing, found the mesh " + self.file("lump.stl"))]:
+            with self.assertRaises(claystack.Error) as refused:
+                claystack.import_pot(path, **keywords)
+            self.assertEqual(refused.exception.message, message)
+
+    def test_warns_of_the_size_of_an_import_as_the_command_line_does(self):
+        # The wall of the bowl leans by atan(80 / 40) = 63 degrees.
+        with open(self.file("bowl.csv"), "w", encoding="utf-8") as file:
+            file.write("radius_mm,height_mm\n20,0\n100,40\n")
+        claystack.export(claystack.stack(2.0, [40.0] * 10, [0.0] * 10), self.file("lump.stl"))
+        for name, keywords, options, words in [
+                ("bowl.csv", {"wall_mm": 4.0}, ["--wall", "4"], "leans outward by 63 degrees"),
+                ("bowl.csv", {"height_mm": 2.0}, ["--height", "2"], "the pot is 2 mm high"),
+                ("lump.stl", {"height_mm": 2.0}, ["--height", "2"], "the pot is only 2 mm high")]:
+            with self.assertWarns(UserWarning) as warned:
+                claystack.import_pot(self.file(name), **keywords)
+            self.assertIn(words, str(warned.warning))
+            ran = self.run_program("import", self.file(name), "-o", self.file("cli.pot.json"),
+                                   *options)
+            text = str(warned.warning).replace("height_mm: ", "--height: ")
+            self.assertIn(f"claystack: warning: {text}\n", ran.stderr.decode())
+
     def test_warns_of_doubts_about_an_import(self):
         with open(self.file("cup.svg"), "w", encoding="utf-8") as file:
             file.write("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 9 9'>"
