@@ -54,6 +54,9 @@ enum class MeshState {
 [[nodiscard]] std::string_view name_of(MeshState state);
 [[nodiscard]] MeshState state_of(const solid::TriangleMesh& mesh, const solid::MeshReport& report);
 
+/// "open edge (3): triangle 12 at (1, 2, 3) mm".
+[[nodiscard]] std::string problem_text(const solid::MeshProblem& problem);
+
 /// Repairs and decimation of a mesh before it was written.
 struct RepairSummary {
   MeshState before = MeshState::sound;    ///< of the input file
@@ -115,6 +118,11 @@ Result<Verdict> check_pot(std::string_view bytes, const CheckCommand& command,
 Result<Verdict> check_mesh_file(solid::MeshFormat format, const CheckCommand& command,
                                 const Console& console, std::optional<std::string> input = {});
 
+/// The same for a mesh in memory, which has no contents beside its triangles. `command.file` names
+/// it in messages; nothing is repaired or written.
+Result<Verdict> check_mesh(const solid::TriangleMesh& mesh, const CheckCommand& command,
+                           const Console& console);
+
 /// An error of kind `io`, in advance, for a mesh that needs more memory than available.
 Result<solid::MeshReport> report_on(const solid::TriangleMesh& mesh);
 
@@ -153,8 +161,8 @@ struct PrintedBody {
   [[nodiscard]] const solid::TriangleMesh& mesh() const { return united ? *united : *file; }
 };
 
-/// The mesh outlives it; `verdict` holds the report on it. An error of kind `io`: the shells cannot
-/// be united for lack of memory.
+/// The mesh outlives it; `verdict` holds the report on it. Without limits no shells are united. An
+/// error of kind `io`: the shells cannot be united for lack of memory.
 Result<PrintedBody> printed_body(const solid::TriangleMesh& mesh, const CheckCommand& command,
                                  const Verdict& verdict);
 /// Size and undersides, upright as the file has them.

@@ -64,6 +64,7 @@ Result<void> measure_wall(const PrintedBody& body, const solid::WallLimit& limit
 Result<PrintedBody> printed_body(const TriangleMesh& mesh, const CheckCommand& command,
                                  const Verdict& verdict) {
   PrintedBody body{&mesh, {}, {}};
+  if (!command.walls.asked()) return body;
   const solid::MeshReport& report = verdict.mesh;
   if (report.closed && !report.oriented) {
     body.unknown = "some or all faces point into the clay; check the result of --repair";

@@ -138,8 +138,7 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
   progress.clear();
   warn_of_unit(format, verdict);
   const glm::dvec3 size = verdict.mesh.size_mm;
-  const auto body = command.walls.asked() ? printed_body(*mesh, command, verdict)
-                                          : Result<PrintedBody>(PrintedBody{&*mesh, {}, {}});
+  const auto body = printed_body(*mesh, command, verdict);
   if (!body) return tl::make_unexpected(body.error());
   check_process(*body, size, command, verdict);
   if (verdict.certificate) {
@@ -148,6 +147,24 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
       return tl::make_unexpected(done.error());
     progress.clear();
   }
+  return check_walls(*body, size, command, console, verdict).map([&] {
+    return std::move(verdict);
+  });
+}
+
+Result<Verdict> check_mesh(const TriangleMesh& mesh, const CheckCommand& command,
+                           const Console& console) {
+  auto report = report_on(mesh);
+  if (!report) return failure(report.error().kind, command.file + ": " + report.error().message);
+  Verdict verdict;
+  verdict.mesh = std::move(*report);
+  verdict.state = state_of(mesh, verdict.mesh);
+  if (auto done = check_contents({}, mesh, MeshFormat::stl_binary, command, verdict); !done)
+    return tl::make_unexpected(done.error());
+  const glm::dvec3 size = verdict.mesh.size_mm;
+  const auto body = printed_body(mesh, command, verdict);
+  if (!body) return tl::make_unexpected(body.error());
+  check_process(*body, size, command, verdict);
   return check_walls(*body, size, command, console, verdict).map([&] {
     return std::move(verdict);
   });

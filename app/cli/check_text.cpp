@@ -112,12 +112,6 @@ std::string headline(MeshState state, const std::vector<Finding>& findings) {
   return text;
 }
 
-/// "open edge (3): triangle 12 at (1, 2, 3) mm".
-std::string problem_text(const solid::MeshProblem& problem) {
-  return fmt::format("{} ({}{}): {}", problem.what, problem.at_least ? "at least " : "",
-                     problem.count, problem.where);
-}
-
 /// With --quiet: the faults, on standard error.
 void print_faults(const Console& console, const std::string& file, const Verdict& verdict) {
   for (const auto& problem : verdict.mesh.problems)

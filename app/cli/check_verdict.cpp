@@ -1,5 +1,7 @@
 #include "app/cli/check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -25,6 +27,11 @@ MeshState state_of(const solid::TriangleMesh& mesh, const solid::MeshReport& rep
 
 std::string_view name_of(Grade grade) {
   return grade == Grade::pass ? "pass" : grade == Grade::warn ? "warn" : "fail";
+}
+
+std::string problem_text(const solid::MeshProblem& problem) {
+  return fmt::format("{} ({}{}): {}", problem.what, problem.at_least ? "at least " : "",
+                     problem.count, problem.where);
 }
 
 bool Verdict::passes(bool accept_prints) const {

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -250,6 +251,7 @@ Json export_json(const ExportReport& report, const std::vector<PotCopy>& copies,
   if (const auto& process = report.process.limits) json["process"] = process_json(report, *process);
   json["maker"] = maker_json(report);
   json["goal"] = goal_json(goal);
+  json["passes"] = std::ranges::none_of(solid::problems_of(report), &solid::Problem::fails);
   json["problems"] = problems_json(report);
   auto copy = copies.begin();
   for (const FileReport& file : report.files) {

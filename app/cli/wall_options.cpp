@@ -5,7 +5,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include <utility>
+
 namespace clay::cli {
+
+WallOptions::WallOptions(solid::WallDemand demand)
+    : min_wall_mm_(demand.min_wall_mm),
+      process_(demand.process ? demand.process->name : std::string()),
+      demand_(std::move(demand)) {}
 
 void WallOptions::add_to(CLI::App& command) {
   add_length(command, "--min-wall", min_wall_mm_,

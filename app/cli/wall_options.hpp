@@ -14,6 +14,10 @@ namespace clay::cli {
 /// The options --min-wall and --process of a command. The larger limit applies.
 class WallOptions {
  public:
+  WallOptions() = default;
+  /// For a caller without a command line, such as Python: no `load` is needed.
+  explicit WallOptions(solid::WallDemand demand);
+
   void add_to(CLI::App& command);
 
   [[nodiscard]] bool asked() const noexcept { return min_wall_mm_ || !process_.empty(); }

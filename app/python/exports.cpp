@@ -85,7 +85,7 @@ py::dict report_of(const solid::ExportReport& report) {
   for (const solid::Problem& problem : solid::problems_of(report)) {
     py::dict one;
     one["what"] = solid::check_name(problem.kind);
-    one["where"] = text_of(problem.text);
+    one["text"] = text_of(problem.text);
     one["fails"] = problem.fails;
     problems.append(one);
   }

@@ -151,7 +151,14 @@ void add_functions(py::module_& module) {
   module.def("export_pot", &export_pot);
   module.def("mesh_of", &mesh_of);
   module.def("read_mesh", &read_mesh);
-  module.def("check_mesh", &check_mesh);
+  module.def("check_mesh", [](const solid::TriangleMesh& mesh, std::optional<double> min_wall_mm,
+                              std::optional<std::string> process) {
+    return check_mesh(mesh, {min_wall_mm, std::move(process)});
+  });
+  module.def("check_file", [](const std::string& path, std::optional<double> min_wall_mm,
+                              std::optional<std::string> process) {
+    return check_file(path, {min_wall_mm, std::move(process)});
+  });
   module.def("import_pot", [](const std::string& path, std::optional<double> height_mm,
                               std::optional<double> wall_mm) {
     return made_pot([&] { return import_pot(path, {height_mm, wall_mm}); });

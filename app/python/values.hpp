@@ -5,7 +5,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -36,8 +35,8 @@ inline py::str text_of(std::string_view text) {
 }
 
 /// `value`, and the warnings about it.
-template <class T>
-py::tuple with_warnings(std::shared_ptr<T> value, const std::vector<std::string>& warnings) {
+template <class Value>
+py::tuple with_warnings(Value value, const std::vector<std::string>& warnings) {
   py::list list;
   for (const std::string& warning : warnings) list.append(text_of(warning));
   return py::make_tuple(std::move(value), std::move(list));

@@ -119,9 +119,11 @@ _KINDS[Union[Mesh, _Path]] = (
 
 @dataclass(frozen=True)
 class Problem:
-    what: str
-    where: str
-    fails: bool = True
+    """A fault of a mesh, a limit that failed, or a warning."""
+
+    what: str  #: the fault ("open edge"), or the check ("walls", "process", "geometry", "contents")
+    text: str  #: the message, as the command line prints it, with the place
+    fails: bool = True  #: False: a warning
 
 
 @dataclass(frozen=True)
@@ -146,7 +148,8 @@ class Export:
     problems: tuple[Problem, ...]
 
     @property
-    def sound(self) -> bool:
+    def passes(self) -> bool:
+        """No limit failed. The solid itself is always sound: `export` writes no other."""
         return not any(problem.fails for problem in self.problems)
 
 
@@ -154,7 +157,8 @@ class Export:
 class Check:
     """The verdict on a mesh."""
 
-    sound: bool
+    passes: bool  #: the mesh is sound, and no limit failed
+    sound: bool  #: the mesh alone
     closed: bool
     manifold: bool
     oriented: bool
@@ -165,6 +169,7 @@ class Check:
     volume_mm3: Optional[float]  #: None: it has none, because it is not closed or oriented
     area_mm2: float
     size_mm: tuple[float, float, float]  #: width, depth and height, as x, y and z
+    sampled_wall_mm: Optional[float]  #: the thinnest sample, not a bound; None: no walls were sampled
     problems: tuple[Problem, ...]
 
 
@@ -173,26 +178,20 @@ def _pot(native) -> Pot:
                native.collapsed, native.quanta, native)
 
 
-def _warn(messages) -> None:
-    """As the command line does. A warning names the line that called the public function, which
-    calls, through `_checked`, the caller of this one."""
+def _warn(messages, level: int) -> None:
+    """As the command line does. A warning names the line that called the public function: `level`
+    calls above this one, of which `_checked` is one."""
     for message in messages:
-        warnings.warn(message, stacklevel=5)
+        warnings.warn(message, stacklevel=level)
 
 
 def _made(native, messages) -> Pot:
-    _warn(messages)
+    _warn(messages, 5)
     return _pot(native)
 
 
 def _mesh(native) -> Mesh:
     return Mesh(native.points, native.triangles, native)
-
-
-def _read(path: _Path) -> Mesh:
-    native, messages = _call(_native.read_mesh, path)
-    _warn(messages)
-    return _mesh(native)
 
 
 def _settings(**values):
@@ -274,13 +273,20 @@ def mesh(pot: Pot, *, tolerance_mm: float = 0.02, smoothing: str = "fair",
 def read_mesh(path: _Path) -> Mesh:
     """Reads STL, OBJ, DRC, PLY, OFF, 3MF or GLB. Warns of a size that suggests another unit than
     mm."""
-    return _read(path)
+    native, messages = _call(_native.read_mesh, path)
+    _warn(messages, 4)
+    return _mesh(native)
 
 
 @_checked
-def check(what: Union[Mesh, _Path]) -> Check:
-    """Checks whether a mesh, or the mesh in a file, is a printable solid. Warns as `read_mesh`."""
-    found = what if isinstance(what, Mesh) else _read(what)
-    report = _call(_native.check_mesh, found._native)
+def check(what: Union[Mesh, _Path], *, min_wall_mm: Optional[float] = None,
+          process: Optional[_Path] = None) -> Check:
+    """Checks whether a mesh, or the mesh in a file, is a printable solid within the limits. Warns as
+    `read_mesh`."""
+    if isinstance(what, Mesh):
+        report = _call(_native.check_mesh, what._native, min_wall_mm, process)
+    else:
+        report, messages = _call(_native.check_file, what, min_wall_mm, process)
+        _warn(messages, 4)
     report["problems"] = tuple(Problem(**one) for one in report["problems"])
     return Check(**report)

@@ -68,6 +68,14 @@ TEST_F(ExportFinish, WarnsOfALipFilletThatIsSmallerThanAskedFor) {
     EXPECT_EQ(run(fits).err.find("lip fillet"), std::string::npos) << fits;
 }
 
+TEST_F(ExportFinish, TheJsonStatesWhetherAllLimitsPass) {
+  EXPECT_EQ(run("--json --min-wall 0.5").json().at("passes"), true);
+  EXPECT_EQ(run("--json --lip-fillet 2").json().at("passes"), true) << "a warning";
+  const Ran thin = run("--json --min-wall 50");
+  EXPECT_EQ(thin.status, 1);
+  EXPECT_EQ(thin.json().at("passes"), false);
+}
+
 TEST_F(ExportFinish, AFilletWithoutSmoothingIsRefused) {
   const Ran run_none = run("--lip-fillet 1 --smooth none");
   EXPECT_EQ(run_none.status, 2);

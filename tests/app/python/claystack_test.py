@@ -1,5 +1,6 @@
 """Tests of the Python package: PYTHONPATH=BUILD/python python3 claystack_test.py PROGRAM SAMPLES"""
 
+import json
 import math
 import os
 import pathlib
@@ -32,6 +33,9 @@ class Package(unittest.TestCase):
     def run_program(self, *words):
         return subprocess.run([PROGRAM, *words], check=True, capture_output=True)
 
+    def verdict_of(self, *words):
+        return subprocess.run([PROGRAM, *words], check=False, capture_output=True)
+
     def bytes_of(self, name):
         with open(self.file(name), "rb") as file:
             return file.read()
@@ -46,7 +50,7 @@ class Package(unittest.TestCase):
                          self.file("cli.ply"))
         self.assertEqual(self.bytes_of("py.stl"), self.bytes_of("cli.stl"))
         self.assertEqual(report.files[0].bytes, len(self.bytes_of("py.stl")))
-        self.assertTrue(report.sound)
+        self.assertTrue(report.passes)
         claystack.export(pot, [self.file("straight.stl")], smooth_length_mm=0.0)
         self.run_program("export", self.file("cli.pot.json"), self.file("cli_straight.stl"),
                          "--smooth-length", "0")
@@ -184,6 +188,10 @@ class Package(unittest.TestCase):
                 (lambda: claystack.mesh(pot, tolerance_mm=True),
                  "tolerance_mm: expected a number, found True"),
                 (lambda: claystack.read_mesh(3), "path: expected a path, found 3"),
+                (lambda: claystack.check(path, min_wall_mm="3"),
+                 "min_wall_mm: expected a number, found '3'"),
+                (lambda: claystack.import_pot(path, wall_mm="3"),
+                 "wall_mm: expected a number, found '3'"),
                 (lambda: claystack.check(3), "what: expected a Mesh or a path, found 3"),
                 (lambda: pot.write(3), "path: expected a path, found 3"),
                 (lambda: claystack.throw(), "throw(): missing a required argument: 'scene'")]:
@@ -288,7 +296,7 @@ class Package(unittest.TestCase):
         claystack.export(claystack.stack(2.0, [40.0] * 10, [0.0] * 10), self.file("lump.stl"))
         for path, keywords, message in [
                 (sample("drawings/jug.svg"), {"height_mm": float("nan")},
-                 "height_mm: expected from 0.01 to 100000 mm, found nan mm"),
+                 "height_mm: expected from 0.01 to 1e+05 mm, found nan mm"),
                 (sample("drawings/tumbler.csv"), {"wall_mm": 0.0},
                  "wall_mm: expected from 0.01 to 1000 mm, found 0 mm"),
                 (self.file("lump.stl"), {"wall_mm": 5.0},
@@ -361,7 +369,56 @@ class Package(unittest.TestCase):
         verdict = claystack.check(self.file("open.off"))
         self.assertFalse(verdict.sound)
         self.assertFalse(verdict.closed)
-        self.assertTrue(verdict.problems)
+        self.assertFalse(verdict.passes)
+        printed = self.verdict_of("check", self.file("open.off"), "-q").stderr.decode()
+        for problem in verdict.problems:
+            self.assertIn(problem.text, printed)
+        self.assertIn(("open edge", True),
+                      [(problem.what, problem.fails) for problem in verdict.problems])
+
+    def test_an_export_with_a_thin_wall_is_written_and_does_not_pass(self):
+        pot = claystack.stack(2.0, [40.0] * 20, [0.0] * 3 + [37.0] * 17)
+        report = claystack.export(pot, self.file("cup.stl"), min_wall_mm=4.0)
+        self.assertFalse(report.passes)
+        self.assertFalse(hasattr(report, "sound"), "it would be true for a wall that fails")
+        self.assertTrue(claystack.check(self.file("cup.stl")).passes)
+        (wall,) = report.problems
+        self.assertEqual((wall.what, wall.fails), ("walls", True))
+        # The facets take up to the tolerance from the wall of 3 mm.
+        self.assertRegex(wall.text, r"^thin wall: (2\.9[89]\d|3\.000) mm, expected at least 4\.000 mm")
+
+    def test_checks_limits_as_the_command_line_does(self):
+        pot = claystack.stack(2.0, [40.0] * 20, [0.0] * 3 + [37.0] * 17)
+        claystack.export(pot, self.file("cup.stl"))
+        for keywords, options, passes in [
+                ({}, [], True),
+                ({"min_wall_mm": 2.5}, ["--min-wall", "2.5"], True),
+                ({"min_wall_mm": 4}, ["--min-wall", "4"], False),
+                ({"process": "fdm"}, ["--process", "fdm"], True),
+                ({"process": "stoneware"}, ["--process", "stoneware"], True),  # it asks for 3 mm
+                ({"process": "fdm", "min_wall_mm": 4.0},
+                 ["--process", "fdm", "--min-wall", "4"], False)]:
+            ran = self.verdict_of("check", self.file("cup.stl"), "--json", *options)
+            expected = json.loads(ran.stdout)
+            self.assertEqual(expected["passes"], passes, options)
+            wall = expected.get("wall_sampled", {}).get("least_mm")
+            texts = [check["text"].replace("--min-wall", "requested minimum wall")
+                     for check in expected["checks"] if check["verdict"] != "pass"]
+            for what in (self.file("cup.stl"), claystack.read_mesh(self.file("cup.stl"))):
+                verdict = claystack.check(what, **keywords)
+                self.assertEqual(verdict.passes, passes, options)
+                self.assertTrue(verdict.sound)
+                self.assertEqual(verdict.sampled_wall_mm, wall)
+                self.assertEqual([problem.text for problem in verdict.problems], texts)
+
+    def test_refuses_limits_of_a_check_out_of_range(self):
+        mesh = claystack.mesh(claystack.stack(2.0, [40.0] * 10, [30.0] * 10))
+        for keywords, message in [
+                ({"min_wall_mm": 0.0}, "minimum wall: expected 1e-06 to 10000 mm, found 0 mm"),
+                ({"process": "clay"}, "process: expected ")]:
+            with self.assertRaises(claystack.Error) as refused:
+                claystack.check(mesh, **keywords)
+            self.assertTrue(refused.exception.message.startswith(message), refused.exception.message)
 
     def test_refuses_settings_out_of_range_by_name(self):
         pot = claystack.stack(2.0, [40.0] * 10, [30.0] * 10)
