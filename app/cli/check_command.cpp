@@ -122,8 +122,11 @@ int check(CheckCommand& command, Console& console) {
   const auto verdict = check_file(command, console);
   if (!verdict)
     return report(verdict.error(), verdict_json(command.file, failed(verdict.error()), false));
-  if (verdict->failure)
-    return report(*verdict->failure, verdict_json(command.file, *verdict, false));
+  if (verdict->failure) {
+    Json json = verdict_json(command.file, *verdict, false);
+    json["written"] = nullptr;
+    return report(*verdict->failure, std::move(json));
+  }
   if (console.json) print_json(verdict_json(command.file, *verdict, command.accept_prints()));
   print_verdict(console, command.file, *verdict);
   return verdict->passes(command.accept_prints()) ? kDone : kUnsound;

@@ -168,7 +168,8 @@ void add_export_command(CLI::App& app, Console& console, int& exit) {
   sub->callback([command, &console, &exit] {
     std::ranges::move(command->named_outputs, std::back_inserter(command->outputs));
     const auto done = export_pot(*command, console);
-    exit = done ? *done : report(done.error());
+    // All files or none: with status 1, this key distinguishes a refusal from a limit that fails.
+    exit = done ? *done : report(done.error(), {{"written", Json::array()}});
   });
 }
 

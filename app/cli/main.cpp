@@ -35,9 +35,9 @@ Examples:
 
 Output files replace older files of the same name, but never an input; with
 --no-overwrite they replace none.
-Exit status: 0 done and sound; 1 done, but the pot or mesh fails a check;
-2 bad usage or bad input; 3 could not read or write; 4 a device failed, or no
-display or OpenGL was found.)";
+Exit status: 0 done and sound; 1 the pot or mesh fails a check (files are
+written, unless an error states why not); 2 bad usage or bad input; 3 could
+not read or write; 4 a device failed, or no display or OpenGL was found.)";
 
 /// Removes temporary files on a signal that ends the program.
 void on_end(int signal) {

@@ -217,6 +217,7 @@ TEST_F(CheckRepair, KeepsTheReportOnTheInputBesideAnError) {
   EXPECT_EQ(refused.at("verdict"), "will not print");
   EXPECT_EQ(refused.at("triangles"), 10);
   EXPECT_EQ(refused.at("kind"), "unsound");
+  EXPECT_TRUE(refused.at("written").is_null());
   const auto thin = failed("--repair --dry-run --thicken 0.001 " + cup, 2);
   EXPECT_EQ(thin.at("verdict"), "will not print");
   EXPECT_EQ(thin.at("kind"), "bad_input");

@@ -1,6 +1,7 @@
 // Options of `claystack export` that change the surface: fairing, fillets, foot, glaze, drain.
 
 #include "tests/app/cli/thrown_bowl.hpp"
+#include "tests/support/schema_check.hpp"
 
 #include <gtest/gtest.h>
 #include <iomanip>
@@ -74,6 +75,14 @@ TEST_F(ExportFinish, TheJsonStatesWhetherAllLimitsPass) {
   const Ran thin = run("--json --min-wall 50");
   EXPECT_EQ(thin.status, 1);
   EXPECT_EQ(thin.json().at("passes"), false);
+}
+
+TEST_F(ExportFinish, TheJsonOfARefusalStatesThatNothingIsWritten) {
+  const Ran refused = run("--json --glaze-allowance 9");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(violation(load_schema("error"), refused.json()), "");
+  EXPECT_EQ(refused.json().at("kind"), "unsound");
+  EXPECT_EQ(refused.json().at("written"), nlohmann::json::array());
 }
 
 TEST_F(ExportFinish, AFilletWithoutSmoothingIsRefused) {
