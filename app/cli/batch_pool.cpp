@@ -22,6 +22,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kPollMs = 50;
+constexpr int kSuccess = 0;
 
 /// The reading end of a pipe from a process; closed with it.
 class Output {
@@ -144,10 +145,12 @@ class Batch {
  public:
   Batch(const std::vector<BatchJob>& jobs, const BatchPool& pool,
         const std::function<bool(const BatchOutcome&)>& done)
-      : jobs_(jobs), pool_(pool), done_(done) {}
+      : jobs_(jobs), pool_(pool), done_(done), ended_(pool.ended) {
+    for (std::size_t job = 0; job < jobs.size(); ++job) pending_.push_back(job);
+  }
 
   Result<void> run() {
-    while (!running_.empty() || next_ < jobs_.size()) {
+    while (!running_.empty() || !pending_.empty()) {
       start_jobs();
       wait_for_any(running_);
       running_.remove_if([&](Running& running) { return has_ended(running); });
@@ -157,24 +160,46 @@ class Batch {
 
  private:
   void start_jobs() {
-    while (next_ < jobs_.size() && running_.size() < pool_.processes && !full_) {
-      auto started = start(jobs_, next_);
+    for (auto next = pending_.begin();
+         next != pending_.end() && running_.size() < pool_.processes && !full_;) {
+      const std::size_t job = *next;
+      const auto before = ended_.find(jobs_[job].after);
+      if (!jobs_[job].after.empty() && before == ended_.end()) {
+        ++next;  // the job before it runs, or is pending
+        continue;
+      }
+      if (!jobs_[job].after.empty() && before->second != kSuccess) {
+        next = pending_.erase(next);
+        BatchOutcome not_run;
+        not_run.job = job;
+        if (!finish(not_run)) return;
+        continue;
+      }
+      auto started = start(jobs_, job);
       if (started) {
         running_.push_back(std::move(*started));
-        ++next_;
+        next = pending_.erase(next);
       } else if (!running_.empty()) {
         full_ = true;
       } else {
         result_ = tl::make_unexpected(started.error());
-        next_ = jobs_.size();
+        return pending_.clear();
       }
     }
+  }
+
+  /// Passes the outcome on. False: the batch ends early.
+  bool finish(const BatchOutcome& outcome) {
+    ended_[jobs_[outcome.job].id] = outcome.status;
+    if (done_(outcome)) return true;
+    pending_.clear();
+    return false;
   }
 
   /// Passes on the outcome of a job that has ended; kills one whose time is over.
   bool has_ended(Running& running) {
     if (const auto outcome = outcome_of(running)) {
-      if (!done_(*outcome)) next_ = jobs_.size();
+      (void)finish(*outcome);
       full_ = false;
       return true;
     }
@@ -190,8 +215,9 @@ class Batch {
   const BatchPool& pool_;
   const std::function<bool(const BatchOutcome&)>& done_;
   std::list<Running> running_;
-  std::size_t next_ = 0;
-  bool full_ = false;  // the system starts no more until one ends
+  std::list<std::size_t> pending_;
+  std::map<std::string, int> ended_;  // statuses by id
+  bool full_ = false;                 // the system starts no more until one ends
   Result<void> result_;
 };
 

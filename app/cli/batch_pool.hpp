@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,15 @@ inline constexpr std::size_t kMostOutput = std::size_t{4} << 20;
 struct BatchJob {
   std::string id;
   std::vector<std::string> words;  ///< the arguments of claystack: "export", "bowl.pot.json", ...
+  std::string after;               ///< id of an earlier job that must end with 0 first; empty: none
 };
 
+/// The status of a job that was not run, because the job before it failed.
+inline constexpr int kNotRun = -1;
+
 struct BatchOutcome {
-  std::size_t job = 0;  ///< index
-  int status = -1;      ///< exit status; 128 + signal if one ended the process
+  std::size_t job = 0;   ///< index
+  int status = kNotRun;  ///< exit status; 128 + signal if one ended the process
   bool timed_out = false;
   double seconds = 0.0;
   bool cut = false;      ///< it printed more than `out` holds
@@ -32,11 +37,14 @@ struct BatchOutcome {
 struct BatchPool {
   std::size_t processes = 1;
   std::chrono::duration<double> time_limit{0.0};  ///< of one job; 0: none
+  std::map<std::string, int> ended;  ///< statuses of jobs that are not run again, by their ids
 };
 
-/// Runs `jobs` in order, at most `pool.processes` at a time, and calls `done` as each ends. Ends
-/// early, after the running jobs, when `done` returns false. Where the system allows fewer
-/// processes or descriptors, fewer run at a time. An error: not even one could be started.
+/// Runs `jobs` in order, at most `pool.processes` at a time, and calls `done` as each ends. A job
+/// that waits for another lets those behind it go first; if that one fails, it is not run. Each job
+/// waits only for one before it in `jobs`, or one of `pool.ended`. Ends early, after the running
+/// jobs, when `done` returns false. Where the system allows fewer processes or descriptors, fewer
+/// run at a time. An error: not even one could be started.
 Result<void> run_batch(const std::vector<BatchJob>& jobs, const BatchPool& pool,
                        const std::function<bool(const BatchOutcome&)>& done);
 

@@ -24,10 +24,41 @@ std::string key_of(const Json& words, const std::string& id) { return words.dump
 
 bool is_result(const Json& line) {
   return line.is_object() && line.contains("id") && line.at("id").is_string() &&
-         line.contains("run") && line.contains("status") && line.at("status").is_number_integer();
+         line.contains("run") && line.contains("status") &&
+         (line.at("status").is_number_integer() || line.at("status").is_null());
+}
+
+/// The output of a command that could not finish has the fields of an error.
+bool is_refused(const Json& line) {
+  return line.contains("output") && line.at("output").is_object() &&
+         line.at("output").contains("kind");
+}
+
+std::string first_problem(const Json& output) {
+  const auto problems = output.find("problems");
+  if (problems == output.end() || problems->empty() || !problems->front().contains("where"))
+    return {};
+  const Json& first = problems->front();
+  return fmt::format("{} ({}): {}", first.value("what", ""), first.value("count", 1),
+                     first.value("where", ""));
+}
+
+std::string first_failed_check(const Json& output) {
+  for (const Json& check : output.value("checks", Json::array()))
+    if (check.value("verdict", "") == "fail")
+      return check.value("check", "") + ": " + check.value("text", "");
+  return {};
 }
 
 }  // namespace
+
+std::string fault_in(const Json& output) {
+  if (!output.is_object()) return {};
+  const std::string problem = first_problem(output), check = first_failed_check(output);
+  // The faults of a mesh that prints may be accepted; then the check is the reason.
+  const bool prints = output.value("verdict", "") == "prints";
+  return problem.empty() || (prints && !check.empty()) ? check : problem;
+}
 
 ResultFile::ResultFile(std::string path) : path_(std::move(path)) {}
 
@@ -64,7 +95,7 @@ bool ResultFile::is_standard_output() const {
                                ::fstat(STDOUT_FILENO, &standard) == 0 && same_file(own, standard));
 }
 
-std::optional<int> ResultFile::status_of(const BatchJob& job) const {
+std::optional<EarlierResult> ResultFile::result_of(const BatchJob& job) const {
   const auto found = done_.find(key_of(Json(job.words), job.id));
   return found == done_.end() ? std::nullopt : std::optional(found->second);
 }
@@ -102,10 +133,10 @@ Result<void> ResultFile::read_line(std::string_view line, std::size_t number) {
                    fmt::format("{}:{}: expected a result of claystack batch, found {}", path_,
                                number, line.empty() ? "an empty line" : kind_of_file(line)));
   const Json& one = document->root();
-  const auto status = one.at("status").get<int>();
+  const auto status = one.at("status").is_null() ? kNotRun : one.at("status").get<int>();
   const std::string key = key_of(one.at("run"), one.at("id").get<std::string>());
   if (status == kDone || status == kUnsound)
-    done_[key] = status;
+    done_[key] = {status, is_refused(one)};
   else
     done_.erase(key);
   return {};

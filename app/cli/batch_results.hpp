@@ -15,6 +15,16 @@ namespace clay::cli {
 inline constexpr std::size_t kMaxBatchBytes = std::size_t{256} << 20;
 inline constexpr const char* kBatchSchema = "claystack-batch-1";
 
+/// The result of a job in an earlier batch: done, with a verdict.
+struct EarlierResult {
+  int status = 0;
+  bool refused = false;  ///< it ended with an error, and wrote nothing
+};
+
+/// The fault in the output of a check that fails: "walls: thin wall ...", "open edge (3): ...".
+/// Empty if there is none.
+[[nodiscard]] std::string fault_in(const Json& output);
+
 /// The results, one line per job, appended as the jobs end. A killed batch leaves whole lines.
 class ResultFile {
  public:
@@ -27,9 +37,8 @@ class ResultFile {
 
   /// Whether the lines go to standard output, by any of its names.
   [[nodiscard]] bool is_standard_output() const;
-  /// The status of a job that an earlier batch finished: done, with a verdict, by its last result.
-  /// Empty for others, which run again.
-  [[nodiscard]] std::optional<int> status_of(const BatchJob& job) const;
+  /// The last result of a job that an earlier batch finished. Empty for others, which run again.
+  [[nodiscard]] std::optional<EarlierResult> result_of(const BatchJob& job) const;
   Result<void> add(const Json& result);
 
  private:
@@ -40,7 +49,7 @@ class ResultFile {
 
   std::string path_;
   int descriptor_ = -1;
-  std::map<std::string, int> done_;
+  std::map<std::string, EarlierResult> done_;
 };
 
 }  // namespace clay::cli

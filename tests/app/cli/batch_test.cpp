@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <sstream>
 
@@ -99,6 +101,118 @@ TEST_F(Batch, NamesJobsThatFail) {
                          ": could not open"),
             std::string::npos)
       << ran.err;
+}
+
+/// No wall is 500 mm thick.
+TEST_F(Batch, NamesTheCheckThatFails) {
+  const std::string pot = folder.file("a.pot.json"), stl = folder.file("a.stl");
+  ASSERT_EQ(claystack("throw -q " + sample("cylinder.scene.json") + " -o " + pot).status, 0);
+  ASSERT_EQ(claystack("export -q " + pot + " " + stl).status, 0);
+  write_text(folder.file("open.off"), "OFF\n3 1 0\n0 0 0\n40 0 0\n0 40 0\n3 0 1 2\n");
+  const std::string results = folder.file("results.jsonl");
+  write_jobs({job("thin", {"check", stl, "--min-wall", "500"}),
+              job("pot", {"check", pot, "--min-wall", "500"}),
+              job("open", {"check", folder.file("open.off"), "--min-wall", "3"}),
+              job("written", {"export", pot, folder.file("b.stl"), "--min-wall", "500"})});
+  const Ran ran = run("-o " + results);
+  auto found = results_in(read_text(results));
+  const auto error = [&](const char* id) { return found.at(id).value("error", ""); };
+  EXPECT_EQ(error("thin").find("walls: thin wall (sampled): "), 0u) << error("thin");
+  EXPECT_NE(error("thin").find(" mm, expected at least 500.000 mm"), std::string::npos);
+  EXPECT_EQ(error("pot").find("walls: thin wall: "), 0u) << error("pot");
+  EXPECT_EQ(error("open").find("open edge (3): "), 0u) << error("open");
+  EXPECT_EQ(error("written").find("claystack: thin wall: "), 0u) << error("written");
+  EXPECT_NE(ran.err.find("warning: thin: status 1: " + error("thin") + "\n"), std::string::npos)
+      << ran.err;
+  for (const auto& [id, result] : found)
+    EXPECT_EQ(violation(load_schema("batch"), result), "") << result;
+}
+
+TEST_F(Batch, RunsAJobAfterTheOneThatItNames) {
+  const std::string pot = folder.file("a.pot.json"), stl = folder.file("a.stl");
+  auto made = thrown("a.pot.json");
+  auto exported = job("stl", {"export", pot, stl});
+  auto checked = job("check", {"check", stl});
+  exported["after"] = "a.pot.json";
+  checked["after"] = "stl";
+  const std::string results = folder.file("results.jsonl");
+  write_jobs({made, exported, checked});
+  const Ran ran = run("-j 4 -o " + results);
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(results_in(read_text(results)).at("check").at("output").at("verdict"), "sound");
+  // A job that an earlier batch finished need not run again.
+  checked["run"].push_back("--min-wall");
+  checked["run"].push_back("0.1");
+  write_jobs({made, exported, checked});
+  EXPECT_EQ(run("-j 4 -o " + results).out, "3 jobs: 3 done, 0 failed; 2 of them skipped, because " +
+                                               results + " has their results\n");
+}
+
+TEST_F(Batch, DoesNotRunAJobAfterOneThatFails) {
+  auto second = thrown("b.pot.json"), third = thrown("c.pot.json");
+  second["after"] = "absent";
+  third["after"] = "b.pot.json";
+  const std::string results = folder.file("results.jsonl"), late = folder.file("late.pot.json");
+  write_jobs({job("absent", {"check", late}), second, third, thrown("free.pot.json")});
+  const Ran ran = run("-j 2 -o " + results);
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_EQ(ran.out, "4 jobs: 1 done, 3 failed\n");
+  EXPECT_NE(ran.err.find("warning: b.pot.json: not run, because absent failed\n"),
+            std::string::npos)
+      << ran.err;
+  const auto found = results_in(read_text(results));
+  for (const auto& [id, result] : found)
+    EXPECT_EQ(violation(load_schema("batch"), result), "") << result;
+  EXPECT_TRUE(found.at("b.pot.json").at("status").is_null());
+  EXPECT_EQ(found.at("c.pot.json").at("error"), "not run, because b.pot.json failed");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("b.pot.json")));
+  // They run when the first job succeeds.
+  ASSERT_EQ(claystack("throw -q " + sample("cylinder.scene.json") + " -o " + late).status, 0);
+  EXPECT_EQ(run("-j 2 -o " + results).out, "4 jobs: 4 done, 0 failed; 1 of them skipped, because " +
+                                               results + " has their results\n");
+  // The verdict of an earlier batch counts, too.
+  write_jobs({job("absent", {"check", late, "--min-wall", "500"}), thrown("free.pot.json")});
+  EXPECT_EQ(run("-o " + results).status, 1);
+  second["run"].push_back("--quiet");
+  write_jobs({job("absent", {"check", late, "--min-wall", "500"}), second});
+  EXPECT_EQ(run("-o " + results).out, "2 jobs: 0 done, 2 failed; 1 of them skipped, because " +
+                                          results + " has their results\n");
+}
+
+TEST_F(Batch, KeepsJobsThatWaitInOnePart) {
+  auto second = thrown("2.pot.json"), third = thrown("3.pot.json");
+  second["after"] = "1.pot.json";
+  third["after"] = "2.pot.json";
+  write_jobs({thrown("1.pot.json"), second, third, thrown("4.pot.json")});
+  EXPECT_EQ(results_in(run("--part 1/2").out).size(), 3u);
+  const auto rest = results_in(run("--part 2/2").out);
+  EXPECT_EQ(rest.size(), 1u);
+  EXPECT_TRUE(rest.contains("4.pot.json"));
+}
+
+/// Two exports fail a check: one has written its file, one has written nothing.
+TEST_F(Batch, RedoesRefusedJobsAlone) {
+  const std::string pot = folder.file("a.pot.json"), results = folder.file("results.jsonl");
+  ASSERT_EQ(claystack("throw -q " + sample("bowl.scene.json") + " -o " + pot).status, 0);
+  write_jobs(
+      {job("thin", {"export", pot, folder.file("thin.stl"), "--min-wall", "50"}),
+       job("refused", {"export", pot, folder.file("refused.stl"), "--glaze-allowance", "9"})});
+  EXPECT_EQ(run("-o " + results).status, 1);
+  const auto found = results_in(read_text(results));
+  EXPECT_EQ(found.at("thin").at("status"), 1);
+  EXPECT_EQ(found.at("refused").at("status"), 1);
+  EXPECT_TRUE(std::filesystem::exists(folder.file("thin.stl")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("refused.stl")));
+  EXPECT_EQ(found.at("refused").at("output").at("written"), nlohmann::json::array());
+  EXPECT_EQ(found.at("thin").at("output").at("passes"), false);
+  const auto skipped = [&](const std::string& redo) {
+    return nlohmann::json::parse(run("--json -o " + results + redo).out).at("skipped");
+  };
+  EXPECT_EQ(skipped(" --redo refused"), 1);
+  EXPECT_EQ(skipped(" --redo failed"), 0);
+  std::filesystem::remove(folder.file("thin.stl"));
+  EXPECT_EQ(skipped(" --redo refused"), 1);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("thin.stl"))) << "it was not written again";
 }
 
 TEST_F(Batch, RedoesJobsWhenAsked) {
@@ -262,6 +376,10 @@ TEST_F(Batch, RefusesAWrongLineBeforeTheFirstJob) {
         {R"({"id": "a.pot.json", "run": ["plan"]})", ":2: id: expected a different id"},
         {R"({"id": "x"})", ":2: expected a field \"run\""},
         {R"({"id": "x", "run": "plan"})", ":2: run: expected an array"},
+        {R"({"id": "x", "run": ["plan"], "after": "y"})",
+         ":2: after: expected the id of a job on an earlier line, found y"},
+        {R"({"id": "x", "run": ["plan"], "after": "x"})",
+         ":2: after: expected the id of a job on an earlier line, found x"},
         {"{", ":2: "}}) {
     write_text(folder.file("jobs.jsonl"), good + line + "\n");
     const Ran ran = run("");
@@ -269,6 +387,34 @@ TEST_F(Batch, RefusesAWrongLineBeforeTheFirstJob) {
     EXPECT_NE(ran.err.find("jobs.jsonl" + message), std::string::npos) << ran.err;
     EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
   }
+}
+
+TEST_F(Batch, ReportsAllWrongLines) {
+  auto waits = job("waits", {"plan", "x"});
+  waits["after"] = "bad";
+  std::string text = thrown("a.pot.json").dump() + "\n{\n" + R"({"id": "bad", "run": ["studio"]})" +
+                     "\n" + waits.dump() + "\n";
+  write_text(folder.file("jobs.jsonl"), text);
+  const Ran two = run("");
+  EXPECT_EQ(two.status, 2);
+  EXPECT_NE(two.err.find("jobs.jsonl:2: "), std::string::npos) << two.err;
+  EXPECT_NE(two.err.find("jobs.jsonl:3: run: expected one of"), std::string::npos) << two.err;
+  EXPECT_EQ(two.err.find("jobs.jsonl:4: "), std::string::npos) << "only line 3 is wrong" << two.err;
+  const auto json = nlohmann::json::parse(run("--json").out);
+  EXPECT_EQ(violation(load_schema("error"), json), "");
+  EXPECT_EQ(json.at("errors").size(), 2u);
+  EXPECT_EQ(json.at("errors").at(0), json.at("error"));
+  for (int i = 0; i < 12; ++i) text += "{}\n";
+  write_text(folder.file("jobs.jsonl"), text);
+  const Ran many = run("");
+  EXPECT_NE(many.err.find("jobs.jsonl:12: "), std::string::npos) << many.err;
+  EXPECT_EQ(many.err.find("jobs.jsonl:13: "), std::string::npos) << "10 lines" << many.err;
+  EXPECT_NE(many.err.find("jobs.jsonl: 4 more wrong lines\n"), std::string::npos) << many.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.pot.json")));
+  // Another kind of file has no lines of jobs.
+  write_text(folder.file("jobs.jsonl"), "solid pot\nfacet normal 0 0 1\nouter loop\n");
+  const Ran other = run("");
+  EXPECT_EQ(std::ranges::count(other.err, '\n'), 1) << other.err;
 }
 
 TEST_F(Batch, RefusesJobsThatWriteTheSameFile) {
