@@ -1,6 +1,7 @@
 #include "app/import/mesh_pot.hpp"
 
 #include "app/import/mesh_section.hpp"
+#include "app/import/separate_bodies.hpp"
 #include "core/text.hpp"
 
 #include <fmt/format.h>
@@ -245,11 +246,8 @@ Result<Made> leveled(Made made, const solid::TriangleMesh& mesh, const std::vect
   return std::move(*level);
 }
 
-}  // namespace
-
-Result<MeshPot> mesh_pot(solid::TriangleMesh mesh, const MeshPotSettings& settings,
-                         const std::string& name) {
-  if (auto sized = check_size(mesh, name); !sized) return tl::make_unexpected(sized.error());
+Result<MeshPot> pot_of_body(solid::TriangleMesh mesh, const MeshPotSettings& settings,
+                            const std::string& name) {
   MeshPot result;
   auto pot = placed(mesh, settings.height_mm, result, name);
   if (!pot) return tl::make_unexpected(pot.error());
@@ -271,6 +269,23 @@ Result<MeshPot> mesh_pot(solid::TriangleMesh mesh, const MeshPotSettings& settin
   result.section_mm3 = made->pot.section.volume_mm3();
   result.parts = parts_of(made->cuts, made->limit_mm);
   return result;
+}
+
+}  // namespace
+
+Result<MeshPot> mesh_pot(solid::TriangleMesh mesh, const MeshPotSettings& settings,
+                         const std::string& name) {
+  if (auto sized = check_size(mesh, name); !sized) return tl::make_unexpected(sized.error());
+  // The axis of two bodies lies between them or runs through both, so that the reason alone would
+  // mislead.
+  const std::size_t bodies = separate_bodies(mesh);
+  return pot_of_body(std::move(mesh), settings, name).map_error([&](Error error) {
+    const std::string begin = name + ": ";
+    if (error.kind == ErrorKind::bad_input && bodies > 1 && error.message.starts_with(begin))
+      error.message.insert(begin.size(), "the mesh has " + std::to_string(bodies) +
+                                             " separate bodies: keep one; all of them together: ");
+    return error;
+  });
 }
 
 }  // namespace clay::importing

@@ -1,3 +1,5 @@
+#include "claystack/export/formats.hpp"
+#include "tests/export/solid/shapes.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <fmt/format.h>
@@ -234,6 +236,22 @@ TEST(Import, PointsToThePotInA3mf) {
     EXPECT_EQ(read.out.find("carries its exact pot") != std::string::npos, name == "a.3mf")
         << read.out;
   }
+}
+
+TEST(Import, CountsTheBodiesOfAMeshOfTwoCups) {
+  const ScratchFolder folder;
+  const std::string stl = folder.file("two.stl"), pot = folder.file("a.pot.json");
+  const solid::TriangleMesh cup =
+      solid::revolve({{{{0, 0}, {30, 0}, {35, 80}, {32, 80}, {27, 4}, {0, 4}}}}, 48);
+  const auto imported = [&](const solid::TriangleMesh& mesh) {
+    write_text(stl, solid::encode_stl_binary(mesh));
+    return claystack("import " + stl + " -o " + pot);
+  };
+  const auto two =
+      imported(solid::shapes::together(cup, solid::shapes::moved(cup, {100.0, 0.0, 0.0})));
+  EXPECT_EQ(two.status, 2);
+  EXPECT_THAT(two.err, HasSubstr("two.stl: the mesh has 2 separate bodies: keep one; "));
+  EXPECT_EQ(imported(cup).status, 0);
 }
 
 TEST(Import, ReportsTheThinnestWallOfAHollowedOutline) {
