@@ -18,11 +18,11 @@ std::optional<std::string> doubted_unit(const glm::dvec3& size_mm, solid::MeshFo
         : largest_mm > kMicrometresMm
             ? "meshes are read in millimetres, this one may be in micrometres"
             : "meshes are read in millimetres, this one may be in a smaller unit");
-  if (states_unit || largest_mm >= kUsualMm) return {};
-  return fmt::format(
-      "only {:.3g} x {:.3g} x {:.3g} mm: meshes are read in millimetres, this one may be in metres "
-      "or inches",
-      size_mm.x, size_mm.y, size_mm.z);
+  if (largest_mm >= kUsualMm) return {};
+  return fmt::format("only {:.3g} x {:.3g} x {:.3g} mm: {}", size_mm.x, size_mm.y, size_mm.z,
+                     states_unit
+                         ? "the file states its unit, but its numbers may be in a larger one"
+                         : "meshes are read in millimetres, this one may be in metres or inches");
 }
 
 }  // namespace clay::cli

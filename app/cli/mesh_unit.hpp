@@ -9,8 +9,8 @@
 
 namespace clay::cli {
 
-/// A warning if a mesh of this size [mm] is probably in another unit: in metres or inches (not for
-/// formats that state their unit), or larger than 10 m.
+/// A warning if a mesh of this size [mm] is probably in another unit: below 10 mm or above 1 m.
+/// Formats that state their unit get it too, because some programs state a wrong one.
 [[nodiscard]] std::optional<std::string> doubted_unit(const glm::dvec3& size_mm,
                                                       solid::MeshFormat format);
 

@@ -472,6 +472,22 @@ TEST(Check, WarnsOfAMeshOfMoreThanTenMetres) {
   }
 }
 
+TEST(Check, WarnsOfAMeshOfLessThanAHundredthOfAMetreInEachFormat) {
+  const ScratchFolder folder;
+  for (const auto& [side_mm, warned] : {std::pair(9.9, true), {10.1, false}}) {
+    const solid::TriangleMesh mesh = block({side_mm, 5, 5});
+    for (const auto& [name, format] : {std::pair("a.stl", solid::MeshFormat::stl_binary),
+                                       {"a.3mf", solid::MeshFormat::three_mf},
+                                       {"a.glb", solid::MeshFormat::glb}}) {
+      write_text(folder.file(name), solid::encode_mesh(mesh, format).value());
+      const Ran run = claystack("check " + folder.file(name));
+      EXPECT_EQ(run.status, 0) << run.out;
+      EXPECT_EQ(run.out.find("geometry: warn: only 9.9 x 5 x 5 mm: ") != std::string::npos, warned)
+          << run.out;
+    }
+  }
+}
+
 /// PrusaSlicer refuses the file: "The file contains polygons with more than 4 vertices."
 TEST(Check, NotesFacesOfAnObjThatPrusaSlicerRefuses) {
   const ScratchFolder folder;
