@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace clay::cli {
@@ -66,12 +68,16 @@ Result<PrintedBody> printed_body(const TriangleMesh& mesh, const CheckCommand& c
   PrintedBody body{&mesh, {}, {}};
   if (!command.walls.asked()) return body;
   const solid::MeshReport& report = verdict.mesh;
-  if (report.closed && !report.oriented) {
+  // Rays through an opening measure the bore.
+  if (!report.closed) {
+    body.unknown = "the mesh is open; check the result of --repair";
+    return body;
+  }
+  if (!report.oriented) {
     body.unknown = "some or all faces point into the clay; check the result of --repair";
     return body;
   }
-  const bool nested =
-      report.closed && report.oriented && report.components > 1 && !report.bounds_volume;
+  const bool nested = report.components > 1 && !report.bounds_volume;
   if (report.sound() || (report.self_intersections == 0 && !nested)) return body;
   if (!solid::slicer_unites(mesh, report)) {
     if (report.self_intersections > 0)
@@ -105,16 +111,22 @@ void check_process(const PrintedBody& body, const glm::dvec3& size, const CheckC
                             passed, solid::process_title(process->name), largest->width_mm,
                             largest->depth_mm, largest->height_mm, largest->source));
   if (const auto& most = process->overhang) {
-    const bool outward = !verdict.mesh.closed || verdict.mesh.oriented;
-    const auto steepest = outward ? solid::steepest_overhang(body.mesh()) : std::nullopt;
+    const std::string_view unknown = !verdict.mesh.closed    ? "the mesh is open"
+                                     : verdict.mesh.oriented ? ""
+                                                             : "some or all faces point into the "
+                                                               "clay";
+    if (!unknown.empty()) {
+      verdict.add("process", Grade::warn,
+                  fmt::format("{}: {}, overhangs not measured: {}",
+                              solid::process_title(process->name), passed, unknown));
+      return;
+    }
+    const auto steepest = solid::steepest_overhang(body.mesh());
     if (steepest && !most->met_by(steepest->angle_deg))
       return verdict.add(solid::check_name(ProblemKind::overhang), Grade::warn,
                          solid::overhang_text(steepest->angle_deg, steepest->height_mm, *process));
-    if (steepest)
-      passed += fmt::format(", largest overhang {:.0f} degrees", steepest->angle_deg);
-    else
-      passed += outward ? ", overhangs not measured"
-                        : ", overhangs not measured: some or all faces point into the clay";
+    passed += steepest ? fmt::format(", largest overhang {:.0f} degrees", steepest->angle_deg)
+                       : std::string(", overhangs not measured");
   }
   if (fits)
     verdict.add("process", Grade::pass, solid::process_title(process->name) + ": " + passed);
