@@ -166,7 +166,8 @@ void add_repair_options(CLI::App* sub, const std::shared_ptr<CheckCommand>& comm
                 "With --repair: close wide openings by caps instead of refusing them");
   add_length(*sub, "--thicken", command->repair_options.thicken_mm,
              "With --repair: thickness of the wall that a surface with a wide opening gets, "
-             "half on each side [mm]; default: such a surface is refused",
+             "half on each side [mm]; no effect on a closed mesh; default: such a surface is "
+             "refused",
              kLeastMm, kMostMm)
       ->excludes("--cap");
   add_length(*sub, "--wrap", command->repair_options.wrap_mm,

@@ -44,6 +44,8 @@ void add_repair(Json& json, const RepairSummary& summary, const Verdict& verdict
     json["thickened"] = {{"asked_mm", wall->asked_mm},
                          {"least_mm", wall->least_mm},
                          {"bound", false},
+                         {"median_mm", wall->median_mm},
+                         {"wrapped", wall->wrapped},
                          {"filled_share", wall->filled_share}};
   json["change"] = {{"added_mm", summary.change.added_mm},
                     {"removed_mm", summary.change.removed_mm},

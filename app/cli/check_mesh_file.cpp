@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace clay::cli {
@@ -46,10 +48,65 @@ void warn_of_filled_gaps(const RepairSummary& summary, Verdict& verdict) {
                   summary.thickened->asked_mm, 100.0 * summary.thickened->filled_share));
 }
 
+/// Warns of a wall that is thinner than requested somewhere, or much thicker everywhere.
+void warn_of_wall(const solid::ThickenedWall& wall, Verdict& verdict) {
+  constexpr double kMostMedian = 1.16;
+  if (wall.least_mm < wall.asked_mm)
+    verdict.add("geometry", Grade::warn,
+                fmt::format("the wall is thinner than requested in places: {:.4g} mm of {:.4g} mm "
+                            "at the thinnest sample, as beside rims and sharp edges",
+                            wall.least_mm, wall.asked_mm));
+  if (wall.median_mm > kMostMedian * wall.asked_mm)
+    verdict.add("geometry", Grade::warn,
+                fmt::format("the wall is thicker than requested: half of the places have more than "
+                            "{:.4g} mm instead of {:.4g} mm",
+                            wall.median_mm, wall.asked_mm));
+}
+
+/// A repair that makes no wall must not seem to have made one.
+void report_thickening(const RepairSummary& summary, const CheckCommand& command,
+                       Verdict& verdict) {
+  if (summary.thickened) {
+    warn_of_filled_gaps(summary, verdict);
+    return warn_of_wall(*summary.thickened, verdict);
+  }
+  if (command.repair_options.thicken_mm)
+    verdict.add("geometry", Grade::warn,
+                "--thicken has no effect: it makes a wall around a surface with a wide opening, "
+                "and this mesh has none. A wall that is closed keeps its thickness; to use "
+                "--thicken, delete one of its two faces in a mesh editor first");
+}
+
+/// The file ended before its last facet: the result has holes where facets are missing, or caps.
+void warn_of_missing_facets(const std::optional<solid::FacetCount>& missing,
+                            const RepairSummary& summary, Verdict& verdict) {
+  if (!missing) return;
+  std::string text = fmt::format("{} of {} facets are missing, because the file ends early",
+                                 missing->counted - missing->there, missing->counted);
+  if (!summary.holes.empty()) {
+    double widest_mm = 0.0;
+    for (const solid::FilledHole& hole : summary.holes)
+      widest_mm = std::max(widest_mm, hole.extent_mm);
+    text += summary.holes.size() == 1 ? fmt::format("; a hole of {:.4g} mm was filled", widest_mm)
+                                      : fmt::format("; {} holes of up to {:.4g} mm were filled",
+                                                    summary.holes.size(), widest_mm);
+  }
+  verdict.add("contents", Grade::warn, std::move(text));
+}
+
+/// Facts of the file besides its mesh.
+struct FileFacts {
+  MeshFormat format;
+  bool slicer_reads_less = false;
+  std::optional<solid::FacetCount> missing;
+};
+
 /// Repairs if requested, and gives its verdict on the mesh, or on the result. If no result was
 /// made, the verdict is on the mesh, with the failure.
-Result<TriangleMesh> judged(TriangleMesh mesh, MeshFormat format, const CheckCommand& command,
-                            bool slicer_reads_less, Progress& progress, Verdict& verdict) {
+Result<TriangleMesh> judged(TriangleMesh mesh, FileFacts facts, CheckCommand command,
+                            Progress& progress, Verdict& verdict) {
+  bool& slicer_reads_less = facts.slicer_reads_less;
+  command.repair_options.parts_missing = facts.missing.has_value();
   const auto name = [&](const Error& error) {
     return failure(error.kind, command.file + ": " + error.message);
   };
@@ -60,13 +117,14 @@ Result<TriangleMesh> judged(TriangleMesh mesh, MeshFormat format, const CheckCom
     verdict.mesh = std::move(*found);
     verdict.state = as_sliced(state_of(mesh, verdict.mesh), slicer_reads_less);
     RepairSummary summary;
-    summary.reading_mm = reading_error_mm(mesh, format);
+    summary.reading_mm = reading_error_mm(mesh, facts.format);
     auto repaired = repair_and_write(mesh, verdict.mesh, command, summary, progress);
     if (!repaired) {
       verdict.failure = name(repaired.error()).value();
       return mesh;
     }
-    warn_of_filled_gaps(summary, verdict);
+    report_thickening(summary, command, verdict);
+    warn_of_missing_facets(facts.missing, summary, verdict);
     mesh = std::move(repaired->mesh);
     verdict.mesh = std::move(repaired->report);
     summary.before = as_sliced(summary.before, std::exchange(slicer_reads_less, false));
@@ -78,6 +136,19 @@ Result<TriangleMesh> judged(TriangleMesh mesh, MeshFormat format, const CheckCom
   }
   verdict.state = as_sliced(state_of(mesh, verdict.mesh), slicer_reads_less);
   return mesh;
+}
+
+Result<TriangleMesh> read_mesh(MeshFile& file, const CheckCommand& command, FileFacts& facts,
+                               Verdict& verdict) {
+  if (command.repair) {
+    const auto missing = file.missing_facets();
+    if (!missing) return tl::make_unexpected(missing.error());
+    facts.missing = *missing;
+  }
+  return file.read({"checking", solid::check_memory(1)},
+                   {.repair = command.repair,
+                    .notes = &verdict.notes,
+                    .slicer_reads_less = &facts.slicer_reads_less});
 }
 
 void warn_of_unit(MeshFormat format, Verdict& verdict) {
@@ -124,13 +195,11 @@ Result<Verdict> check_mesh_file(MeshFormat format, const CheckCommand& command,
                     : MeshFile::open(command.file, format, verdict.certificate.has_value());
   if (!file) return tl::make_unexpected(file.error());
   const std::string& bytes = file->bytes();
-  bool slicer_reads_less = false;
-  auto mesh = file->read(
-      {"checking", solid::check_memory(1)},
-      {.repair = command.repair, .notes = &verdict.notes, .slicer_reads_less = &slicer_reads_less});
+  FileFacts facts{.format = format, .slicer_reads_less = false, .missing = {}};
+  auto mesh = read_mesh(*file, command, facts, verdict);
   if (!mesh && mesh.error().kind == ErrorKind::bad_input && verdict.certificate)
     return unread_with_certificate(bytes, format, command, std::move(verdict));
-  if (mesh) mesh = judged(std::move(*mesh), format, command, slicer_reads_less, progress, verdict);
+  if (mesh) mesh = judged(std::move(*mesh), facts, command, progress, verdict);
   if (!mesh) return tl::make_unexpected(mesh.error());
   if (verdict.failure) return verdict;
   if (auto done = check_contents(bytes, *mesh, format, command, verdict); !done)

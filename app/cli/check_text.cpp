@@ -65,8 +65,9 @@ void print_repair(const Console& console, const RepairSummary& summary, const Ve
     console.print(fmt::format("  wrapped: a new surface {:.4g} mm outside of the old one",
                               *summary.wrapped_mm));
   if (const auto& wall = summary.thickened)
-    console.print(fmt::format("  thickened: {:.4g} mm requested, thinnest sample {:.4g} mm",
-                              wall->asked_mm, wall->least_mm));
+    console.print(fmt::format(
+        "  thickened{}: {:.4g} mm requested, thinnest sample {:.4g} mm, median {:.4g} mm",
+        wall->wrapped ? " by a wrap" : "", wall->asked_mm, wall->least_mm, wall->median_mm));
   if (!summary.repaired.empty() || summary.change.added_mm > 0.0 || summary.change.removed_mm > 0.0)
     console.print(
         fmt::format("  change: the new surface within {:.3g} mm of the old one, the old one within "

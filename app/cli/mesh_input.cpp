@@ -8,9 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <span>
+#include <string_view>
 #include <utility>
 
 namespace clay::cli {
@@ -49,6 +51,23 @@ MeshFile MeshFile::of_bytes(std::string name, MeshFormat format, std::string byt
   MeshFile file(std::move(name), format);
   file.bytes_ = std::move(bytes);
   return file;
+}
+
+Result<std::optional<solid::FacetCount>> MeshFile::missing_facets() const {
+  if (format_ != MeshFormat::stl_binary) return std::nullopt;
+  if (!stream_) return solid::missing_facets(bytes_, bytes_.size());
+  // The stream reads the facets later, and does not go back.
+  auto reader = FileReader::open(path_);
+  if (!reader) return tl::make_unexpected(reader.error());
+  std::array<char, solid::kStlPrologueBytes> head{};
+  std::size_t known = 0;
+  while (known < head.size()) {
+    const auto more = reader->read(std::span(head).subspan(known));
+    if (!more) return tl::make_unexpected(more.error());
+    if (*more == 0) break;
+    known += *more;
+  }
+  return solid::missing_facets(std::string_view(head.data(), known), *stream_->size());
 }
 
 Result<TriangleMesh> MeshFile::read(const MeshWork& work, const solid::ReadOptions& options) {

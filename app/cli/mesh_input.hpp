@@ -3,6 +3,7 @@
 
 #include "claystack/core/result.hpp"
 #include "claystack/export/formats.hpp"
+#include "claystack/export/mesh_estimate.hpp"
 #include "claystack/export/solid.hpp"
 #include "core/file_reader.hpp"
 
@@ -31,6 +32,9 @@ class MeshFile {
 
   /// The whole file; empty if it is streamed.
   [[nodiscard]] const std::string& bytes() const noexcept { return bytes_; }
+
+  /// Of a binary STL that was cut off; empty for other files. Errors: `io`.
+  [[nodiscard]] Result<std::optional<solid::FacetCount>> missing_facets() const;
 
   /// Once only. Before memory is allocated for the triangles, their number is read from the file or
   /// estimated; an error of kind `io` if mesh and work do not fit: "NAME: checking about 20000000

@@ -1,4 +1,5 @@
 #include "claystack/export/formats.hpp"
+#include "claystack/export/mesh_estimate.hpp"
 #include "core/cancel.hpp"
 #include "core/text.hpp"
 #include "export/formats/byte_stream.hpp"
@@ -202,6 +203,16 @@ Result<TriangleMesh> read_either(const ByteSource& source, std::string_view name
 }
 
 }  // namespace
+
+std::optional<FacetCount> missing_facets(std::string_view head, std::uint64_t size) {
+  static_assert(kStlPrologueBytes == kPrologueBytes);
+  if (head.size() < kPrologueBytes || is_of_another_kind(head.substr(0, kPrologueBytes)))
+    return std::nullopt;
+  const std::uint64_t facets = load_u32(head.data() + kHeaderBytes);
+  // A larger count is damage to the count, and says nothing about the facets.
+  if (facets > kMaxTriangles || size >= stl::file_bytes(facets)) return std::nullopt;
+  return FacetCount{facets, facets_there(size, facets)};
+}
 
 std::string encode_stl_binary(const TriangleMesh& mesh) {
   const std::vector<glm::vec3> points = file_points(mesh.points);

@@ -8,6 +8,7 @@
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -161,6 +162,14 @@ std::string size_and_place(const FilledHole& hole) {
          nine_digit_text(hole.place.y) + ", " + nine_digit_text(hole.place.z) + ") mm";
 }
 
+tl::unexpected<Error> missing_part(const Patch& patch) {
+  return failure(ErrorKind::unsound, "expected small holes, found one " +
+                                         size_and_place(patch.hole) +
+                                         " in a mesh with missing facets: read the complete file, "
+                                         "or " +
+                                         kCapping + " closes the hole by a cap");
+}
+
 tl::unexpected<Error> wide_opening(const Patch& patch) {
   const std::string place = size_and_place(patch.hole);
   if (patch.twisted)
@@ -192,6 +201,7 @@ Result<FilledHoles> fill_holes(Surface& surface, Openings openings) {
   for (const Face face : surface.faces())
     area += 0.5 * glm::length(normal_of(surface, surface.halfedge(face)));
   FilledHoles result;
+  std::vector<Face> removed;
   for (const Patch& patch : patches) {
     if (patch.faces.empty()) {
       if (!result.left) result.left = patch.hole;
@@ -199,10 +209,16 @@ Result<FilledHoles> fill_holes(Surface& surface, Openings openings) {
     }
     const bool wide = patch.hole.edges > 3 && patch.hole.area_mm2 > kWideShare * area;
     if (wide && patch.twisted && openings != Openings::closed) return wide_opening(patch);
-    if (wide && openings == Openings::refused && rim_of(surface, patch.border) > kRimShare)
-      return wide_opening(patch);
-    result.filled.push_back(patch.hole);
+    const bool is_opening = wide && rim_of(surface, patch.border) > kRimShare;
+    if (wide && openings == Openings::all_refused) return missing_part(patch);
+    if (is_opening && openings == Openings::refused) return wide_opening(patch);
+    if (is_opening && openings == Openings::kept)
+      removed.insert(removed.end(), patch.faces.begin(), patch.faces.end());
+    else
+      result.filled.push_back(patch.hole);
   }
+  for (const Face face : removed) CGAL::Euler::remove_face(surface.halfedge(face), surface);
+  surface.collect_garbage();
   return result;
 }
 

@@ -14,7 +14,7 @@
 #include "export/repair/soup_repair.hpp"
 #include "export/repair/stage_report.hpp"
 #include "export/repair/surface_making.hpp"
-#include "export/repair/wall_gaps.hpp"
+#include "export/repair/thickening.hpp"
 #include "export/repair/wrapping.hpp"
 
 #include <algorithm>
@@ -34,45 +34,11 @@ namespace {
 /// Of the reported distances, in sizes of the mesh.
 constexpr double kDistanceTolerance = 1e-4;
 
-/// Openings that a wrap enters, in offsets: a wall needs a closer fit than a last resort.
-constexpr double kWrapAlpha = 10.0, kThickenAlpha = 2.0;
+/// Openings that a wrap enters, in offsets. A wall has a closer fit, `kThickenAlpha`.
+constexpr double kWrapAlpha = 10.0;
 
 tl::unexpected<Error> nothing_left() {
   return failure(ErrorKind::unsound, "repair leaves nothing: no triangle is part of a surface");
-}
-
-Result<TriangleMesh> wrapped_or_error(const TriangleMesh& soup, double offset_mm, double alpha_mm,
-                                      const Error& reason) {
-  TriangleMesh mesh = wrapped(soup, offset_mm, alpha_mm);
-  const MeshReport report = inspect_mesh(mesh);
-  if (report.sound()) return mesh;
-  return failure(ErrorKind::unsound, reason.message + "; wrapped: expected a sound mesh, found " +
-                                         report.problems.front().what);
-}
-
-/// A wall around an open surface. On curved surfaces the triangles of a wrap lie too low, so that
-/// the wall would be thinner there: the wrap is repeated farther out, by the missing thickness that
-/// rays find.
-Result<TriangleMesh> thickened(const TriangleMesh& soup, double asked_mm, const Error& reason,
-                               ThickenedWall& wall) {
-  constexpr int kMostWraps = 8;
-  constexpr std::size_t kRays = 50'000;
-  // The thinnest places are few, and another wrap has them elsewhere.
-  constexpr double kFarther = 1.25, kLeastStep = 0.01;
-  double offset_mm = 0.5 * asked_mm;
-  for (int wraps = 1;; ++wraps) {
-    auto mesh = wrapped_or_error(soup, offset_mm, kThickenAlpha * 0.5 * asked_mm, reason);
-    if (!mesh) return mesh;
-    const auto sampled = sampled_wall(*mesh, kRays);
-    if (!sampled) return tl::make_unexpected(sampled.error());
-    wall.asked_mm = asked_mm;
-    wall.least_mm = sampled->least_mm;
-    if (sampled->least_mm >= asked_mm || wraps == kMostWraps) {
-      wall.filled_share = share_filled(soup, *mesh, offset_mm);
-      return mesh;
-    }
-    offset_mm += 0.5 * std::max(kFarther * (asked_mm - sampled->least_mm), kLeastStep * asked_mm);
-  }
 }
 
 /// Refuses wraps that would take too long, before any work: of a thin wall, or close to the
@@ -131,9 +97,10 @@ Result<TriangleMesh> closed_surface(Surface& surface, const TriangleMesh& soup,
                                     const RepairOptions& options, RepairedMesh& report,
                                     StageReport& stage) {
   stage.begin("filling holes");
-  auto holes = fill_holes(surface, is_closed(soup)        ? Openings::closed
-                                   : options.cap_openings ? Openings::capped
-                                                          : Openings::refused);
+  auto holes = fill_holes(surface, is_closed(soup)         ? Openings::closed
+                                   : options.cap_openings  ? Openings::capped
+                                   : options.parts_missing ? Openings::all_refused
+                                                           : Openings::refused);
   if (!holes) return tl::make_unexpected(holes.error());
   if (holes->left) {
     // Borders in one place close each other, as where solids share a face.
@@ -161,12 +128,11 @@ Result<TriangleMesh> repaired(const TriangleMesh& soup, const RepairOptions& opt
       report.repaired = std::move(cleaned);
       return std::move(*united);
     }
+  std::optional<Surface> open;  // without the patches that a refused opening leaves
+  if (options.thicken_mm) open = *surface;
   const auto closed = closed_surface(*surface, soup, options, report, stage);
-  if (!closed && options.thicken_mm) {
-    note_repair(report.repaired, "wall made around an open surface", 1);
-    stage.begin("making a wall");
-    return thickened(soup, *options.thicken_mm, closed.error(), report.thickened.emplace());
-  }
+  if (!closed && open)
+    return thickened(soup, std::move(*open), *options.thicken_mm, closed.error(), report, stage);
   if (!closed) return closed;
   if (closed->triangles.empty()) return nothing_left();
   return resolve_intersections(*closed, Reversed::accepted, report.repaired, stage);

@@ -291,26 +291,5 @@ TEST(CheckLarge, RefusesATooLongTextInAdvance) {
       << run.err;
 }
 
-TEST(CheckLarge, ReportsAReducedNumberOfRays) {
-  // 20 000 sheets, one above the other: a ray passes the fronts of all those below.
-  const ScratchFolder folder;
-  const std::uint32_t count = 20'000;
-  std::string stl(84 + 50 * std::size_t{count}, '\0');
-  std::memcpy(stl.data() + 80, &count, 4);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const auto z = static_cast<float>(i);
-    const std::array<float, 9> corners{0, 0, z, 90, 0, z, 0, 90, z};
-    std::memcpy(stl.data() + 84 + 50 * std::size_t{i} + 12, corners.data(), sizeof corners);
-  }
-  write_text(folder.file("sheets.stl"), stl);
-  const Ran run = claystack("check --json --min-wall 1 " + folder.file("sheets.stl"));
-  EXPECT_EQ(run.status, 1) << run.err;
-  const auto json = run.json();
-  EXPECT_LT(json.at("wall_sampled").at("rays"), 10'000);
-  EXPECT_GT(json.at("wall_sampled").at("rays"), 1'000);
-  EXPECT_NE(json.at("checks").dump().find("rays instead of 10000"), std::string::npos)
-      << json.at("checks");
-}
-
 }  // namespace
 }  // namespace clay::test

@@ -40,8 +40,11 @@ struct RepairOptions {
   std::optional<double> weld_mm = std::nullopt;
   /// Close wide openings by caps instead of refusing them.
   bool cap_openings = false;
-  /// A mesh with a wide opening gets a wall of at least this thickness [mm], as sampled, half on
-  /// each side of its triangles, by a wrap.
+  /// Parts of the mesh are missing, as of a file that was cut off: every wide hole is refused, also
+  /// one without a rim. `cap_openings` fills it.
+  bool parts_missing = false;
+  /// A mesh with a wide opening gets a wall of this thickness [mm], half on each side of its
+  /// triangles: its vertices are moved; where that gives no sound wall, by a wrap.
   std::optional<double> thicken_mm = std::nullopt;
   /// If no sound mesh is found otherwise, make a new surface at this distance [mm] around all
   /// triangles: closed, but details smaller than that are lost. Unset: that is an error.
@@ -63,6 +66,10 @@ inline constexpr const char* kWrapping = "wrapping";
 struct ThickenedWall {
   double asked_mm = 0.0;
   double least_mm = 0.0;  ///< the thinnest of 50,000 samples by `sampled_wall`; not a bound
+  /// Half of 4,000 places of the surface have a thinner wall: much above `asked_mm` if it is too
+  /// thick everywhere.
+  double median_mm = 0.0;
+  bool wrapped = false;  ///< a wrap, because moved vertices gave no sound wall
   /// Of the places beside the surface, just beyond the wall, those that are clay, 0 to 1, by 2,000
   /// samples: 0.5 if the wall fills a whole cup, and small if only corners are filled.
   double filled_share = 0.0;
