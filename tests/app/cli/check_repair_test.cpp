@@ -470,7 +470,7 @@ TEST_F(CheckRepair, SamplesTheWallOfAMesh) {
   const std::string in = write("box.stl", box);
   const Ran thick = claystack("check " + in + " --min-wall 1.99");
   EXPECT_EQ(thick.status, 0) << thick.out;
-  EXPECT_NE(thick.out.find("thinnest sample 2.00 mm at ("), std::string::npos) << thick.out;
+  EXPECT_NE(thick.out.find("thinnest sample 2.000 mm at ("), std::string::npos) << thick.out;
   EXPECT_NE(thick.out.find("), 10000 rays; a sampled value, not a bound"), std::string::npos);
 
   const Ran thin = claystack("check --json " + in + " --min-wall 2.01 --wall-samples 500");

@@ -137,7 +137,7 @@ TEST_F(ExportFinish, ReportsTheClayThatFinishingTrims) {
   };
   const double floor_mm = std::stod(number_after(run("--foot 44x5x30").err, begin));
   int refused = 0;
-  for (int i = -4; i <= 4; ++i) {
+  for (const int i : {-4, -3, -2, -1, 1, 2, 3, 4}) {
     const Ran near = run("--foot 44x5x" + std::to_string(floor_mm + 0.001 * i));
     if (near.err.find(begin) == std::string::npos) continue;
     ++refused;

@@ -30,7 +30,8 @@ TEST(Plan, LeavesOutUnneededStages) {
   EXPECT_EQ(stages(plan, "left_out"),
             (std::set<std::string>{"inner surface", "friction", "stability", "pinch", "lift",
                                    "shift", "rim", "hoop", "heave", "smear", "finger", "thin wall",
-                                   "pressed rim", "narrow rim", "lifted wall", "pushed wall"}));
+                                   "pressed rim", "narrow rim", "lifted wall", "pushed wall",
+                                   "pressed lump", "thin rim"}));
   EXPECT_EQ(stages(plan, "in"), (std::set<std::string>{"tool state", "contact", "removal",
                                                        "outer surface", "growth", "force"}));
   for (const auto& line : plan.at("left_out")) {

@@ -141,7 +141,7 @@ TEST(RunExport, AcceptsTheToleranceThatTheErrorNames) {
   for (int millimetres = 60; millimetres < 90; ++millimetres) {
     const Pot pot = pot_of(shapes::vase(static_cast<std::size_t>(millimetres)));
     ExportOptions options;
-    options.tolerance_mm = 1e-6;
+    options.tolerance_mm = 1e-5;
     const auto refusal = exported(pot, {}, options);
     ASSERT_FALSE(refusal);
     const std::string expected = "expected at least ", &text = refusal.error().message;
