@@ -153,6 +153,9 @@ void WindowReader::item_ends(std::uint32_t id, std::string_view label, int flags
   WindowItem& item = control_at(id);
   item.disabled = (g.LastItemData.InFlags & ImGuiItemFlags_Disabled) != 0;
   item.name = trimmed(shown_part(label));
+  // The texts of a menu's line: its name, and its keys.
+  if (item.value.starts_with(item.name))
+    item.value = std::string(trimmed(std::string_view(item.value).substr(item.name.size())));
   constexpr int kMarked = ImGuiItemStatusFlags_Checkable | ImGuiItemStatusFlags_Openable;
   const bool in_menu = (g.CurrentWindow->Flags & ImGuiWindowFlags_ChildMenu) != 0;
   if ((flags & kMarked) == kMarked || (!in_menu && (flags & ImGuiItemStatusFlags_Checkable) != 0)) {
