@@ -46,32 +46,14 @@ std::string_view value_in(std::string_view text) {
   return trimmed(text.substr(from + 1, to - from - 1));
 }
 
-const char* name_of(Role role) {
-  switch (role) {
-    case Role::part:
-      return "part";
-    case Role::dialog:
-      return "dialog";
-    case Role::text:
-      return "text";
-    case Role::button:
-      return "button";
-    case Role::checkbox:
-      return "checkbox";
-    case Role::slider:
-      return "slider";
-    case Role::field:
-      return "field";
-    case Role::choice:
-      return "choice";
-    case Role::header:
-      return "header";
-  }
-  return "";
-}
+/// In the order of the roles.
+constexpr std::array kRoleNames = {"part",   "dialog", "text",   "button", "checkbox",
+                                   "slider", "field",  "choice", "header"};
+static_assert(kRoleNames.size() == static_cast<std::size_t>(Role::header) + 1);
 
 nlohmann::json json_of(const WindowItem& item) {
-  nlohmann::json json{{"role", name_of(item.role)}, {"name", item.name}};
+  nlohmann::json json{{"role", kRoleNames[static_cast<std::size_t>(item.role)]},
+                      {"name", item.name}};
   if (item.id != 0) json["id"] = item.id;
   if (!item.value.empty()) json["value"] = item.value;
   if (item.disabled) json["disabled"] = true;
