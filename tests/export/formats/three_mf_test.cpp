@@ -491,25 +491,25 @@ TEST(ThreeMf, LeavesOutTheVolumesOfPrusaSlicerThatAreNotPrinted) {
               "m: Metadata/Slic3r_PE_model.config:1: expected the first and the last triangle"));
 }
 
-/// Each object has 20 components of the one before, and the first has no volume to print: with all
-/// their places, 20^30 objects.
+/// Beside the tetrahedron: each object has 20 components of the one before, of which the first has
+/// no volume to print. With all their places, 20^30 objects.
 TEST(ThreeMf, ReadsNestedComponentsWithoutAVolumeToPrint) {
+  constexpr int kLevels = 30, kFirst = 2, kLast = kFirst + kLevels;
   const std::string config =
-      R"(<config><object id="1"><volume firstid="0" lastid="3">)"
+      R"(<config><object id="2"><volume firstid="0" lastid="3">)"
       R"(<metadata key="volume_type" value="NegativeVolume"/></volume></object></config>)";
-  std::string objects;
-  constexpr int kLevels = 30;
-  for (int id = 2; id <= kLevels + 1; ++id) {
+  std::string objects = changed(kObject, R"(id="1")", R"(id="2")");
+  for (int id = kFirst + 1; id <= kLast; ++id) {
     objects += "<object id=\"" + std::to_string(id) + "\"><components>";
     for (int i = 0; i < 20; ++i)
       objects += "<component objectid=\"" + std::to_string(id - 1) + "\"/>";
     objects += "</components></object>";
   }
+  const std::string both =
+      R"(<item objectid="1"/><item objectid=")" + std::to_string(kLast) + "\"/>";
   const std::string model =
-      changed(changed(kModel, "</resources>", objects + "</resources>"), R"(<item objectid="1")",
-              R"(<item objectid=")" + std::to_string(kLevels + 1) + '"');
-  EXPECT_TRUE(
-      refused(read_project(model, kPrusaPath, config), ErrorKind::bad_input, "found only "));
+      kModelStart + kObject + objects + changed(kBuild, R"(<item objectid="1"/>)", both);
+  EXPECT_EQ(read_project(model, kPrusaPath, config).value(), tetrahedron());
 }
 
 TEST(ThreeMf, RefusesAProjectWithoutAVolumeToPrint) {
